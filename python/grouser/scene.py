@@ -18,6 +18,8 @@ from .soil import SoilTest
 from .sweep import Sweep
 from .toml import document_text, value_text
 
+_MARK = "# Written by the Python package grouser, which may write it anew."
+
 Tell = Callable[[Progress], None] | None
 
 
@@ -177,7 +179,13 @@ class Scene:
 
     def _written(self, out: str | os.PathLike) -> Path:
         out = Path(out).resolve()
-        return self.write(out.parent / f"{out.name}.toml")
+        file = out.parent / f"{out.name}.toml"
+        if file.exists() and not file.read_text(encoding="utf-8").startswith(_MARK):
+            raise FileError(f"{file} is there already, and was not written by this package: give out another name, or "
+                            "move that file")
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(f"{_MARK}\n{self.text()}", encoding="utf-8")
+        return file
 
 
 def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Iterable[str] = (), *, progress: Tell = None,

@@ -135,8 +135,9 @@ Table<Material> materialTable() {
       .atMost(1e6);
   t.add("adhesion_radius", &S::adhesionRadius, "m",
         "radius of the grains that cohesion and surface_energy are of: in other contacts these grow in proportion to "
-        "R_eff, so that grains of all sizes hold together under the same stress; not given: one energy at all sizes, "
-        "and coarse grains hold together less")
+        "R_eff, so that grains of all sizes hold together under the same stress; of two materials their geometric "
+        "mean, or that of the one that has it; not given: one energy at all sizes, and coarse grains hold together "
+        "less")
       .above(0)
       .atMost(10);
   addPlasticity(t);

@@ -55,9 +55,11 @@ namespace {
 void checkMeshes(const Section& root, const Scene& scene) {
   const std::vector<Section> sections = root.list("mesh");
   for (std::size_t k = 0; k < sections.size(); ++k) {
-    if (scene.vehicle && scene.terrain && scene.terrain->granular())
-      sections[k].fail("", "stands beside [vehicle] on a bed of grains, which meet the one or the other; use boxes and "
-                           "cylinders, or rigid ground");
+    const bool grains = (scene.terrain && scene.terrain->granular()) || !scene.grains.empty() || !scene.fills.empty() ||
+                        !scene.sources.empty();
+    if (scene.vehicle && grains)
+      sections[k].fail("", "stands beside [vehicle] and grains, which meet the one or the other; use boxes and "
+                           "cylinders, or rigid ground without grains");
     if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 &&
         scene.meshes[k].placed == PlacedWhen::before)
       sections[k].fail("placed",

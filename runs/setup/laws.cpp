@@ -76,8 +76,8 @@ void setHertz(const scene::Material& a, const scene::Material& b, const scene::C
 
 /// Radius of equal grains that the energies of adhesion of a pair are meant for, if they grow with it.
 std::optional<double> adhesionRadius(const scene::Material& a, const scene::Material& b) {
-  if (!a.adhesionRadius || !b.adhesionRadius) return {};
-  return &a == &b ? *a.adhesionRadius : std::sqrt(*a.adhesionRadius * *b.adhesionRadius);
+  if (!a.adhesionRadius || &a == &b) return a.adhesionRadius ? a.adhesionRadius : b.adhesionRadius;
+  return b.adhesionRadius ? std::sqrt(*a.adhesionRadius * *b.adhesionRadius) : *a.adhesionRadius;
 }
 
 /// The smaller plasticity and adhesion stiffness, the geometric mean of the surface energies, the larger exponent and

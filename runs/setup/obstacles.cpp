@@ -83,7 +83,8 @@ std::vector<Obstacle> obstaclesOf(const scene::Scene& scene) {
   std::vector<Obstacle> all;
   if (!scene.vehicle) return all;
   std::optional<double> ofSpec;
-  if (scene.vehicle->material.empty()) ofSpec = vehicle::readVehicleSpec(scene.vehicle->spec).contact.frictionGround;
+  if (scene.vehicle->material.empty())
+    ofSpec = vehicle::readVehicleSpec(scene.vehicle->source()).contact.frictionGround;
   const auto add = [&](const SurfaceSetup& s, std::optional<std::size_t> place) {
     const double friction = ofSpec ? *ofSpec : pairLaw(scene, scene.vehicle->material, s.material, {}).friction;
     all.push_back({s, friction, place});

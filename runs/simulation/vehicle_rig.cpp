@@ -47,23 +47,43 @@ struct ShoeAtEdge {
   const vehicle::Part* shoe;
   Vec3d place;
 };
+/// From each end of the terrain to a place [m]; negative beyond it.
+std::array<double, 4> marginsOf(const terrain::Rectangle& area, const Vec3d& p) {
+  return {p.x - area.xMin, area.xMax - p.x, p.y - area.yMin, area.yMax - p.y};
+}
+
+/// A shoe nearer to an end of the terrain than `within`, which is given for each end.
 std::optional<ShoeAtEdge> shoeAtEdge(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
-                                     const multibody::State& state, double within) {
+                                     const multibody::State& state, const std::array<double, 4>& within) {
   if (!area) return {};
   for (const int index : assembly.groundParts) {
     const vehicle::Part& part = assembly.parts[static_cast<std::size_t>(index)];
-    const base::Vec3d p = state.pose[static_cast<std::size_t>(part.body)].position;
-    if (p.x < area->xMin + within || p.x > area->xMax - within || p.y < area->yMin + within ||
-        p.y > area->yMax - within)
-      return ShoeAtEdge{&part, p};
+    const Vec3d& p = state.pose[static_cast<std::size_t>(part.body)].position;
+    const std::array<double, 4> margins = marginsOf(*area, p);
+    for (std::size_t side = 0; side < 4; ++side)
+      if (margins[side] < within[side]) return ShoeAtEdge{&part, p};
   }
   return {};
+}
+
+/// How near a shoe must come to each end for `edge` to end the run: a vehicle that was set down nearer than that has to
+/// come nearer still.
+std::array<double, 4> edgesToMeet(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
+                                  double edge) {
+  constexpr double kNearer = 0.05; // [m] more than shoes come and go where a loop turns round
+  std::array<double, 4> edges{edge, edge, edge, edge};
+  for (const int index : assembly.groundParts) {
+    const auto body = static_cast<std::size_t>(assembly.parts[static_cast<std::size_t>(index)].body);
+    const std::array<double, 4> margins = marginsOf(*area, assembly.model.bodies()[body].pose.position);
+    for (std::size_t side = 0; side < 4; ++side) edges[side] = std::min(edges[side], margins[side] - kNearer);
+  }
+  return edges;
 }
 
 /// Which shoe has left the terrain, in words; empty while none has.
 std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                        const multibody::State& state) {
-  const std::optional<ShoeAtEdge> at = shoeAtEdge(area, assembly, state, 0);
+  const std::optional<ShoeAtEdge> at = shoeAtEdge(area, assembly, state, {});
   if (!at) return {};
   return fmt::format("the {} has left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position, "
                      "shorten run.duration, or let stop.edge end the run before",
@@ -181,19 +201,18 @@ std::string VehicleRig::judgeTension() {
                      SwingGrowth::kMost, r, part, setup::atMost(0.5 * timeStep_ / r));
 }
 
-/// Whether every track that is driven moves the hull at less than a twentieth of its speed.
+/// Whether every track whose sprocket turns moves the hull at less than a twentieth of its speed.
 bool VehicleRig::stalls() const {
-  constexpr double kShare = 0.05;
+  constexpr double kShare = 0.05, kTurns = 0.01; // [-], [m/s]
   const std::optional<double> start = driver_.driveStart();
   if (!start || state_.time < *start + driver_.options().driveRamp) return false;
-  const std::array<double, 2> omega = driver_.at(state_.time).sprocketSpeed;
   bool driven = false;
   for (std::size_t i = 0; i < assembly_.tracks.size(); ++i) {
-    const double wanted =
-        std::fabs(omega[assembly_.tracks[i].side == vehicle::Side::kLeft ? 0 : 1]) * assembly_.spec.pitchRadius();
-    if (wanted == 0) continue;
+    const multibody::JointReading& sprocket = state_.joint[assembly_.tracks[i].sprocketJoint];
+    const double speed = std::fabs(sprocket.rate) * assembly_.spec.pitchRadius();
+    if (speed < kTurns) continue;
     driven = true;
-    if (std::fabs(vehicle::trackSpeed(assembly_, static_cast<int>(i), state_)) >= kShare * wanted) return false;
+    if (std::fabs(vehicle::trackSpeed(assembly_, static_cast<int>(i), state_)) >= kShare * speed) return false;
   }
   return driven;
 }
@@ -207,7 +226,9 @@ std::string VehicleRig::judgeEnd() const {
   const double distance = std::sqrt(way.x * way.x + way.y * way.y);
   if (stop_.distance && distance >= *stop_.distance)
     return fmt::format("stop.distance: the vehicle is {:.3f} m from where it was set down", distance);
-  if (const auto at = stop_.edge ? shoeAtEdge(area_, assembly_, state_, *stop_.edge) : std::nullopt)
+  if (const auto at = stop_.edge && area_
+                          ? shoeAtEdge(area_, assembly_, state_, edgesToMeet(area_, assembly_, *stop_.edge))
+                          : std::nullopt)
     return fmt::format("stop.edge: the {} is at ({:.2f}, {:.2f}) m, within {:g} m of the end of the terrain",
                        at->shoe->name, at->place.x, at->place.y, *stop_.edge);
   const double stalled = static_cast<double>(stalledSteps_) * timeStep_;
@@ -227,7 +248,7 @@ std::string VehicleRig::alarm(std::int64_t step) {
   alarmMeans_.restart();
   stalledSteps_ = stalls() ? stalledSteps_ + kAlarmInterval : 0;
   ended_ = judgeEnd();
-  return alarm.empty() ? offTerrain(area_, assembly_, state_) : alarm;
+  return alarm.empty() && ended_.empty() ? offTerrain(area_, assembly_, state_) : alarm;
 }
 
 void VehicleRig::addTo(Ledger& ledger) const {

@@ -81,6 +81,12 @@ class Calls(FolderTest):
         self.assertEqual(caught.exception.command[1], "run")
         self.assertFalse((self.folder / "bad").exists())
 
+    def test_a_file_of_the_users_is_not_written_over(self):
+        (self.folder / "mine.toml").write_text("# my own\n" + grouser.Scene(MINIMAL).text())
+        with self.assertRaises(grouser.FileError):
+            grouser.Scene.read(self.folder / "mine.toml").run("mine")
+        self.assertTrue((self.folder / "mine.toml").read_text().startswith("# my own"))
+
     def test_an_unsound_run_raises_and_leaves_what_it_has(self):
         scene = grouser.Scene(MINIMAL)
         scene["material.glass.stiffness"] = 60.0

@@ -57,6 +57,8 @@ TEST(Obstacles, AreWhatRests) {
 
 TEST(Obstacles, FrictionIsTheVehiclesFileOrThePairOfMaterials) {
   EXPECT_EQ(obstaclesOf(sceneWith(box())).front().friction, 0.8) << "friction_ground";
+  EXPECT_EQ(obstaclesOf(sceneWith(box() + "[spec.contact]\nfriction_ground = 0.4\n")).front().friction, 0.4)
+      << "as the scene says otherwise";
   EXPECT_EQ(obstaclesOf(sceneWith(box(), "material = \"steel\"\n")).front().friction, 0.05) << "the smaller";
   EXPECT_EQ(obstaclesOf(sceneWith(box() + "[contact.\"ice|steel\"]\nfriction = 0.3\n", "material = \"steel\"\n"))
                 .front()
@@ -139,7 +141,8 @@ TEST(Obstacles, AMeshBesideAVehicleOnGrainsIsRefused) {
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
     const std::string said = error.what();
-    for (const char* word : {"mesh.0", "[vehicle]", "on a bed of grains", "use boxes and cylinders, or rigid ground"})
+    for (const char* word : {"mesh.0", "[vehicle]", "and grains, which meet the one or the other",
+                             "use boxes and cylinders, or rigid ground"})
       EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
   }
 }

@@ -62,6 +62,17 @@ TEST(Flow, EndsBeforeTheEdge) {
   EXPECT_GT(way(simulation) + 1, 2.3) << "it has driven there";
 }
 
+TEST(Flow, GoesOnWhereItWasSetDownNearerToTheEndThanThat) {
+  // Its rear shoes stand some 0.15 m inside, and it drives away from there.
+  Simulation simulation = begin(sceneWith("[stop]\nedge = 0.5\n", "", {"vehicle.position=\"auto\""}));
+  EXPECT_EQ(endOf(simulation, 3000), "");
+}
+
+TEST(Flow, AnEdgeOfNothingEndsInOrder) {
+  Simulation simulation = begin(sceneWith("[stop]\nedge = 0\n", "", {"vehicle.position=[2.85, 0]"}));
+  EXPECT_NE(endOf(simulation, 8000).find("within 0 m of the end"), std::string::npos);
+}
+
 TEST(Flow, EndsWhereTheTracksSpinInVain) {
   // A block under the hull lifts the tracks off the ground.
   Simulation simulation =
