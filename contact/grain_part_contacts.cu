@@ -125,7 +125,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   std::vector<BasicLaw<float>> laws;
   for (const ContactLaw& law : materials.laws) laws.push_back(law.as<float>());
   if (laws.empty()) laws.push_back(model.law.as<float>());
-  for (const BasicLaw<float>& law : laws) features_ |= law.features();
+  for (const BasicLaw<float>& law : laws) features_ |= law.features(), allHertz_ = allHertz_ && law.hertz;
   rolling_ = (features_ & kRollingFriction) != 0;
   laws_ = base::Array<BasicLaw<float>>(exec, laws);
   massPerCube_ = base::Array<double>(exec, materials.massPerCube);
@@ -310,8 +310,11 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
                                                       deepest_.data(),
                                                       off});
   };
-  // Most beds are linear with friction; all else takes the general functions.
-  if ((features_ & ~kFriction) != 0 || crushes_)
+  // Most beds are linear with friction, soils have Hertz' law; all else takes the general functions.
+  constexpr unsigned kSoil = kHertz | kFriction | kRollingFriction | kCohesion;
+  if (allHertz_ && !(features_ & ~kSoil) && !crushes_)
+    run.template operator()<kSoil>();
+  else if ((features_ & ~kFriction) != 0 || crushes_)
     run.template operator()<kGeneral>();
   else if (model_.manyRadii)
     run.template operator()<kFriction | kManyMasses>();

@@ -128,6 +128,7 @@ private:
   base::Array<Crushing> crushing_;       ///< by material; empty where none crushes
   base::Array<double> massPerCube_;
   unsigned features_;
+  bool allHertz_{true}; ///< every law
   base::Array<GrainLoad> load_;
   base::Array<std::int64_t> sums_;     ///< [kPartSums]
   base::Array<std::uint64_t> deepest_; ///< by part, since forgetPressed()

@@ -158,7 +158,7 @@ private:
     int capped = 0;              ///< patches
   };
 
-  GROUSER_HD bool rolls() const { return (kFeatures & kGeneral) && angle; }
+  GROUSER_HD bool rolls() const { return (kFeatures & (kGeneral | kRollingFriction)) && angle; }
   GROUSER_HD bool crushes() const { return (kFeatures & kGeneral) && crushing; }
   GROUSER_HD bool mayCrush(const Ball& ball) const {
     return crushes() && !ball.fixed && crushing[ball.material].strength > 0;
@@ -292,7 +292,7 @@ private:
     sum.lost[0] += reaction.damped, sum.lost[1] += reaction.rubbed;
     sum.elastic += storedEnergy(*law, static_cast<double>(touch.overlap), ball.radius, springs.shear);
     sum.torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
-    if ((kFeatures & kGeneral) && law->rollingFriction > 0) {
+    if ((kFeatures & (kGeneral | kRollingFriction)) && law->rollingFriction > 0) {
       const base::Vec3f rolling = transposedTimes(part.rotation, ball.w - part.spin).template as<float>();
       const RollingMotion<float> how{touch.normal, rolling, radius, rollingInertia(mass, radius)};
       const base::Vec3f torque =

@@ -39,6 +39,7 @@ using StepKernels =
                kBed | kPeriodic, kBed | kPeriodic | kRollingFriction, kBed | kPeriodic | kManyRadii,
                kBed | kPeriodic | kManyRadii | kRollingFriction, kBed | kSurfaces, kBed | kSurfaces | kRollingFriction,
                kFixed | kBed | kSurfaces, kFixed | kBed | kSurfaces | kManyRadii | kRollingFriction>;
+constexpr unsigned kSoilWalls = kHertz | kFriction | kRollingFriction | kManyRadii;
 /// The search on a floor needs many registers.
 using BoundaryKernels =
     KernelList<0, kFriction, kFriction | kRollingFriction, kHertz | kFriction, kFloor, kFriction | kFloor,
@@ -46,8 +47,9 @@ using BoundaryKernels =
                kFriction | kRollingFriction | kSurfaces, kFriction | kSurfaces | kFloor,
                kFriction | kRollingFriction | kSurfaces | kFloor, kFriction | kManyRadii,
                kFriction | kManyRadii | kFloor, kFriction | kRollingFriction | kManyRadii,
-               kFriction | kRollingFriction | kManyRadii | kFloor, kHertz | kFriction | kRollingFriction | kManyRadii,
-               kHertz | kFriction | kRollingFriction | kManyRadii | kFloor>;
+               kFriction | kRollingFriction | kManyRadii | kFloor, kSoilWalls, kSoilWalls | kFloor,
+               kSoilWalls | kSurfaces, kSoilWalls | kCohesion, kSoilWalls | kCohesion | kFloor,
+               kSoilWalls | kCohesion | kSurfaces>;
 
 /// Features that the kernel of walls and floor depends on.
 constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
@@ -58,6 +60,22 @@ constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction;
 using PlasticKernels =
     KernelList<kYielding, kYielding | kFixed, kYielding | kLoads, kYielding | kFixed | kLoads, kYielding | kHertz,
                kYielding | kHertz | kFixed, kYielding | kHertz | kLoads, kYielding | kHertz | kFixed | kLoads>;
+
+/// Soils of Hertz' law that stick, under a vehicle.
+constexpr unsigned kSoil = kBed | kHertz | kManyRadii, kSticky = kSoil | kCohesion;
+using CohesiveKernels = KernelList<kSticky, kSticky | kLoads, kSticky | kFixed, kSticky | kFixed | kLoads,
+                                   kSticky | kRollingFriction, kSticky | kRollingFriction | kLoads,
+                                   kSticky | kRollingFriction | kFixed, kSticky | kRollingFriction | kFixed | kLoads>;
+
+/// What `grouser soil` does with them between periodic boundaries: sheared between toothed plates, which are parts;
+/// settling on fixed grains; under a plate, which is a surface.
+constexpr unsigned kSheared = (kSoil & ~kBoundaries) | kPeriodic | kLoads, kSettling = kSoil | kPeriodic | kFixed,
+                   kPressed = kSettling | kSurfaces, kSlipping = kRollingFriction | kPlastic;
+using BevameterKernels =
+    KernelList<kSheared, kSheared | kRollingFriction, kSheared | kCohesion, kSheared | kCohesion | kRollingFriction,
+               kSheared | kSlipping, kSettling, kSettling | kRollingFriction, kSettling | kCohesion,
+               kSettling | kCohesion | kRollingFriction, kSettling | kSlipping, kPressed, kPressed | kRollingFriction,
+               kPressed | kCohesion, kPressed | kCohesion | kRollingFriction, kPressed | kSlipping>;
 
 template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features) {
   return ((features == kSets) || ...);
@@ -103,6 +121,8 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
     return runGrainSimd(exec, d, f, count, width);
   if (ranOneOf<GrainStep>(SoilKernels{}, features, exec, "grain step", d, f, count)) return;
   if (ranOneOf<GrainStep>(PlasticKernels{}, features, exec, "grain step", d, f, count)) return;
+  if (ranOneOf<GrainStep>(CohesiveKernels{}, features, exec, "grain step", d, f, count)) return;
+  if (ranOneOf<GrainStep>(BevameterKernels{}, features, exec, "grain step", d, f, count)) return;
   if (ranOneOf<GrainStep>(StepKernels{}, features, exec, "grain step", d, f, count)) return;
   runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count);
 }
@@ -126,8 +146,9 @@ template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelDa
 
 bool hasOwnKernel(unsigned features, Precision precision) {
   features &= ~kFloor;
-  return precision == Precision::single &&
-         (listed(SoilKernels{}, features) || listed(PlasticKernels{}, features) || listed(StepKernels{}, features));
+  return precision == Precision::single && (listed(SoilKernels{}, features) || listed(PlasticKernels{}, features) ||
+                                            listed(CohesiveKernels{}, features) ||
+                                            listed(BevameterKernels{}, features) || listed(StepKernels{}, features));
 }
 
 std::string featureText(unsigned features) {

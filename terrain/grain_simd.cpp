@@ -57,10 +57,12 @@ void runLanes(const base::Exec& exec, const char* name, detail::LaneStep* lanes,
 } // namespace
 
 bool hasSimd(unsigned features) {
-  constexpr unsigned kKnown = contact::kHertz | contact::kFriction | contact::kRollingFriction | kManyRadii |
-                              kBoundaries | kSurfaces | kLoads | kLedger | kPeriodic | kFixed;
-  constexpr unsigned kRough = contact::kHertz | contact::kRollingFriction | kManyRadii; // compiled with friction only
-  return !(features & ~kKnown) && (!(features & kRough) || features & contact::kFriction);
+  constexpr unsigned kKnown = contact::kHertz | contact::kFriction | contact::kRollingFriction | contact::kCohesion |
+                              kManyRadii | kBoundaries | kSurfaces | kLoads | kLedger | kPeriodic | kFixed;
+  // Compiled with friction only, and cohesion with Hertz' law only.
+  constexpr unsigned kRough = contact::kHertz | contact::kRollingFriction | contact::kCohesion | kManyRadii;
+  if (features & ~kKnown || (features & contact::kCohesion && !(features & contact::kHertz))) return false;
+  return !(features & kRough) || features & contact::kFriction;
 }
 
 int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {

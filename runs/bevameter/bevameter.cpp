@@ -46,14 +46,16 @@ private:
 
 std::string preparationName(const TestPlan& plan) { return plan.options.coarse ? "coarse_preparation" : "preparation"; }
 
-/// Finds the preparation where no call has done so, and takes it.
-void prepare(TestPlan& plan, studies::Pieces& pieces, Device& device, int jobs) {
+/// Finds the preparation where no call has done so, and takes it. `part`: of this call, since parts that begin together
+/// all look for it.
+void prepare(TestPlan& plan, studies::Pieces& pieces, Device& device, int jobs, std::string part) {
   if (!plan.soil.porosity) return;
   const std::string name = preparationName(plan);
+  std::replace(part.begin(), part.end(), '/', '_');
   if (!pieces.has(name)) {
     support::Progress progress("preparing");
     const auto work = [&](std::size_t) {
-      const auto folder = pieces.begin(name);
+      const auto folder = pieces.begin(part.empty() ? name : name + "_of_part_" + part);
       const studies::Table trials = findPreparation(plan, folder, device.exec(), [&](const std::string& what) {
         progress.update(0, what); // one process works, this one or a child
       });
@@ -110,7 +112,7 @@ std::string unsoundTests(const TestPlan& plan, const studies::Pieces& pieces) {
 
 int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions& options, int jobs) {
   Device device(options, jobs);
-  prepare(plan, pieces, device, jobs);
+  prepare(plan, pieces, device, jobs, options.part);
   std::vector<const PlannedTest*> due;
   double all = 0;
   for (const PlannedTest& test : plan.tests) {

@@ -26,7 +26,7 @@ constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin wit
 constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
 constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
 constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
-constexpr double kBeds = 0.75;          // Rumpf: tensile strength over w / r, for beds of five contacts a grain
+constexpr double kBeds = 0.2; // tensile strength over w / r; Rumpf has 0.75 where all contacts of a grain pull
 
 /// Time is up before all tests of a trial are there.
 struct Unfinished {
@@ -74,45 +74,40 @@ private:
     const bool seeksPhi = phi != targets_.wanted.end(), seeksC = c != targets_.wanted.end();
     if (!seeksPhi && !seeksC) return;
     const double mu = soil_.friction;
-    double way = wayOf(numberOf(soil_, "rolling_friction", 0)), pull = numberOf(soil_, pullKey(), 0);
-    std::vector<Trial> angles, cohesions;
-    for (int trial = 1;; ++trial) {
+    const StrengthPoint start{wayOf(numberOf(soil_, "rolling_friction", 0)), numberOf(soil_, pullKey(), 0)};
+    std::optional<StrengthSearch::Target> angle, cohesion;
+    if (seeksPhi) angle = {phi->second, targets_.angleTolerance, kAngleSlope};
+    // Pascals of strength a J/m2 of the pull.
+    const double slope = 1e-3 * kBeds / soil_.grainRadius * base::tan((seeksPhi ? phi->second : 30) * base::kPi / 180);
+    if (seeksC) cohesion = {c->second, targets_.cohesionTolerance, slope};
+    StrengthSearch search(angle, cohesion, start);
+    bool goesOn = true;
+    for (int trial = 1; goesOn; ++trial) {
+      setStrength(search.at(), mu);
       SoilResults r;
       tested(
           fmt::format("shear_{}", trial), [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
-      const Estimate angle = r.measured.at(Quantity::frictionAngle), cohesion = r.measured.at(Quantity::cohesion);
-      angles.push_back({way, angle.value}), cohesions.push_back({pull, cohesion.value});
+      const Estimate foundAngle = r.measured.at(Quantity::frictionAngle),
+                     foundCohesion = r.measured.at(Quantity::cohesion);
       fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa\n",
-                 soil_.friction, numberOf(soil_, "rolling_friction", 0), pullKey(), pull, studies::valueText(angle),
-                 studies::valueText(cohesion));
-      std::optional<double> nextWay, nextPull;
-      if (seeksPhi) nextWay = nextTrial(angles, phi->second, targets_.angleTolerance, -1, 2, kAngleSlope);
-      // Pascals of strength a J/m2 of the pull, by Rumpf.
-      const double slope = 1e-3 * kBeds / soil_.grainRadius * base::tan(angle.value * base::kPi / 180);
-      if (seeksC) nextPull = nextTrial(cohesions, c->second, targets_.cohesionTolerance, 0, 1e5, slope);
-      if (!nextWay && !nextPull) break;
-      way = nextWay.value_or(nearestOf(angles, seeksPhi, phi, way));
-      pull = nextPull.value_or(nearestOf(cohesions, seeksC, c, pull));
-      setStrength(way, mu, pull);
+                 soil_.friction, numberOf(soil_, "rolling_friction", 0), pullKey(), search.at().pull,
+                 studies::valueText(foundAngle), studies::valueText(foundCohesion));
+      goesOn = search.tried(foundAngle.value, foundCohesion.value);
     }
-    if (seeksPhi) way = nearestTrial(angles, phi->second).x;
-    if (seeksC) pull = nearestTrial(cohesions, c->second).x;
-    setStrength(way, mu, pull);
+    setStrength(search.nearest(), mu);
   }
 
-  using Wanted = std::map<Quantity, double>::const_iterator;
-  static double nearestOf(const std::vector<Trial>& trials, bool sought, const Wanted& wanted, double otherwise) {
-    return sought ? nearestTrial(trials, wanted->second).x : otherwise;
-  }
-
-  void setStrength(double way, double mu, double pull) {
-    const Strength s = strengthAt(way, mu);
+  void setStrength(const StrengthPoint& point, double mu) {
+    const Strength s = strengthAt(point.way, mu);
     setNumber(soil_, "friction", s.friction), setNumber(soil_, "rolling_friction", s.rollingFriction);
-    if (pull > 0 || numberOf(soil_, pullKey(), -1) >= 0) setNumber(soil_, pullKey(), pull);
+    if (point.pull > 0 || numberOf(soil_, pullKey(), -1) >= 0) setNumber(soil_, pullKey(), point.pull);
   }
 
-  /// What pulls grains together: surface energy where the start names one, else the energy of adhesion.
-  std::string pullKey() const { return numberOf(soil_, "surface_energy", -1) >= 0 ? "surface_energy" : "cohesion"; }
+  /// What pulls grains together: the energy of adhesion, or the surface energy where the start names that alone.
+  std::string pullKey() const {
+    const bool isAlone = numberOf(soil_, "surface_energy", -1) >= 0 && numberOf(soil_, "cohesion", -1) < 0;
+    return isAlone ? "surface_energy" : "cohesion";
+  }
   std::string springKey() const { return soil_.young > 0 ? "young" : "stiffness"; }
 
   /// The least stiffness whose contacts are not squeezed too far [N/m] or [Pa].
@@ -156,7 +151,7 @@ private:
     const double window = std::max(0.05 * z, 2e-3 * plan.breadth(kind));
     std::vector<double> pressures;
     for (const studies::Table& run : runsOf(plan, pieces, kind)) {
-      const SinkageCurve curve = loadingCurve(run);
+      const SinkageCurve curve = beddedCurve(plan, run).curve;
       const double at = std::min(z, curve.sinkage.back() - window);
       double sum = 0, count = 0;
       for (std::size_t i = 0; i < curve.sinkage.size(); ++i)

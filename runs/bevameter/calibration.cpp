@@ -14,9 +14,11 @@ namespace grouser::bevameter {
 
 namespace {
 
+constexpr double kLeastWay = -1, kMostWay = 2;                                 // of Strength
 constexpr double kMostRolling = 0.5, kMostFriction = 1, kLeastFriction = 0.01; // [-] of the way of Strength
 constexpr double kMiddle = 0.1; // a trial stays so far off the ends of its interval
-constexpr double kSame = 1e-3;  // of the range: nearer than that nothing new is learnt
+constexpr double kSame = 0.1;   // of what the tolerance is worth: nearer than that nothing new is learnt
+constexpr double kSlopes = 5;   // times steeper or flatter than expected that two trials are believed to show
 constexpr std::size_t kMostTrials = 8;
 
 struct TargetKeys {
@@ -96,6 +98,19 @@ CalibrationTargets readTargets(const std::filesystem::path& file, double grainRa
   return t;
 }
 
+namespace {
+
+/// From the trial next to `from`, where there is one; not far from what was expected, for trials scatter.
+double slopeNear(const std::vector<Trial>& trials, const Trial& from, double expected) {
+  const Trial* next = nullptr;
+  for (const Trial& t : trials)
+    if (t.x != from.x && (!next || std::fabs(t.x - from.x) < std::fabs(next->x - from.x))) next = &t;
+  if (!next) return expected;
+  return std::clamp((next->y - from.y) / (next->x - from.x), expected / kSlopes, kSlopes * expected);
+}
+
+} // namespace
+
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope) {
   if (trials.empty() || trials.size() >= kMostTrials) return {};
@@ -105,16 +120,16 @@ std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted,
     if (t.y < wanted && (!below || t.x > below->x)) below = &t;
     if (t.y > wanted && (!above || t.x < above->x)) above = &t;
   }
-  double x = 0;
+  const double same = kSame * tolerance / slope;
   if (below && above && below->x < above->x) {
     const double share = (wanted - below->y) / (above->y - below->y);
-    x = below->x + (above->x - below->x) * std::clamp(share, kMiddle, 1 - kMiddle);
-    return above->x - below->x < kSame * (high - low) ? std::nullopt : std::optional<double>(x);
+    const double x = below->x + (above->x - below->x) * std::clamp(share, kMiddle, 1 - kMiddle);
+    return above->x - below->x < same ? std::nullopt : std::optional<double>(x);
   }
-  // All on one side, or scatter has turned them round: from the outermost by the slope.
+  // All on one side, or scatter has turned them round: on from the outermost.
   const Trial& from = below ? *below : *above;
-  x = std::clamp(from.x + (wanted - from.y) / slope, low, high);
-  if (std::fabs(x - from.x) < kSame * (high - low)) return {};
+  const double x = std::clamp(from.x + (wanted - from.y) / slopeNear(trials, from, slope), low, high);
+  if (std::fabs(x - from.x) < same) return {};
   return x;
 }
 
@@ -122,6 +137,68 @@ Trial nearestTrial(const std::vector<Trial>& trials, double wanted) {
   return *std::min_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) {
     return std::fabs(a.y - wanted) < std::fabs(b.y - wanted);
   });
+}
+
+StrengthSearch::StrengthSearch(std::optional<Target> angle, std::optional<Target> cohesion, StrengthPoint start)
+    : targets_{angle, cohesion}, start_(start), next_(start) {
+  for (std::size_t k = 0; k < 2; ++k)
+    if (targets_[k]) unit_[k] = targets_[k]->tolerance / targets_[k]->slope;
+}
+
+double StrengthSearch::farOff(const Done& trial) const {
+  return std::max(std::fabs(trial.off[0]), std::fabs(trial.off[1]));
+}
+
+/// Broyden's correction: the least that makes the slopes say what the last step has done; kept near what is expected,
+/// for trials scatter.
+void StrengthSearch::learn(const Done& before, const Done& now) {
+  constexpr double kMostAcross = 0.8;
+  const Two way{now.x[0] - before.x[0], now.x[1] - before.x[1]};
+  const double square = way[0] * way[0] + way[1] * way[1];
+  if (square == 0) return;
+  for (std::size_t row = 0; row < 2; ++row) {
+    if (!targets_[row]) continue;
+    const double came = before.off[row] - now.off[row];
+    const double missed = came - slopes_[row][0] * way[0] - slopes_[row][1] * way[1];
+    for (std::size_t column = 0; column < 2; ++column) slopes_[row][column] += missed * way[column] / square;
+    slopes_[row][row] = std::clamp(slopes_[row][row], 1 / kSlopes, kSlopes);
+    double& across = slopes_[row][1 - row];
+    across = std::clamp(across, -kMostAcross * slopes_[row][row], kMostAcross * slopes_[row][row]);
+  }
+}
+
+StrengthSearch::Two StrengthSearch::stepFrom(const Done& trial) const {
+  constexpr double kMostOfWay = 0.4, kMostUnits = 10; // at once; of the pull also as much as there is
+  const auto& s = slopes_;
+  const double determinant = s[0][0] * s[1][1] - s[0][1] * s[1][0];
+  Two step{(trial.off[0] * s[1][1] - trial.off[1] * s[0][1]) / determinant,
+           (trial.off[1] * s[0][0] - trial.off[0] * s[1][0]) / determinant};
+  const double mostPull = std::max(kMostUnits, trial.x[1]);
+  step[0] = std::clamp(step[0], -kMostOfWay / unit_[0], kMostOfWay / unit_[0]);
+  step[1] = std::clamp(step[1], -mostPull, mostPull);
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!targets_[k]) step[k] = 0;
+  return step;
+}
+
+bool StrengthSearch::tried(double angle, double cohesion) {
+  const StrengthPoint was = at();
+  Done trial{{was.way / unit_[0], was.pull / unit_[1]}, {0, 0}};
+  if (targets_[0]) trial.off[0] = (targets_[0]->wanted - angle) / targets_[0]->tolerance;
+  if (targets_[1]) trial.off[1] = (targets_[1]->wanted - cohesion) / targets_[1]->tolerance;
+  if (!trials_.empty()) learn(trials_.back(), trial);
+  trials_.push_back(trial);
+  if (farOff(trial) <= 1 || trials_.size() >= kMostTrials) return false;
+  const Two step = stepFrom(trial);
+  next_ = {std::clamp(was.way + step[0] * unit_[0], kLeastWay, kMostWay), std::max(0.0, was.pull + step[1] * unit_[1])};
+  const double moved = std::max(std::fabs(next_.way - was.way) / unit_[0], std::fabs(next_.pull - was.pull) / unit_[1]);
+  return moved >= kSame;
+}
+
+StrengthPoint StrengthSearch::nearest() const {
+  const auto best = std::min_element(trials_.begin(), trials_.end(),
+                                     [this](const Done& a, const Done& b) { return farOff(a) < farOff(b); });
+  return best == trials_.end() ? start_ : StrengthPoint{best->x[0] * unit_[0], best->x[1] * unit_[1]};
 }
 
 Strength strengthAt(double way, double startFriction) {

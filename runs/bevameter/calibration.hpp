@@ -4,6 +4,7 @@
 #include "runs/bevameter/bevameter.hpp"
 #include "runs/bevameter/results.hpp"
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -37,7 +38,8 @@ struct Trial {
   double x = 0, y = 0;
 };
 /// Where to try next, in [low, high]; empty where the nearest trial is within `tolerance` or none can be nearer.
-/// Between trials on both sides by the line through them, kept off their ends; else by `slope` from the nearest.
+/// Between trials on both sides by the line through them, kept off their ends; else on from the outermost by the slope
+/// to the trial next to it, at first by `slope`, about which it stays.
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope);
 /// The trial whose y is nearest.
@@ -51,6 +53,43 @@ struct Strength {
 Strength strengthAt(double way, double startFriction);
 /// Where on it rolling friction is this much.
 double wayOf(double rollingFriction);
+
+/// Where a trial stands on that way, and the energy that pulls grains together [J/m2].
+struct StrengthPoint {
+  double way = 0, pull = 0;
+};
+
+/// The search for an angle and a cohesion at once, since each depends on both numbers: Broyden's method, in units of
+/// what the tolerances are worth by the slopes expected. One of them may be left out.
+class StrengthSearch {
+public:
+  struct Target {
+    double wanted = 0, tolerance = 1, slope = 1; ///< slope: expected, of the angle over the way, of c over the pull
+  };
+  /// Throws nothing; without a target its number stays where it starts.
+  StrengthSearch(std::optional<Target> angle, std::optional<Target> cohesion, StrengthPoint start);
+
+  StrengthPoint at() const { return trials_.empty() ? start_ : next_; }
+  /// What the trial at() has come to [deg], [kPa]. Returns whether another one is worth while, then at the new at().
+  bool tried(double angle, double cohesion);
+  /// The trial that came nearest, by the greater of both distances in tolerances.
+  StrengthPoint nearest() const;
+
+private:
+  using Two = std::array<double, 2>;
+  struct Done {
+    Two x, off; ///< in units: where, and what is missing
+  };
+  double farOff(const Done& trial) const;
+  void learn(const Done& before, const Done& now);
+  Two stepFrom(const Done& trial) const;
+
+  std::array<std::optional<Target>, 2> targets_;
+  Two unit_{1, 1};                                  ///< of way and pull
+  std::array<Two, 2> slopes_{Two{1, 0}, Two{0, 1}}; ///< of both results over both numbers, in units
+  StrengthPoint start_, next_;
+  std::vector<Done> trials_;
+};
 
 struct CalibrationCommand {
   std::filesystem::path targets;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 /// Bekker's relation of pressure and sinkage, p = (k_c / b + k_phi) z^n, fitted to plates of two breadths b.
@@ -12,6 +13,18 @@ struct SinkageCurve {
   std::vector<double> sinkage;  ///< [m]
   std::vector<double> pressure; ///< [Pa], one for each sinkage
 };
+
+/// A curve whose beginning, where a flat plate beds into grains that stand out of a rough surface, is replaced as ASTM
+/// D1883 does where curves begin concave upward: by the steepest straight line through the curve, from where that line
+/// comes to no pressure, which becomes the origin of sinkage. Steepest: of the least squares lines over a fifth of the
+/// greatest pressure that begin between 2 and 60 % of it and no deeper than `room` [m] below where it carries 2 %. An
+/// exponent above 1 is made less by that: 1.27 comes out as 1.11 where the room is a sixth of the whole sinkage.
+struct BeddedCurve {
+  SinkageCurve curve;
+  double origin = 0; ///< [m] in the measured sinkage
+};
+/// A curve without such a line stays as it is.
+BeddedCurve correctedForBedding(const SinkageCurve& measured, double room);
 
 /// A plate's breadth, and all of its tests.
 struct PlateTests {
@@ -31,13 +44,13 @@ struct BekkerFit {
 
 /// Least squares of ln p = ln k + n ln z with Wong's weights p^2 (Wong 1980): one n for all tests, each with a k of its
 /// own, whose mean is its breadth's; each test of a breadth counts as much as the others, and each breadth as the
-/// other; k_c = (k1 - k2) b1 b2 / (b2 - b1), k_phi = (k2 b2 - k1 b1) / (b2 - b1). Points with a sinkage up to
-/// `fromSinkage` [m], or without pressure, are left out. `counts`: how often each curve counts; empty:
-/// once. A fit without two points of a breadth holds no numbers.
-BekkerFit fitBekker(const std::array<PlateTests, 2>& plates, double fromSinkage,
-                    const std::vector<std::vector<int>>& counts = {});
+/// other; k_c = (k1 - k2) b1 b2 / (b2 - b1), k_phi = (k2 b2 - k1 b1) / (b2 - b1). Points without sinkage or pressure
+/// are left out. `counts`: how often each curve counts; empty: once. `givenN`: instead of the n that fits best, for
+/// k_c and k_phi of two soils compare at one n only. A fit without two points of a breadth holds no numbers.
+BekkerFit fitBekker(const std::array<PlateTests, 2>& plates, const std::vector<std::vector<int>>& counts = {},
+                    std::optional<double> givenN = {});
 
 /// The same with one plate: n and k of a breadth; [0] is filled, the rest holds no numbers.
-BekkerFit fitOnePlate(const PlateTests& plate, double fromSinkage);
+BekkerFit fitOnePlate(const PlateTests& plate);
 
 } // namespace grouser::bevameter

@@ -14,14 +14,12 @@ namespace {
 using studies::Table;
 using support::Estimate;
 
-constexpr double kFitFromGrains = 0.25; // [d] sinkage from which on points count
-constexpr double kFitFromShare = 0.2;   // of the least sinkage that a plate comes to, if that is less
-constexpr double kCompareFrom = 0.25;   // of the sinkage that two bins have in common: compared from here on
+constexpr double kCompareFrom = 0.25; // of the sinkage that two bins have in common: compared from here on
 
 /// Runs of one plate as their fits want them.
 PlateTests plateTests(const TestPlan& plan, const std::vector<Table>& runs, TestKind kind) {
   PlateTests tests{plan.breadth(kind), {}};
-  for (const Table& run : runs) tests.curves.push_back(loadingCurve(run));
+  for (const Table& run : runs) tests.curves.push_back(beddedCurve(plan, run).curve);
   return tests;
 }
 
@@ -44,6 +42,12 @@ TestCosts costsOf(const std::string& name, const std::vector<Table>& runs) {
   c.steps = meanOf(firstOf(runs, "bed's steps")) + meanOf(firstOf(runs, "plate's steps"));
   c.seconds = meanOf(firstOf(runs, "bed's wall time [s]")) + meanOf(firstOf(runs, "plate's wall time [s]"));
   return c;
+}
+
+Estimate beddingOf(const TestPlan& plan, const std::vector<Table>& runs) {
+  std::vector<double> origins;
+  for (const Table& run : runs) origins.push_back(1e3 * beddedCurve(plan, run).origin);
+  return studies::interval95(origins);
 }
 
 void addUnloading(SoilResults& r, std::size_t i, const std::vector<Table>& runs) {
@@ -83,19 +87,21 @@ std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide
 void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vector<Table>, 2>& runs) {
   const std::array<PlateTests, 2> plates{plateTests(plan, runs[0], TestKind::small),
                                          plateTests(plan, runs[1], TestKind::large)};
-  const double from = fitFrom(plan.grains.grains.diameter(), plates);
+  for (const PublishedValue& p : plan.soil.published)
+    if (p.quantity == Quantity::exponent && !r.givenN) r.givenN = p.value;
   const auto statistic = [&](const TestCounts& counts) {
-    const BekkerFit f = fitBekker(plates, from, counts);
+    const BekkerFit f = fitBekker(plates, counts), given = fitBekker(plates, counts, r.givenN);
     return std::vector<double>{
-        f.n,           1e-3 * f.kc,  1e-3 * f.kphi, 1e-3 * f.k[0],
-        1e-3 * f.k[1], f.ownN[0],    f.ownN[1],     1e3 * f.sinkageAt(kTrackPressure, kTrackBreadth),
-        f.goodness[0], f.goodness[1]};
+        f.n,           1e-3 * f.kc,   1e-3 * f.kphi,   1e-3 * f.k[0],
+        1e-3 * f.k[1], f.ownN[0],     f.ownN[1],       1e3 * f.sinkageAt(kTrackPressure, kTrackBreadth),
+        f.goodness[0], f.goodness[1], 1e-3 * given.kc, 1e-3 * given.kphi};
   };
   const std::vector<Estimate> e =
       intervalsOfTests({static_cast<int>(runs[0].size()), static_cast<int>(runs[1].size())}, statistic);
   r.measured[Quantity::exponent] = e[0], r.measured[Quantity::cohesionModulus] = e[1];
   r.measured[Quantity::frictionModulus] = e[2];
   r.k = {e[3], e[4]}, r.ownN = {e[5], e[6]}, r.sinkage = e[7], r.goodness = {e[8], e[9]};
+  if (r.givenN) r.atGivenN = {{Quantity::cohesionModulus, e[10]}, {Quantity::frictionModulus, e[11]}};
 }
 
 void addShear(SoilResults& r, const std::vector<std::vector<ShearCurve>>& tests) {
@@ -141,12 +147,8 @@ double toleranceOf(Quantity quantity, double value) {
 
 } // namespace
 
-double fitFrom(double diameter, const std::array<PlateTests, 2>& plates) {
-  double from = kFitFromGrains * diameter;
-  for (const PlateTests& plate : plates)
-    for (const SinkageCurve& curve : plate.curves)
-      if (!curve.sinkage.empty()) from = std::min(from, kFitFromShare * curve.sinkage.back());
-  return std::max(0.0, from);
+BeddedCurve beddedCurve(const TestPlan& plan, const Table& run) {
+  return correctedForBedding(loadingCurve(run), plan.grains.grains.diameter());
 }
 
 std::vector<Table> runsOf(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind) {
@@ -175,6 +177,7 @@ SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces) {
     r.plates[i] = static_cast<int>(plates[i].size());
     if (plates[i].empty()) continue;
     addUnloading(r, i, plates[i]);
+    r.bedding[i] = beddingOf(plan, plates[i]);
     r.costs.push_back(costsOf(i == 0 ? "small" : "large", plates[i]));
   }
   if (r.hasPlates()) addPlates(r, plan, plates);

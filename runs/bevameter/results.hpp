@@ -27,6 +27,9 @@ struct SoilResults {
   support::Estimate sinkage;                      ///< under the track, by Bekker's form with what was measured [mm]
   std::array<support::Estimate, 2> k, ownN;       ///< of each breadth [kN/m^(n+2)], [-]
   std::array<support::Estimate, 2> goodness;      ///< Wong's [-]
+  std::array<support::Estimate, 2> bedding;       ///< origin of the corrected curves below the mean surface [mm]
+  std::optional<double> givenN;                   ///< the n that is published
+  std::map<Quantity, support::Estimate> atGivenN; ///< k_c and k_phi with that n
   std::array<support::Estimate, 2> unloading, reloading; ///< k_u [kN/m3]; interval over the tests
   std::array<support::Estimate, 2> unloadedFrom;         ///< [kPa]
   std::optional<support::Estimate> wider; ///< mean pressure of the wide bin over that of the other, less 1 [-]
@@ -43,9 +46,8 @@ struct SoilResults {
 std::vector<studies::Table> runsOf(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind);
 /// Curves of the seeds that were sheared under all loads: [seed][load].
 std::vector<std::vector<ShearCurve>> shearTests(const TestPlan& plan, const studies::Pieces& pieces);
-/// From which sinkage on points count [m]: below a quarter of a grain a plate meets single grains. Of plates that sink
-/// little a fifth of what the least of them does.
-double fitFrom(double diameter, const std::array<PlateTests, 2>& plates);
+/// The loading part of a plate's run, corrected for bedding within a grain's diameter.
+BeddedCurve beddedCurve(const TestPlan& plan, const studies::Table& run);
 
 SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces);
 

@@ -78,8 +78,12 @@ std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
     const auto measured = r.measured.find(q);
     if (measured == r.measured.end()) continue;
     const std::optional<PublishedSpan> span = publishedSpan(plan.soil, q);
-    text += row(symbolOf(q), measured->second, unitOf(q),
-                span ? spanText(*span) + ": " + verdictOf(measured->second, *span) : "-");
+    const auto given = r.atGivenN.find(q);
+    const bool isAtGivenN = given != r.atGivenN.end();
+    if (isAtGivenN) text += row(symbolOf(q), measured->second, unitOf(q), "with the n above");
+    const Estimate& compared = isAtGivenN ? given->second : measured->second;
+    text += row(isAtGivenN ? fmt::format("  n={:g}", *r.givenN) : symbolOf(q), compared, unitOf(q),
+                span ? spanText(*span) + ": " + verdictOf(compared, *span) : "-");
     for (const PublishedValue& p : plan.soil.published)
       if (p.quantity == q) text += pad() + fmt::format("{:g}  {}\n", p.value, p.source);
   }
@@ -104,6 +108,7 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     if (r.hasPlates())
       text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
                           studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
+    text += fmt::format("origin {} mm below the mean surface; ", studies::valueText(r.bedding[i]));
     text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded\n", studies::valueText(r.unloading[i]),
                         studies::valueText(r.unloadedFrom[i]), studies::valueText(r.reloading[i]));
   }
@@ -133,6 +138,15 @@ std::string constantsCsv(const TestPlan& plan, const SoilResults& r) {
   for (const auto& [q, e] : r.measured) {
     const std::optional<PublishedSpan> span = publishedSpan(plan.soil, q);
     text += fmt::format("{},{},{:.6g},{:.4g},{},", plan.care(), symbolOf(q), e.value, e.halfWidth, unitOf(q));
+    if (const auto given = r.atGivenN.find(q); given != r.atGivenN.end()) {
+      text += ",,with the n above\n";
+      text += fmt::format("{},{} at n {:g},{:.6g},{:.4g},{},", plan.care(), symbolOf(q), *r.givenN, given->second.value,
+                          given->second.halfWidth, unitOf(q));
+      text += span ? fmt::format("{:.6g},{:.6g},{}\n", span->low, span->high,
+                                 support::csvCell(verdictOf(given->second, *span)))
+                   : std::string(",,\n");
+      continue;
+    }
     text += span ? fmt::format("{:.6g},{:.6g},{}\n", span->low, span->high, support::csvCell(verdictOf(e, *span)))
                  : std::string(",,\n");
   }
@@ -140,13 +154,15 @@ std::string constantsCsv(const TestPlan& plan, const SoilResults& r) {
 }
 
 std::string platesCsv(const TestPlan& plan, const studies::Pieces& pieces) {
-  std::string text = "care,plate,breadth [m],seed,phase,sinkage [m],pressure [Pa]\n";
+  std::string text = "care,plate,breadth [m],seed,phase,sinkage [m],pressure [Pa],origin [m]\n";
   for (const PlannedTest& test : plan.tests) {
     if (!isPlate(test.kind) || !pieces.has(test.name)) continue;
     const char* plate = test.kind == TestKind::small ? "small" : test.kind == TestKind::large ? "large" : "wide";
-    for (const std::vector<double>& row : pieces.read(test.name).rows)
-      text += fmt::format("{},{},{:.6g},{},{:g},{:.6g},{:.6g}\n", plan.care(), plate, plan.breadth(test.kind),
-                          test.seed, row[0], row[1], row[2]);
+    const studies::Table run = pieces.read(test.name);
+    const double origin = beddedCurve(plan, run).origin;
+    for (const std::vector<double>& row : run.rows)
+      text += fmt::format("{},{},{:.6g},{},{:g},{:.6g},{:.6g},{:.6g}\n", plan.care(), plate, plan.breadth(test.kind),
+                          test.seed, row[0], row[1], row[2], origin);
   }
   return text;
 }
@@ -175,8 +191,11 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   for (const auto& [q, e] : r.measured) {
     nlohmann::ordered_json one = estimateJson(e, unitOf(q));
     one["published"] = publishedJson(plan.soil, q);
+    const auto given = r.atGivenN.find(q);
+    if (given != r.atGivenN.end()) one["at_published_n"] = estimateJson(given->second, unitOf(q));
     if (const auto span = publishedSpan(plan.soil, q))
-      one["span"] = {span->low, span->high}, one["verdict"] = verdictOf(e, *span);
+      one["span"] = {span->low, span->high},
+      one["verdict"] = verdictOf(given != r.atGivenN.end() ? given->second : e, *span);
     json["constants"][symbolOf(q)] = one;
   }
   if (r.hasPlates()) {
@@ -185,6 +204,7 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
       json["plates"].push_back({{"k", estimateJson(r.k[i], "kN/m^(n+2)")},
                                 {"n_alone", estimateJson(r.ownN[i], "-")},
                                 {"goodness", estimateJson(r.goodness[i], "-")},
+                                {"origin", estimateJson(r.bedding[i], "mm")},
                                 {"k_u", estimateJson(r.unloading[i], "kN/m3")},
                                 {"k_reloading", estimateJson(r.reloading[i], "kN/m3")},
                                 {"unloaded_from", estimateJson(r.unloadedFrom[i], "kPa")}});

@@ -71,7 +71,7 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--steps-per-contact", &PlanOptions::stepsPerContact, support::between(5, 1000),
            "of the shortest contact; more where tests end unsoundly");
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
-           "of the sheared layer, at least ten grains; K grows with it [m]");
+           "of the sheared layer, at least ten grains [m]");
 }
 
 void doSoil(const bevameter::SoilCommand& c, const std::string& targets) {

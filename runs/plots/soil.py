@@ -11,12 +11,13 @@ import drawing
 
 
 def draw_plates(axis, table, soil):
-    """A thin line a test while it is loaded, and k z^n of each plate."""
+    """A thin line a test while it is loaded, from its own origin, and k z^n of each plate."""
     curves = {}
     for row in table:
-        if float(row["phase"]) == 0 and float(row["sinkage [m]"]) > 0 and float(row["pressure [Pa]"]) > 0:
+        sinkage = float(row["sinkage [m]"]) - float(row["origin [m]"])
+        if float(row["phase"]) == 0 and sinkage > 0 and float(row["pressure [Pa]"]) > 0:
             curves.setdefault((row["plate"], float(row["breadth [m]"]), row["seed"]), []).append(
-                (1e3 * float(row["sinkage [m]"]), 1e-3 * float(row["pressure [Pa]"])))
+                (1e3 * sinkage, 1e-3 * float(row["pressure [Pa]"])))
     plates = sorted({(breadth, plate) for plate, breadth, _ in curves})
     for (plate, breadth, _), points in curves.items():
         axis.loglog(*zip(*points), linewidth=0.4, alpha=0.6, color=f"C{plates.index((breadth, plate))}",

@@ -68,8 +68,8 @@ private:
   using Long = Simd<std::int64_t, kWidth>;
   using Vec = base::Vec3<Float>;
   using Advance = AdvanceLanes < kWidth<16 ? 4 : 8, kFeatures>;
-  static constexpr unsigned kLaw =
-      kFeatures & (contact::kHertz | contact::kFriction | contact::kRollingFriction | contact::kManyMasses);
+  static constexpr unsigned kLaw = kFeatures & (contact::kHertz | contact::kFriction | contact::kRollingFriction |
+                                                contact::kCohesion | contact::kManyMasses);
   static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger,
                         kWithRolling = kFeatures & contact::kRollingFriction, kManySizes = kFeatures & kManyRadii;
   static constexpr bool kBothSpins = kWithRolling || kManySizes;    ///< are needed, not their sum alone
@@ -428,30 +428,35 @@ GROUSER_SIMD void runOf(const GrainKernelData& d, const ForceData<float>& f, int
 }
 
 /// What is known at compile time; whatever is not among these features is asked for as a step runs.
-constexpr unsigned kSimdSets[] = {0, contact::kHertz, contact::kRollingFriction,
-                                  contact::kHertz | contact::kRollingFriction};
+constexpr unsigned kSimdLaws[] = {0,
+                                  contact::kHertz,
+                                  contact::kRollingFriction,
+                                  contact::kHertz | contact::kRollingFriction,
+                                  contact::kHertz | contact::kCohesion,
+                                  contact::kHertz | contact::kRollingFriction | contact::kCohesion};
+/// Each of them with friction, with and without many radii and a ledger.
+constexpr int kSimdSets = 4 * 6;
+constexpr unsigned simdSet(int which) {
+  return contact::kFriction | kSimdLaws[which / 4] | (which & 1 ? kManyRadii : 0u) | (which & 2 ? kLedger : 0u);
+}
 
 template <int kWidth, int... kSet> GROUSER_SIMD void runRough(unsigned features, const GrainKernelData& d,
                                                               const ForceData<float>& f, int first, int last,
                                                               std::integer_sequence<int, kSet...>) {
-  (((features == (contact::kFriction | kSimdSets[kSet % 4] | (kSet & 4 ? kManyRadii : 0u) | (kSet & 8 ? kLedger : 0u)))
-        ? runOf<kWidth, contact::kFriction | kSimdSets[kSet % 4] | (kSet & 4 ? kManyRadii : 0u) |
-                            (kSet & 8 ? kLedger : 0u)>(d, f, first, last)
-        : void()),
-   ...);
+  ((features == simdSet(kSet) ? runOf<kWidth, simdSet(kSet)>(d, f, first, last) : void()), ...);
 }
 
 /// Picks the features that are known at compile time.
 template <int kWidth>
 GROUSER_SIMD void runSimd(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
-  const unsigned features =
-      d.features & (contact::kHertz | contact::kFriction | contact::kRollingFriction | kManyRadii | kLedger);
+  const unsigned features = d.features & (contact::kHertz | contact::kFriction | contact::kRollingFriction |
+                                          contact::kCohesion | kManyRadii | kLedger);
   if (features == 0)
     runOf<kWidth, 0>(d, f, first, last);
   else if (features == kLedger)
     runOf<kWidth, kLedger>(d, f, first, last);
   else
-    runRough<kWidth>(features, d, f, first, last, std::make_integer_sequence<int, 16>{});
+    runRough<kWidth>(features, d, f, first, last, std::make_integer_sequence<int, kSimdSets>{});
 }
 
 } // namespace grouser::terrain::detail

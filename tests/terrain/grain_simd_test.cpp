@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The CPU's step in lanes against the scalar kernels: the same bits for every width that this processor has.
 #include "surface_fixture.hpp"
+#include "tests/device_under_test.hpp"
 
 #include "base/carry.hpp"
 #include "base/random.hpp"
@@ -21,6 +22,8 @@ struct Kind {
   double wallFriction = 0.5;
   bool hertz = false, rolling = false, periodic = false, fixed = false, surface = false;
   double smallest = 1; ///< radii are uniform from this share on [-]
+  bool cohesive = false, yielding = false;
+  bool onDevice = false, special = true; ///< under test; by a kernel of its own where there is one
 };
 
 constexpr int kSteps = 400;
@@ -41,6 +44,9 @@ GrainModel modelOf(const Kind& kind) {
     m.law.hertz = true, m.law.stiffness = 5e7, m.law.tangentialStiffness = 4e7, m.law.damping = 0;
     m.law.rootDamping = 3000, m.law.tangentialRootDamping = 1500, m.law.tangentialDamping = 0;
   }
+  if (kind.cohesive) m.law.pullPerRadius = 2;
+  if (kind.yielding) m.law.plastic = {0.6, 0.7, 0.3, 40, 0, 0, 3};
+  m.specialised = kind.special;
   if (kind.rolling) m.law.rollingFriction = 0.1, m.law.rollingDamping = 0.3;
   if (kind.smallest < 1 && !kind.hertz) m.law.damping = 0, m.law.rootDamping = 60, m.law.tangentialRootDamping = 30;
   return m;
@@ -111,11 +117,14 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
   std::vector<Wall> walls;
   if (kind.walls && !kind.fixed) walls = {{{0, 0, 1}, 0, wall}};
   if (kind.walls && !kind.periodic) walls.insert(walls.end(), {{{1, 0, 0}, -0.01, wall}, {{0, -1, 0}, -0.085, wall}});
+  if (kind.onDevice) walls = {{{0, 0, 1}, -0.02, wall}};
   Boundaries around{walls, {}};
   if (kind.periodic) around.periodic = {std::array{-0.005, 0.0685}, std::array{-0.006, 0.0685}};
   if (kind.surface) around.surfaces.push_back({boxOf({0.02, 0.02, 0.004}), wall, placed({0.03, 0.03, -0.0035})});
   m.smallestRadius = kind.smallest < 1 ? kind.smallest * m.radius : 0;
-  Grains grains(base::cpuExec(threads), m, around, heap(kind));
+  Grains grains(kind.onDevice ? testExec(threads) : base::cpuExec(threads), m, around, heap(kind));
+  EXPECT_TRUE(!kind.onDevice || hasOwnKernel(grains.system().constants.features, Precision::single))
+      << featureText(grains.system().constants.features);
   Pushes pushes;
   for (int s = 0; s < steps; ++s) {
     grains.refreshNeighbours();
@@ -170,11 +179,31 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
                     .periodic = (bits & 16) != 0,
                     .fixed = (bits & 8) != 0,
                     .surface = bits % 5 == 1,
-                    .smallest = bits & 4 ? 0.6 : 1};
+                    .smallest = bits & 4 ? 0.6 : 1,
+                    .cohesive = bits & 1 && bits % 7 < 4}; // lanes know that of Hertz' law
     const auto expected = wordsAfter(kind, 1, 1, kSteps);
     for (const int lanes : {4, 8, 16})
       EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, kind " << bits;
     EXPECT_TRUE(wordsAfter(kind, 16, 2, kSteps, 0.2) == expected) << "two threads, more rebuilds, kind " << bits;
+  }
+}
+
+/// Kernels of soils that stick or yield, between periodic boundaries on fixed grains, and under a surface: on the
+/// device under test.
+TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
+  for (int bits = 0; bits < 12; ++bits) {
+    Kind kind{.hertz = true,
+              .rolling = bits % 6 >= 3 || bits % 3 == 2,
+              .periodic = true,
+              .fixed = true,
+              .surface = bits >= 6,
+              .smallest = 0.6,
+              .cohesive = bits % 3 == 1,
+              .yielding = bits % 3 == 2,
+              .onDevice = true};
+    const auto special = wordsAfter(kind, 1, 2, kSteps);
+    kind.special = false;
+    EXPECT_TRUE(wordsAfter(kind, 1, 1, kSteps) == special) << "kind " << bits;
   }
 }
 
@@ -218,6 +247,7 @@ TEST(GrainSimd, TakeTheCommonBedsAndLeaveTheRest) {
        {contact::kHertz, contact::kRollingFriction, kManyRadii, kPeriodic, kSurfaces, kFixed,
         contact::kHertz | contact::kRollingFriction | kManyRadii | kPeriodic | kSurfaces | kFixed})
     EXPECT_GE(simdWidth(bed | feature, law, 16), 4);
+  EXPECT_GE(simdWidth(bed | contact::kHertz | contact::kCohesion, law, 16), 4);
   for (const unsigned feature : {contact::kCohesion, contact::kGeneral, kManyMaterials})
     EXPECT_EQ(simdWidth(bed | feature, law, 16), 1);
 }

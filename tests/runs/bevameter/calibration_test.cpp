@@ -36,6 +36,58 @@ TEST(CalibrationSearch, DoesNotGoOnForEverWithScatter) {
   }
 }
 
+/// A soil whose pull also adds to its angle, as that of sticky grains does.
+struct Sticky {
+  double wayToPhi = 9, pullToPhi = 0.012, pullToC = 0.005, most = 1e9;
+  bool tell(StrengthSearch& search) const {
+    const StrengthPoint at = search.at();
+    return search.tried(24 + wayToPhi * at.way + pullToPhi * at.pull, std::min(most, 0.3 + pullToC * at.pull));
+  }
+};
+
+TEST(CalibrationSearch, FindsAngleAndCohesionThatDependOnBothNumbers) {
+  StrengthSearch search({{29.8, 1, 12}}, {{3.7, 0.5, 0.0165}}, {0.48, 220});
+  const Sticky soil;
+  int trials = 1;
+  while (soil.tell(search)) ++trials;
+  EXPECT_LE(trials, 7);
+  const StrengthPoint found = search.nearest();
+  EXPECT_NEAR(24 + 9 * found.way + 0.012 * found.pull, 29.8, 1);
+  EXPECT_NEAR(0.3 + 0.005 * found.pull, 3.7, 0.5);
+}
+
+TEST(CalibrationSearch, MayLeaveOneOfBothAlone) {
+  StrengthSearch onlyAngle({{28, 0.2, 12}}, {}, {0.1, 50});
+  while (onlyAngle.tried(22 + 10 * onlyAngle.at().way, 1)) EXPECT_EQ(onlyAngle.at().pull, 50);
+  EXPECT_NEAR(onlyAngle.nearest().way, 0.6, 0.02);
+  EXPECT_EQ(onlyAngle.nearest().pull, 50);
+  StrengthSearch onlyC({}, {{3.7, 0.5, 0.054}}, {0.4, 120}); // of a soil that needs many times more than expected
+  int trials = 1;
+  while (onlyC.tried(30, 0.3 + 0.016 * onlyC.at().pull)) EXPECT_EQ(onlyC.at().way, 0.4), ++trials;
+  EXPECT_NEAR(0.3 + 0.016 * onlyC.nearest().pull, 3.7, 0.5);
+  EXPECT_LE(trials, 5) << "the second trial shows the slope";
+}
+
+TEST(CalibrationSearch, StaysInRangeAndEndsWhereNothingReaches) {
+  StrengthSearch search({{50, 1, 12}}, {{3.7, 0.5, 0.0165}}, {0.5, 100});
+  const Sticky soil{.pullToPhi = 0, .most = 1};
+  int trials = 1;
+  while (soil.tell(search)) {
+    ++trials;
+    EXPECT_GE(search.at().way, -1);
+    EXPECT_LE(search.at().way, 2);
+    EXPECT_GE(search.at().pull, 0);
+  }
+  EXPECT_LE(trials, 8);
+  EXPECT_NEAR(search.nearest().way, 2, 0.01) << "the nearest that can be";
+}
+
+TEST(CalibrationSearch, WhatDoesNotAnswerIsGivenUpSoon) {
+  std::vector<Trial> trials{{20, 3.1}};
+  while (const auto next = nextTrial(trials, 3.9, 0.1, 18, 24.6, 0.5)) trials.push_back({*next, 3.1});
+  EXPECT_LE(trials.size(), 4u);
+}
+
 TEST(CalibrationSearch, StrengthGoesFromNoFrictionToAllOfIt) {
   EXPECT_EQ(strengthAt(0, 0.5).friction, 0.5);
   EXPECT_EQ(strengthAt(0, 0.5).rollingFriction, 0);

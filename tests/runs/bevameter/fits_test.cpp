@@ -47,7 +47,7 @@ std::array<PlateTests, 2> plates(int small, int large, std::uint64_t seed, doubl
 }
 
 TEST(BekkerForm, ConstantsComeBackWithoutNoise) {
-  const BekkerFit fit = fitBekker(plates(2, 1, 1, 0, 0), 0);
+  const BekkerFit fit = fitBekker(plates(2, 1, 1, 0, 0));
   // Round-off of sums of 150 logarithms.
   EXPECT_NEAR(fit.n, kN, 1e-10);
   EXPECT_NEAR(fit.kc, kKc, 1e-6 * kKc);
@@ -68,7 +68,7 @@ TEST(BekkerForm, CohesionModulusKeepsItsSign) {
     }
     plate.curves.push_back(curve);
   }
-  const BekkerFit fit = fitBekker(both, 0);
+  const BekkerFit fit = fitBekker(both);
   EXPECT_NEAR(fit.kc, -202e3, 1);
   EXPECT_NEAR(fit.kphi, 2990e3, 10);
 }
@@ -76,14 +76,56 @@ TEST(BekkerForm, CohesionModulusKeepsItsSign) {
 TEST(BekkerForm, WeightsAreThePressureSquared) {
   // Two points on one law and a faint third far off it: of weight 1e-4 of the others, it hardly moves the exponent.
   PlateTests plate{0.1, {{{0.01, 0.02, 0.001}, {10e3, 20e3, 1e2}}}};
-  EXPECT_NEAR(fitOnePlate(plate, 0).n, 1, 0.01) << "unweighted it would be 1.7";
-  EXPECT_NEAR(fitOnePlate(plate, 0.005).n, 1, 1e-12) << "below the sinkage from which points count";
+  EXPECT_NEAR(fitOnePlate(plate).n, 1, 0.01) << "unweighted it would be 1.7";
+}
+
+TEST(BekkerForm, AGivenExponentIsKept) {
+  const std::array<PlateTests, 2> both = plates(2, 2, 3, 0, 0);
+  EXPECT_NEAR(fitBekker(both, {}, kN).kphi, kKphi, 1e-8 * kKphi);
+  const BekkerFit other = fitBekker(both, {}, 1.0);
+  EXPECT_EQ(other.n, 1);
+  EXPECT_GT(other.kphi, 1.2 * kKphi) << "of other units, and more of them where sinkages are parts of a metre";
+}
+
+// A plate that beds into a rough surface over the first 5 mm, and then meets 12 MN/m3.
+SinkageCurve bedding(double firstContact) {
+  SinkageCurve curve;
+  for (int i = 0; i <= 150; ++i) {
+    const double z = 1e-4 * i;
+    curve.sinkage.push_back(firstContact + z);
+    curve.pressure.push_back(12e6 * (z < 5e-3 ? z * z / 10e-3 : z - 2.5e-3));
+  }
+  return curve;
+}
+
+TEST(Bedding, OriginIsWhereTheSteepestLineComesToNoPressure) {
+  const BeddedCurve bedded = correctedForBedding(bedding(-3e-3), 0.014);
+  EXPECT_NEAR(bedded.origin, -0.5e-3, 1e-9);
+  PlateTests plate{0.28, {bedded.curve}};
+  EXPECT_NEAR(fitOnePlate(plate).n, 1, 1e-6);
+  EXPECT_NEAR(fitOnePlate(plate).k[0], 12e6, 100);
+  // From seed to seed only the height of the first grain differs: without effect.
+  plate.curves.push_back(correctedForBedding(bedding(4e-3), 0.014).curve);
+  EXPECT_NEAR(fitOnePlate(plate).k[0], 12e6, 100);
+  plate.curves.back() = bedding(4e-3);
+  EXPECT_GT(std::fabs(fitOnePlate(plate).k[0] - 12e6), 1e6) << "with it, were sinkage to count from the mean surface";
+}
+
+TEST(Bedding, IsLookedForWithinItsRoomOnly) {
+  // 1.27 bends upwards all the way: that is the soil's own, and only its first part may be taken for bedding.
+  SinkageCurve curve;
+  for (int i = 1; i <= 200; ++i) curve.sinkage.push_back(4e-4 * i), curve.pressure.push_back(std::pow(4e-4 * i, 1.27));
+  const auto n = [&](double room) { return fitOnePlate(PlateTests{0.28, {correctedForBedding(curve, room).curve}}).n; };
+  EXPECT_NEAR(n(0.014), 1.11, 0.01);
+  EXPECT_GT(n(0.0035), n(0.014) + 0.03);
+  const SinkageCurve nothing{{0.1, 0.2}, {0, 0}};
+  EXPECT_EQ(correctedForBedding(nothing, 0.014).curve.sinkage, nothing.sinkage);
 }
 
 TEST(BekkerForm, UnitsGoWithTheirPowers) {
   // The same plates in millimetres and kilopascals: k_phi changes by 1e-3 / 1e-3^n, k_c by 1e3 of that.
   std::array<PlateTests, 2> both = plates(2, 2, 3, 0.05, 0.02);
-  const BekkerFit si = fitBekker(both, 0);
+  const BekkerFit si = fitBekker(both);
   for (PlateTests& plate : both) {
     plate.breadth *= 1e3;
     for (SinkageCurve& c : plate.curves) {
@@ -91,7 +133,7 @@ TEST(BekkerForm, UnitsGoWithTheirPowers) {
       for (double& p : c.pressure) p *= 1e-3;
     }
   }
-  const BekkerFit mm = fitBekker(both, 0);
+  const BekkerFit mm = fitBekker(both);
   EXPECT_NEAR(mm.n, si.n, 1e-9);
   const double factor = 1e-3 * std::pow(1e-3, si.n);
   EXPECT_NEAR(mm.kphi, si.kphi * factor, 1e-6 * si.kphi * factor);
@@ -100,7 +142,7 @@ TEST(BekkerForm, UnitsGoWithTheirPowers) {
 
 TEST(BekkerForm, FirmAndWeakTestsDoNotFlattenTheExponent) {
   // All end at 100 kPa, so firm tests lie at smaller sinkages: one line through all points would give less.
-  const BekkerFit fit = fitBekker(plates(8, 8, 2, 0.1, 0), 0);
+  const BekkerFit fit = fitBekker(plates(8, 8, 2, 0.1, 0));
   EXPECT_NEAR(fit.n, kN, 1e-10);
 }
 
@@ -108,7 +150,7 @@ TEST(BekkerForm, CountsStandForCopies) {
   const std::array<PlateTests, 2> both = plates(3, 2, 5, 0.1, 0.05);
   std::array<PlateTests, 2> copied = both;
   copied[0].curves = {both[0].curves[1], both[0].curves[1], both[0].curves[2]};
-  const BekkerFit counted = fitBekker(both, 0, {{0, 2, 1}, {1, 1}}), written = fitBekker(copied, 0);
+  const BekkerFit counted = fitBekker(both, {{0, 2, 1}, {1, 1}}), written = fitBekker(copied);
   EXPECT_NEAR(counted.n, written.n, 1e-12);
   EXPECT_NEAR(counted.kc, written.kc, 1e-7 * std::fabs(written.kc));
   EXPECT_NEAR(counted.goodness[0], written.goodness[0], 1e-12);
@@ -204,7 +246,7 @@ TEST(TestIntervals, HoldBekkersConstantsAsOftenAsTheySay) {
     for (std::uint64_t t = 1; t <= 400; ++t) {
       const std::array<PlateTests, 2> both = plates(8, large, t, 0.05, 0.02);
       const auto statistic = [&](const TestCounts& counts) {
-        const BekkerFit f = fitBekker(both, 0, counts);
+        const BekkerFit f = fitBekker(both, counts);
         return std::vector<double>{f.n, f.kc, f.kphi};
       };
       const std::vector<support::Estimate> e = intervalsOfTests({8, large}, statistic, t, 60);

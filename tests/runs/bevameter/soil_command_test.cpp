@@ -62,6 +62,18 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
 }
 
+TEST_F(SoilCommandTest, PartsMayBeginTogether) {
+  put(folder_ / "sand.toml",
+      std::string(kSand).replace(std::string(kSand).find("[[published"), 0, "porosity = 0.42\n"));
+  const std::string words = std::string("\"$grouser\" soil sand.toml --out results --resume") + kSmall;
+  const Outcome o = shell(words + " --part 1/100 > first.log 2>&1 & first=$!; " + words +
+                          " --part 2/100; second=$?; wait $first && exit $second");
+  EXPECT_EQ(o.code, 0) << o.errors << contents(folder_ / "first.log");
+  const fs::path runs = folder_ / "results" / "runs";
+  EXPECT_TRUE(fs::exists(runs / "coarse_preparation.csv"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(runs), {}), 3) << "one preparation, two tests, and nothing else";
+}
+
 TEST_F(SoilCommandTest, WrongWordsEndWithTwoAndWriteNothing) {
   put(folder_ / "sand.toml", kSand);
   put(folder_ / "wrong.toml", std::string(kSand) + "colour = 1\n");
