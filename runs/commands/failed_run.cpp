@@ -33,7 +33,10 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message) co
   output::RunWriter::Options options;
   options.force = options_.force;
   options.frames = bed && output_.frames;
-  options.metadata = {{"command_line", options_.commandLine}, {"device", device_}, {"phase", "settling"}};
+  options.metadata = {{"command_line", options_.commandLine},
+                      {"device", device_},
+                      {"phase", "settling"},
+                      {"switches", options_.switches}};
   output::RunWriter writer(options_.folder, provenance_, {}, options);
   writer.abandon(message); // first of all, should the rest fail
   if (!bed) return;

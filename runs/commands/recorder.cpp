@@ -107,7 +107,8 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   w.force = options.force;
   w.frames = frames;
   w.comm = options.comm();
-  w.metadata = {{"command_line", options.commandLine}, {"device", base::describe(exec)}};
+  w.metadata = {
+      {"command_line", options.commandLine}, {"device", base::describe(exec)}, {"switches", options.switches}};
   if (!w.comm.alone()) w.metadata["ranks"] = std::to_string(w.comm.size());
   if (!former) return w;
   const std::int64_t step = former->state.steps;
