@@ -272,7 +272,7 @@ void Recorder::picture(int width) {
   const output::Frame whole = gathered(currentFrame(), simulation_.comm());
   if (!simulation_.comm().first()) return;
   render::writePng(
-      render::drawFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
+      render::drawLabelledFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
       writer_.folder() / "picture.png");
 }
 

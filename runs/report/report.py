@@ -17,7 +17,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 # The Python package: of the checkout, beside the installed program, or where Debian's Python has it.
 sys.path[1:1] = [str(HERE.parent / "plots"), str(HERE.parents[1] / "python"),
-                 str(HERE.parents[3] / "lib/python3/dist-packages")]
+                 str(HERE.parents[1].parent.parent / "lib/python3/dist-packages")]
 sys.dont_write_bytecode = True
 import packages
 
@@ -66,7 +66,11 @@ def main():
     parser.add_argument("--grains", type=int, default=40000)
     options = parser.parse_args()
     packages.require("numpy", "h5py")
-    import grouser
+    try:
+        import grouser
+    except ImportError:
+        end(packages.MISSING, "the Python package grouser is missing, which the program is installed with; set "
+                              "PYTHONPATH to the folder that it lies in")
     kind = kind_of(options.folder)
     if kind is None:
         names = ", ".join(file for file, _ in KINDS)

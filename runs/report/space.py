@@ -161,7 +161,7 @@ def frame_html(shown, frames, count, total, grains, vehicle):
 <span class="scale"><span id="space-low"></span><canvas id="space-scale" width="192" height="16" role="img"
  aria-label="colour scale"></canvas><span id="space-high"></span></span>""" if grains else ""
     follow = '<label><input type="checkbox" id="space-follow"> follow the vehicle</label>' if vehicle else ""
-    return f"""<figure><div class="space" id="space"><canvas id="space-canvas" tabindex="0" role="img"
+    return f"""<figure><div class="space" id="space"><canvas id="space-canvas" tabindex="0" role="application"
  aria-label="Grains and parts in space" aria-describedby="space-keys"></canvas>
 <div class="label" id="space-time" aria-live="off"></div></div>
 <div class="controls"><button id="space-back" aria-label="one frame back">&#9664;&#xfe0e;</button>

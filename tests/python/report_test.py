@@ -160,6 +160,8 @@ class Pages(FolderTest):
         self.keys_work(page)
         self.looks_change(page)
         self.assertEqual(page.errors, [])
+        self.opened("drive", "--grains", "100", "--frames", "3")
+        self.assertEqual(self.browser.value("[report.space.grains.count, report.space.time.length]"), [100, 3])
 
     def numbers_of_a_run(self, folder):
         shown = self.numbers()
