@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """`grouser report` as a user meets it: pages opened in Chromium, and what is refused."""
+import json
 import math
 import os
 import subprocess
@@ -58,7 +59,7 @@ class Refused(FolderTest):
         self.assertEqual(list((self.folder / "empty").iterdir()), [])
 
     def test_what_is_damaged(self):
-        for name in ("results.h5", "check.json", "soil.json", "summary.csv"):
+        for name in ("results.h5", "check.json", "soil.json", "summary.csv", "events.json"):
             place = self.folder / name.replace(".", "_")
             place.mkdir()
             for text in ("", "\0{[damaged", '{"figures": 1}'):
@@ -303,6 +304,24 @@ class Pages(FolderTest):
         self.same(shown["ground force z checked"], force.bar.value, "value")
         self.same(shown["ground force z checked bar"], force.bar.half_width, "bar")
         self.assertEqual(list((self.folder / "run").glob("*.part")), [])
+
+    def test_events(self):
+        folder = self.folder / "events"
+        folder.mkdir()
+        def row(level, pull):
+            return {"event": "grade", "title": "Up a slope", "level": level, "level_is": "tan of the slope [-]",
+                    "verdict": "go", "runs": 3, "go": 3, "failed": 0, "pending": 0, "why": "at the top", "figures": [
+                        {"name": "speed [m/s]", "runs": 3, "mean": pull, "half_width": 0.0123456789}]}
+        (folder / "events.json").write_text(json.dumps({
+            "command": "grouser events", "commit": "0123abc", "machine": "this", "vehicle": "light", "soil": "sand",
+            "quick": True, "seeds": 3, "speed_m_s": 0.5, "grain_radius_m": 0.02, "bed_depth_m": 0.3,
+            "rows": [row(0.1, 0.4987654321), row(0.2, 0.31)], "limits": [
+                {"event": "grade", "level_is": "tan of the slope [-]", "go": 0.2, "no_go": None, "reference": None,
+                 "agrees": None}]}))
+        self.opened("events")
+        shown = self.numbers()
+        self.assertEqual((shown["grade 0.1 speed"], shown["grade 0.1 speed bar"]), (0.4987654321, 0.0123456789))
+        self.assertEqual(self.browser.value("Array.from(report.plots[0].curves[0].columns[1])"), [0.4987654321, 0.31])
 
     def test_a_soil(self):
         folder = self.folder / "sand"
