@@ -159,7 +159,7 @@ TEST(Labels, ABarOfARoundLengthIsAsLongAsItSays) {
   for (const double perMetre : {7.0, 100.0, 260.0, 3000.0}) {
     Image image;
     image.width = 960, image.height = 540;
-    image.rgb.assign(static_cast<std::size_t>(3 * image.width * image.height), 128);
+    image.rgb.assign(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), 128);
     const Font font;
     drawLength(image, font, perMetre);
     // The longest dark row is the bar.
