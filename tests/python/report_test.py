@@ -76,7 +76,11 @@ class Refused(FolderTest):
         self.refuses("run", ["report.html", "is there already", "--force"])
         self.assertEqual(page.read_bytes(), before)
         self.assertEqual(report("run", "--force").returncode, 0)
+        (self.folder / "run/film.mp4").write_bytes(b"a film")
         self.assertEqual(report("run", "--out", "other.html").returncode, 0)
+        self.assertIn('src="data:video/mp4;base64,YSBmaWxt"', (self.folder / "other.html").read_text())
+        self.assertNotIn("<video", page.read_text())
+        self.refuses("run", ["nosuch.mp4"], "--film", "nosuch.mp4", "--force")
         results = (self.folder / "run/results.h5").read_bytes()
         for size in (len(results) // 2, 2000, 100):
             (self.folder / "run/results.h5").write_bytes(results[:size])
@@ -159,6 +163,7 @@ class Pages(FolderTest):
         self.numbers_of_a_run("drive")
         self.space_shows_the_frames("drive")
         self.keys_work(page)
+        self.any_series_is_drawn(page, "drive")
         self.looks_change(page)
         self.assertEqual(page.errors, [])
         self.opened("drive", "--grains", "100", "--frames", "3")
@@ -248,6 +253,21 @@ class Pages(FolderTest):
         self.assertLess(narrow[1] - narrow[0], wide[1] - wide[0])
         page.press("Escape")
         self.assertEqual(page.value("report.plots[0].graph.xAxisRange()"), wide)
+
+    def any_series_is_drawn(self, page, folder):
+        """The list of all series, by keys: what is chosen is drawn, with its unit and what it is."""
+        page.value("document.getElementById('any-series').focus()")
+        page.press("End")
+        page.press("Enter")
+        chosen = page.value("document.getElementById('any-series').selectedOptions[0].textContent")
+        plot = "report.plots[report.data.explorer.plot]"
+        page.until(f"{plot}.curves[0].label + ' [' === {json.dumps(chosen)}.slice(0, {plot}.curves[0].label.length + 2)")
+        name = page.value(f"{plot}.curves[0].label")
+        with grouser.open_run(folder) as run:
+            series = run[name] if name in run else run[name.rpartition(".")[0]][name.rpartition(".")[2]]
+            self.assertEqual(page.value(f"{plot}.curves[0].columns[1].length"), len(series.value))
+            self.assertEqual(page.value("document.getElementById('any-help').textContent"), series.help)
+            self.assertIn(f"[{series.unit}]", page.value(f"{plot}.entry.y"))
 
     def looks_change(self, page):
         """Dark where the system is dark, white on paper."""
