@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The documents: commands that they name are there with their options, the tutorial works as it stands, and the site has
 no link that leads nowhere."""
+import math
 import os
 import re
 import subprocess
@@ -108,6 +109,11 @@ class Tutorial(FolderTest):
             self.assertGreater((self.folder / file).stat().st_size, 1000, file)
         sweep = grouser.open_sweep("out/speeds")
         self.assertEqual([run.status for run in sweep.runs], ["finished"] * 6)
+        for figure in ("sinkage mean", "slip"):
+            values = [mean.mean.value for mean in sweep.means[figure]]
+            self.assertEqual(len(values), 3)
+            self.assertTrue(all(math.isfinite(value) for value in values), figure)
+            self.assertEqual(len(set(values)), 3, figure)
         refused = subprocess.run("build/bin/grouser plan thesis.toml --set material.soil.restitution=1.4".split(),
                                  capture_output=True, text=True, env=environment)
         self.assertEqual(refused.returncode, 2)
