@@ -120,23 +120,26 @@ def any_series(made, run):
     if len(run.time) < 2:
         return ""
     columns = [column for name in run.names() for column in columns_of(run, name)]
-    listed, options, lines = [], [], []
+    listed, options, lines, start = [], [], [], None  # start: the first that changes
     for k, (name, values, series) in enumerate(columns):
         array = made.array(f"series.{name}", numpy.asarray(values, dtype=float)[rows])
         listed.append({"name": name, "array": array, "axis": f"{short(name)} [{series.unit}]", "help": series.help})
-        options.append(f"<option>{esc(name)} [{esc(series.unit)}]</option>")
         there = values[numpy.isfinite(values)]
+        if start is None and len(there) and numpy.ptp(there) > 0:
+            start = k
+        options.append(f"<option{' selected' if k == start else ''}>{esc(name)} [{esc(series.unit)}]</option>")
         marks = [values[0], values[-1], *([there.min(), there.mean(), there.max()] if len(there) else [math.nan] * 3)]
         lines.append([f"<code>{esc(name)}</code>", esc(series.unit),
                       *(number(float(mark), "", f"{name} {what}") for mark, what in
                         zip(marks, ("first", "last", "least", "mean", "largest"))), esc(series.help)])
     time = made.array("series.time", run.time[rows])
-    figure = made.plot("Any series", "time [s]", listed[0]["axis"], [(listed[0]["name"], run.time[rows],
-                                                                       numpy.asarray(columns[0][1], dtype=float)[rows])],
-                       "Of all columns of timeseries.csv." + note)
+    shown = listed[start or 0]
+    figure = made.plot("Any series", "time [s]", shown["axis"], [
+        (shown["name"], run.time[rows], numpy.asarray(columns[start or 0][1], dtype=float)[rows])],
+        "Of all columns of timeseries.csv." + note)
     made.data["explorer"] = {"plot": len(made.data["plots"]) - 1, "time": time, "series": listed}
     chosen = (f'<div class="controls"><label>Series <select id="any-series">{"".join(options)}</select></label>'
-              f'<span id="any-help">{esc(listed[0]["help"])}</span></div>{figure}')
+              f'<span id="any-help">{esc(shown["help"])}</span></div>{figure}')
     return chosen + folded("All series in numbers", table(
         ["series", "unit", "first", "last", "least", "mean", "largest", "what it is"], lines,
         "Over all rows of results.h5; of vectors each component.", numeric=range(2, 7)))

@@ -131,6 +131,8 @@ def section(made, frames, options):
         return ""
     corners = None if poses is None else numpy.concatenate([frames[k].parts.vertices for k in (picked[0], picked[-1])])
     low, high = box_of(None if drawn is None else drawn["places"], corners, None if ground is None else ground.vertices)
+    reach = 0.0 if drawn is None else float(drawn["radius"].max())  # of grains their places alone are in the box
+    low, high = low - reach, high + reach
     middle = 0.5 * (low + high)
     made.need(pages.SPACE)
     data = {"time": made.array("space.time", frames.time[picked]), "middle": middle.tolist(), "names": frames.parts,

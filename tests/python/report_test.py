@@ -329,6 +329,14 @@ class Pages(FolderTest):
         self.same(shown["ground force z checked bar"], force.bar.half_width, "bar")
         self.assertEqual(list((self.folder / "run").glob("*.part")), [])
 
+    def test_one_grain_alone(self):
+        (self.folder / "grain.toml").write_text(
+            'version = 1\n[run]\nduration = 1e-3\ntime_step = 1e-5\n[material.glass]\n[[grain]]\n'
+            'position = [0, 0, 1]\nradius = 0.01\nmaterial = "glass"\n[output]\nplots = false\npicture_width = 64\n')
+        grouser.call(["run", "grain.toml", "--out", "grain"])
+        self.opened("grain")
+        self.assertGreater(self.colours_in_space()[0], 20)
+
     def test_events(self):
         folder = self.folder / "events"
         folder.mkdir()
