@@ -6,7 +6,7 @@ GROUSER_PACKAGES=(
   g++ cmake ninja-build pkg-config git ca-certificates
   libeigen3-dev libassimp-dev libstb-dev libpng-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libthrust-dev
   libcli11-dev libtomlplusplus-dev libfmt-dev nlohmann-json3-dev libgtest-dev
-  fonts-dejavu-core python3 python3-h5py python3-numpy python3-matplotlib)
+  fonts-dejavu-core python3 python3-h5py python3-numpy python3-matplotlib libjs-three libjs-dygraphs)
 
 install_packages() {
   local missing=() package

@@ -47,6 +47,7 @@ void addStudy(CLI::App& app, const Invocation& invocation);
 void addSoil(CLI::App& app, const Invocation& invocation);
 void addRender(CLI::App& app, const Invocation& invocation);
 void addSinkage(CLI::App& app, const Invocation& invocation);
+void addReport(CLI::App& app, const Invocation& invocation);
 void addSpheres(CLI::App& app, const Invocation& invocation);
 void addFields(CLI::App& app, const Invocation& invocation);
 void addSoils(CLI::App& app, const Invocation& invocation);

@@ -12,6 +12,7 @@ std::vector<CommandEntry> allCommands() {
           {"study", addStudy, RankUse::refused},
           {"soil", addSoil, RankUse::refused, "; --jobs lets several tests go at the same time"},
           {"render", addRender, RankUse::shared},
+          {"report", addReport},
           {"sinkage", addSinkage},
           {"plan", addPlan},
           {"spheres", addSpheres},

@@ -101,6 +101,7 @@ void runCommand(const RunCommand& command) {
   options.force = command.force, options.hash = command.hash, options.steps = command.steps;
   options.cache = command.cache;
   options.commandLine = command.commandLine;
+  options.switches = switchesText(scene);
   options.ranks = command.ranks;
   if (command.resume)
     chooseCheckpoint(command, options);

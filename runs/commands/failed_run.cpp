@@ -33,7 +33,10 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message) co
   output::RunWriter::Options options;
   options.force = options_.force;
   options.frames = bed && output_.frames;
-  options.metadata = {{"command_line", options_.commandLine}, {"device", device_}, {"phase", "settling"}};
+  options.metadata = {{"command_line", options_.commandLine},
+                      {"device", device_},
+                      {"phase", "settling"},
+                      {"switches", options_.switches}};
   output::RunWriter writer(options_.folder, provenance_, {}, options);
   writer.abandon(message); // first of all, should the rest fail
   if (!bed) return;
@@ -43,7 +46,7 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message) co
   writer.setParts({}, ground_);
   writer.frame(frame);
   if (output_.picture)
-    render::writePng(render::drawFrame(frame, {}, {}, output_.pictureWidth), options_.folder / "picture.png");
+    render::writePng(render::drawLabelledFrame(frame, {}, {}, output_.pictureWidth), options_.folder / "picture.png");
   writer.abandon(message); // with all files
 }
 

@@ -124,12 +124,14 @@ std::string bedLines(const scene::Terrain* t) {
   return text;
 }
 
-std::string switches(const scene::Scene& scene) {
+} // namespace
+
+std::string switchesText(const scene::Scene& scene) {
   const scene::Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
   const setup::GrainKinds kinds = setup::grainKinds(scene);
   const bool bed = t && t->granular(), grains = kinds.any();
-  std::string text = "switched on and off\n";
-  text += onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
+  std::string text =
+      onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
   if (grains) {
     const unsigned features = setup::grainFeatures(scene, kinds);
     const auto has = [&](unsigned feature) { return (features & feature) != 0; };
@@ -181,11 +183,9 @@ std::string switches(const scene::Scene& scene) {
   return text;
 }
 
-} // namespace
-
 std::string planText(const scene::Scene& scene, const forecast::CountedGrains* counted) {
   setup::checkRestitutions(scene);
-  std::string text = fmt::format("{}\n\n{}\nsize\n", scene.file.string(), switches(scene));
+  std::string text = fmt::format("{}\n\nswitched on and off\n{}\nsize\n", scene.file.string(), switchesText(scene));
   const std::int64_t grains = counted ? counted->grains : setup::plannedGrains(scene);
   const std::string doubt = counted && !counted->exact ? fmt::format(" ({})", counted->doubt) : "";
   text += fmt::format("  {:<24} {}{}\n", "grains", grains, doubt);

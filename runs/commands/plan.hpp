@@ -13,6 +13,10 @@ namespace grouser::commands {
 /// `counted`: its grains, where they have been counted; null: about as many as their volume tells.
 std::string planText(const scene::Scene& scene, const forecast::CountedGrains* counted = nullptr);
 
+/// What the scene switches on and leaves out, a line each: two spaces, "on" or "off", in columns 7 to 32 what, from 34
+/// on why or how. A line without either word tells more of the one before.
+std::string switchesText(const scene::Scene& scene);
+
 /// A part of it: every pair of materials that can meet, with the values that act between them, and a note where a value
 /// of one material does nothing. Empty where nothing can touch.
 std::string pairsText(const scene::Scene& scene);

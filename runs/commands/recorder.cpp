@@ -107,7 +107,8 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   w.force = options.force;
   w.frames = frames;
   w.comm = options.comm();
-  w.metadata = {{"command_line", options.commandLine}, {"device", base::describe(exec)}};
+  w.metadata = {
+      {"command_line", options.commandLine}, {"device", base::describe(exec)}, {"switches", options.switches}};
   if (!w.comm.alone()) w.metadata["ranks"] = std::to_string(w.comm.size());
   if (!former) return w;
   const std::int64_t step = former->state.steps;
@@ -271,7 +272,7 @@ void Recorder::picture(int width) {
   const output::Frame whole = gathered(currentFrame(), simulation_.comm());
   if (!simulation_.comm().first()) return;
   render::writePng(
-      render::drawFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
+      render::drawLabelledFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
       writer_.folder() / "picture.png");
 }
 

@@ -18,6 +18,7 @@ struct RunRequest {
   bool hash = false;                           ///< take the state hash at the end
   std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
   std::string commandLine;                     ///< for the manifest
+  std::string switches;                        ///< for the manifest: switchesText() of the scene
   bool cache = true;                           ///< take beds and parts' spheres from earlier runs, and keep them
   const base::Ranks* ranks = nullptr;          ///< that run the scene together; null: this program alone
 

@@ -27,10 +27,7 @@ bool draw(const std::string& name, const std::vector<std::string>& arguments, st
         fmt::format("no plots: {} is missing; set GROUSER_SHARE to the folder that holds runs/plots", script.string());
     return false;
   }
-  std::vector<std::string> words = {kPython, script.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const support::CallOutcome outcome = support::callProgram(words);
-  constexpr int kMissingPackage = 3; // what the scripts end with
+  const support::CallOutcome outcome = callPython(script, arguments);
   if (outcome.status == 127 || outcome.status == -1)
     warning = fmt::format("no plots: {} is missing; install python3, python3-matplotlib and python3-h5py", kPython);
   else if (outcome.status != 0)
@@ -67,10 +64,14 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
     fmt::print("plot      {}\n", file.string());
 }
 
+support::CallOutcome callPython(const std::filesystem::path& script, const std::vector<std::string>& words) {
+  std::vector<std::string> all = {kPython, script.string()};
+  all.insert(all.end(), words.begin(), words.end());
+  return support::callProgram(all);
+}
+
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& arguments, std::string& warning) {
-  std::vector<std::string> words = {kPython, script.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const support::CallOutcome outcome = support::callProgram(words);
+  const support::CallOutcome outcome = callPython(script, arguments);
   if (outcome.status != 0) warning = fmt::format("{} {}: {}", kPython, script.string(), lastLine(outcome.output));
   return outcome.status == 0;
 }

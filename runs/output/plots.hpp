@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/support/program_call.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,6 +23,11 @@ std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& result
 /// stderr a warning where it could not be drawn. Nothing is said where there is nothing to draw.
 void drawPicture(const std::string& script, const std::vector<std::filesystem::path>& inputs,
                  const std::filesystem::path& file);
+
+/// Runs a Python script with these words and waits for it. The scripts in share end with kMissingPackage where
+/// something is not installed, and say what on their last line.
+support::CallOutcome callPython(const std::filesystem::path& script, const std::vector<std::string>& words);
+inline constexpr int kMissingPackage = 3;
 
 /// Runs a Python script with these words. False, with a `warning`, where it does not end well.
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& words, std::string& warning);

@@ -147,6 +147,24 @@ void drawScale(Image& image, const Font& font, const std::string& title, double 
   }
 }
 
+void drawLength(Image& image, const Font& font, double perMetre) {
+  const double size = textSize(image), most = image.width / 6.0 / perMetre;
+  double length = std::pow(10, std::floor(std::log10(most)));
+  for (const double step : {5.0, 2.0})
+    if (step * length <= most) {
+      length *= step;
+      break;
+    }
+  const std::string text = fmt::format("{:g} m", length);
+  const double bar = length * perMetre, inner = std::max(bar, font.width(text, size));
+  const double bottom = image.height - size, top = bottom - 2.4 * size, x = 1.5 * size;
+  panel(image, size, top, 2 * size + inner, bottom, 0.4 * size);
+  font.draw(image, x, top + 1.05 * size, size, text);
+  const double y = bottom - 0.7 * size, thick = std::max(2.0, size / 8);
+  line(image, x, y, x + bar, y + thick);
+  for (const double end : {x, x + bar - thick}) line(image, end, y - 0.3 * size, end + thick, y + 0.3 * size + thick);
+}
+
 void drawLegend(Image& image, const Font& font, const std::string& title,
                 const std::vector<std::pair<Colour, std::string>>& entries) {
   const double size = textSize(image), pitch = 1.5 * size;

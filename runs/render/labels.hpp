@@ -39,6 +39,9 @@ void drawCaption(Image& image, const Font& font, const std::string& text);
 void drawScale(Image& image, const Font& font, const std::string& title, double bottom, double top,
                const std::vector<Colour>& colours);
 
+/// A bar of a round length in the lower left corner, about a sixth of the picture wide. `perMetre`: pixels.
+void drawLength(Image& image, const Font& font, double perMetre);
+
 /// Colours and what they stand for, in the upper right corner.
 void drawLegend(Image& image, const Font& font, const std::string& title,
                 const std::vector<std::pair<Colour, std::string>>& entries);

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/render/picture.hpp"
 
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/render/labels.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace grouser::render {
 
@@ -13,6 +20,7 @@ constexpr double kAzimuth = -55;      ///< [deg] of the camera
 constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
 constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
 constexpr double kAspect = 16.0 / 9;
+constexpr int kScaleColours = 256;
 
 struct Box {
   Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -45,14 +53,14 @@ Colour partColour(output::PartKind kind) {
 
 namespace {
 
-/// Heights between which the colours run: all but the lowest and highest hundredth, so that a thrown grain does not
-/// wash out the rest.
-std::pair<float, float> heightRange(const output::Frame& frame) {
+/// The lowest height of the colours, and how far they run: over all but the lowest and highest hundredth, so that a
+/// thrown grain does not wash out the rest.
+std::pair<float, float> heightScale(const output::Frame& frame) {
   std::vector<float> heights;
   for (const base::Vec3f& p : frame.positions) heights.push_back(p.z);
   std::sort(heights.begin(), heights.end());
   const std::size_t cut = heights.size() / 100;
-  return {heights[cut], heights[heights.size() - 1 - cut]};
+  return {heights[cut], std::max(heights[heights.size() - 1 - cut] - heights[cut], frame.radii.front())};
 }
 
 } // namespace
@@ -88,13 +96,19 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
   return cameraTowards(box.middle(), std::max(1e-3, box.radius()) * kVehicleTight, azimuth, elevation, aspect);
 }
 
-Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
-                const base::TriangleMesh& ground, int width) {
+namespace {
+
+struct Drawn {
+  Image image;
+  Camera camera;
+};
+
+Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& parts, const base::TriangleMesh& ground,
+            int width) {
   RenderScene scene;
   std::vector<base::Vec3f> vehicle, surfaces;
   if (!frame.positions.empty()) {
-    const auto [low, high] = heightRange(frame);
-    const float range = std::max(high - low, frame.radii.front());
+    const auto [low, range] = heightScale(frame);
     for (std::size_t i = 0; i < frame.positions.size(); ++i) {
       const base::Vec3f& p = frame.positions[i];
       scene.spheres.push_back({p, frame.radii[i], heightColour((p.z - low) / range)});
@@ -108,17 +122,46 @@ Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>
       (surface ? surfaces : vehicle).push_back(frame.partPoses[i].toWorld(v).as<float>());
   }
   if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, groundColour()});
-  const int height = std::max(1, width * 9 / 16);
-  if (!vehicle.empty())
-    return render(scene,
-                  cameraOnParts(vehicle, kAzimuth, liesFlat(vehicle) ? kFlatElevation : kVehicleElevation, kAspect),
-                  width, height);
+  Camera camera;
   std::vector<Ball> seen;
-  if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
-  for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});
-  for (const base::Vec3f& v : surfaces) seen.push_back({v.as<double>(), 0});
-  if (seen.empty()) return render(scene, {}, width, height);
-  return render(scene, cameraAround(seen, kAzimuth, kBedElevation, kAspect), width, height);
+  if (!vehicle.empty()) {
+    camera = cameraOnParts(vehicle, kAzimuth, liesFlat(vehicle) ? kFlatElevation : kVehicleElevation, kAspect);
+  } else {
+    if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
+    for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});
+    for (const base::Vec3f& v : surfaces) seen.push_back({v.as<double>(), 0});
+    if (!seen.empty()) camera = cameraAround(seen, kAzimuth, kBedElevation, kAspect);
+  }
+  return {render(scene, camera, width, std::max(1, width * 9 / 16)), camera};
+}
+
+} // namespace
+
+Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
+                const base::TriangleMesh& ground, int width) {
+  return drawn(frame, parts, ground, width).image;
+}
+
+Image drawLabelledFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
+                        const base::TriangleMesh& ground, int width) {
+  auto [image, camera] = drawn(frame, parts, ground, width);
+  if (width < kNarrowestLabelled) return image;
+  try {
+    const Font font;
+    drawCaption(image, font, fmt::format("t = {:.4g} s", frame.time));
+    if (!frame.positions.empty()) {
+      const auto [low, range] = heightScale(frame);
+      std::vector<Colour> colours;
+      for (int i = 0; i < kScaleColours; ++i)
+        colours.push_back(heightColour(static_cast<float>(i) / static_cast<float>(kScaleColours - 1)));
+      drawScale(image, font, "grains: z [m]", double{low}, double{low + range}, colours);
+    }
+    const double distance = norm(camera.eye - camera.target);
+    drawLength(image, font, image.height / (2 * distance * base::tan(0.5 * camera.fieldOfView * base::kPi / 180)));
+  } catch (const base::InputError&) {
+    // Without the letters' file there are no labels: a run does not fail for them.
+  }
+  return image;
 }
 
 } // namespace grouser::render

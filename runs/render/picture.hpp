@@ -29,4 +29,11 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
                 const base::TriangleMesh& ground, int width);
 
+/// The same with its time, the scale of the grains' heights, and a bar of a round length as it is seen at the distance
+/// of what the camera looks at. Pictures narrower than kNarrowestLabelled have none of it, nor where the font is
+/// missing.
+Image drawLabelledFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
+                        const base::TriangleMesh& ground, int width);
+inline constexpr int kNarrowestLabelled = 480; // [pixels]
+
 } // namespace grouser::render

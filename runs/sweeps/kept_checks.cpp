@@ -142,6 +142,11 @@ std::string checkNote(const scene::Scene& scene, const std::string& inputs, doub
                      support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck)));
 }
 
+std::string keptCheckText(const scene::Scene& scene, const std::string& inputs) {
+  const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
+  return kept.is_object() ? kept.dump() : "";
+}
+
 void checkFolderOfCheck(const fs::path& folder) {
   const nlohmann::json json = readJson(folder / kCheckFile);
   if (json.is_object() && json.contains("origin") && json.contains("figures")) return;

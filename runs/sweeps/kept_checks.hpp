@@ -23,6 +23,10 @@ void keepCheck(const std::string& origin, const std::string& json, int runs, con
 /// their bars where it has been checked, else how long `grouser check` would take. Whole lines.
 std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds);
 
+/// The check that is kept of this scene with these inputs, as JSON: check.json as `check`, its folder as `folder`.
+/// Empty where it has not been checked.
+std::string keptCheckText(const scene::Scene& scene, const std::string& inputs);
+
 /// Throws InputError where the folder holds files of other origin in the places of a check's.
 void checkFolderOfCheck(const std::filesystem::path& folder);
 

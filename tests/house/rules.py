@@ -36,8 +36,8 @@ MAX_PUBLIC_FUNCTIONS = 25
 MAX_PROSE_COLUMNS = 120
 
 SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
-SCRIPTS = {'.py', '.sh', '.cmake'}  # and CMakeLists.txt, and what begins with #!
-OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj'}
+SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and what begins with #!
+OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html'}
 TOPS = [*LIBRARIES, 'runs', 'tests', 'docs', 'cmake', 'python']
 # Beside the tops a checkout may hold results, but nothing that one would compile or run.
 STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp', '.tpp', '.cl', '.hip', '.f90', '.rs'}

@@ -26,7 +26,7 @@ std::string withoutEscapes(const std::string& roff) { return std::regex_replace(
 
 TEST_F(Manual, PagesHaveEveryOptionOfHelpAndNoMore) {
   const std::set<std::string> none;
-  for (const std::string command : {"run", "sweep", "check", "plan", "soil", "render", "fields", "manual"}) {
+  for (const std::string command : {"run", "sweep", "check", "plan", "soil", "render", "report", "fields", "manual"}) {
     const std::string help = call(command + " --help").out;
     const Outcome page = call("manual " + command);
     EXPECT_EQ(page.code, 0) << page.errors;

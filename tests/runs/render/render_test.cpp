@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "runs/render/labels.hpp"
 #include "runs/render/picture.hpp"
 #include "runs/render/render.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <omp.h>
@@ -119,6 +121,60 @@ TEST(Render, ColourMapRunsFromDarkToLight) {
     const float luminance = 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
     EXPECT_GT(luminance, last);
     last = luminance;
+  }
+}
+
+TEST(Picture, LabelsStandOnWidePicturesAlone) {
+  output::Frame frame;
+  for (int i = 0; i < 100; ++i)
+    frame.positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10), 0.001f * float(i)}),
+        frame.radii.push_back(0.05f);
+  const int narrow = kNarrowestLabelled - 1, wide = 960;
+  EXPECT_EQ(drawLabelledFrame(frame, {}, {}, narrow).rgb, drawFrame(frame, {}, {}, narrow).rgb);
+  const Image plain = drawFrame(frame, {}, {}, wide), labelled = drawLabelledFrame(frame, {}, {}, wide);
+  // Of the pixels that differ: time in the upper left corner, colours in the upper right one, the bar below on the
+  // left.
+  int upperLeft = 0, upperRight = 0, lowerLeft = 0, elsewhere = 0;
+  for (int y = 0; y < plain.height; ++y)
+    for (int x = 0; x < plain.width; ++x) {
+      const auto at = 3 * static_cast<std::size_t>(y * plain.width + x);
+      if (std::equal(&plain.rgb[at], &plain.rgb[at] + 3, &labelled.rgb[at])) continue;
+      const bool left = x<plain.width / 3, right = x> plain.width * 2 / 3;
+      if (left && y < plain.height / 5)
+        ++upperLeft;
+      else if (right && y < plain.height * 3 / 5)
+        ++upperRight;
+      else if (left && y > plain.height * 4 / 5)
+        ++lowerLeft;
+      else
+        ++elsewhere;
+    }
+  EXPECT_GT(upperLeft, 500);
+  EXPECT_GT(upperRight, 5000);
+  EXPECT_GT(lowerLeft, 500);
+  EXPECT_EQ(elsewhere, 0);
+}
+
+TEST(Labels, ABarOfARoundLengthIsAsLongAsItSays) {
+  for (const double perMetre : {7.0, 100.0, 260.0, 3000.0}) {
+    Image image;
+    image.width = 960, image.height = 540;
+    image.rgb.assign(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), 128);
+    const Font font;
+    drawLength(image, font, perMetre);
+    // The longest dark row is the bar.
+    int longest = 0;
+    for (int y = 0; y < image.height; ++y) {
+      int dark = 0;
+      for (int x = 0; x < image.width; ++x)
+        dark += image.rgb[3 * static_cast<std::size_t>(y * image.width + x)] < 60 ? 1 : 0;
+      longest = std::max(longest, dark);
+    }
+    const double metres = longest / perMetre, digits = metres / std::pow(10, std::floor(std::log10(metres) + 1e-2));
+    const double nearest = digits < 1.5 ? 1 : digits < 3.5 ? 2 : 5;
+    const double pixel = 2 / static_cast<double>(longest); // both ends are whole pixels
+    EXPECT_NEAR(digits / nearest, 1, pixel) << perMetre;
+    EXPECT_LE(longest, image.width / 6 + 1);
   }
 }
 

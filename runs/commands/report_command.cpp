@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/report_command.hpp"
+
+#include "base/error.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/support/locations.hpp"
+#include "runs/support/text_file.hpp"
+#include "runs/sweeps/run_figures.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace grouser::commands {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A file for what the program has to tell the scripts; gone with this.
+class PassedFile {
+public:
+  explicit PassedFile(const std::string& text)
+      : path_(fs::temp_directory_path() / fmt::format("grouser_report_{}.json", getpid())) {
+    support::replaceTextFile(path_, text);
+  }
+  ~PassedFile() {
+    std::error_code error;
+    fs::remove(path_, error);
+  }
+  PassedFile(const PassedFile&) = delete;
+  PassedFile& operator=(const PassedFile&) = delete;
+  std::string name() const { return path_.string(); }
+
+private:
+  fs::path path_;
+};
+
+std::string lastLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+void checkPlaces(const ReportCommand& command, const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_directory(command.folder, error))
+    throw base::InputError(
+        fmt::format("{}: is no folder; name that of a run, a sweep, a check or a soil's tests", command.folder));
+  if (fs::is_directory(file, error))
+    throw base::InputError(fmt::format("--out {}: is a folder; name a file", file.string()));
+  if (!command.force && fs::exists(file, error))
+    throw base::InputError(fmt::format("{}: is there already; overwrite it with --force, or name another file with "
+                                       "--out",
+                                       file.string()));
+  if (!command.film.empty() && !fs::is_regular_file(command.film, error))
+    throw base::InputError(fmt::format("--film {}: there is no such file", command.film));
+}
+
+} // namespace
+
+void reportCommand(const ReportCommand& command) {
+  const fs::path folder = command.folder;
+  const fs::path file = command.file.empty() ? folder / "report.html" : fs::path(command.file);
+  checkPlaces(command, file);
+  const fs::path script = support::shareFolder() / "runs" / "report" / "report.py";
+  std::error_code missing;
+  if (!fs::exists(script, missing))
+    throw base::InputError(
+        fmt::format("{} is missing; set GROUSER_SHARE to the folder that holds runs/report", script.string()));
+  const PassedFile figures(fs::exists(folder / "results.h5", missing) ? sweeps::runFiguresText(folder) : "{}");
+  std::vector<std::string> words = {folder.string(), file.string(),
+                                    "--figures",     figures.name(),
+                                    "--frames",      std::to_string(command.frames),
+                                    "--grains",      std::to_string(command.grains),
+                                    "--program",     fs::read_symlink("/proc/self/exe").string()};
+  if (!command.film.empty()) words.insert(words.end(), {"--film", command.film});
+  const support::CallOutcome outcome = output::callPython(script, words);
+  constexpr int kWrongInput = 2, kNotWritten = 4, kNoProgram = 127;
+  if (outcome.status == kWrongInput || outcome.status == output::kMissingPackage)
+    throw base::InputError(lastLine(outcome.output));
+  if (outcome.status == kNoProgram)
+    throw base::InputError("a report needs Python; install python3, python3-numpy and python3-h5py");
+  if (outcome.status == kNotWritten) throw std::runtime_error(lastLine(outcome.output));
+  if (outcome.status != 0) throw std::logic_error(fmt::format("{}: {}", script.string(), lastLine(outcome.output)));
+  fmt::print("{}", outcome.output);
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report of a check: figures with their bars, what makes them, series with bands, what each case cost."""
+import math
+
+import numpy
+
+import grouser
+import page as pages
+import run_page
+from page import esc, facts, folded, number, table, with_bar
+
+MOST_FIGURES = 24  # headline figures first; more are folded
+
+
+def known(half):
+    return half if math.isfinite(half) else None
+
+
+def axis_words(error):
+    order = f", order {error.order:.1f}" if math.isfinite(error.order) else ""
+    return (f'{with_bar(error.change.value, known(error.change.half_width), "", f"{error.change.name} {error.axis}")}<br>'
+            f'<em>{esc(error.verdict)}</em>{order}')
+
+
+def figures(check):
+    axes = list(dict.fromkeys(axis for figure in check for axis in figure.errors))
+    headline = {grouser.series.split_unit(f["name"])[0] for f in check.json["figures"] if f.get("headline", True)}
+    rows = [(figure.name in headline, [
+        esc(figure.name), with_bar(figure.bar.value, known(figure.bar.half_width), "", figure.name),
+        esc(figure.bar.unit), f"\u00b1 {number(known(figure.by_seeds.half_width), '', figure.name + ' seeds', 2)}",
+        str(figure.seeds), *(axis_words(figure.errors[a]) if a in figure.errors else "not run" for a in axes)])
+        for figure in check]
+    headings = ["figure", "value and 95 % bar", "unit", "by seeds", "seeds", *(a.replace("_", " ") for a in axes)]
+    words = (f"The bar is of all that was run. Behind it what each axis changes, with half of its 95 % interval, and "
+             f"whether that is within {number(check.json.get('bar_percent'))} % of the value.")
+    first = [row for is_headline, row in rows if is_headline][:MOST_FIGURES]
+    rest = [row for _, row in rows if row not in first]
+    inner = table(headings, first or rest, words, numeric=(1, 3, 4))
+    return inner + (folded(f"{len(rest)} more figures", table(headings, rest, numeric=(1, 3, 4)))
+                    if first and rest else "")
+
+
+def shares(made, check):
+    """Bars in percent of the values, by cause."""
+    found = [f for f in check if f.bar.value and math.isfinite(f.bar.value)][:MOST_FIGURES]
+    if not found:
+        return ""
+    def percent(figure, half):
+        return 100 * half / abs(figure.bar.value) if math.isfinite(half) else math.nan
+    rows = []
+    for figure in found:
+        parts = [("seeds", percent(figure, figure.by_seeds.half_width))]
+        parts += [(axis, percent(figure, abs(e.change.value) + e.change.half_width)) for axis, e in figure.errors.items()]
+        parts = [(name, value) for name, value in parts if math.isfinite(value)]
+        if not parts:
+            continue
+        name, most = max(parts, key=lambda part: part[1])
+        total = percent(figure, figure.bar.half_width)
+        rows.append([esc(figure.name), number(total, digits=3), f"{esc(name.replace('_', ' '))} ({number(most, digits=3)} %)"])
+    return table(["figure", "bar [% of the value]", "largest part of it"], rows, numeric=(1,))
+
+
+def bands(made, check):
+    """The series with bars that matter: those of a vehicle and the ledger first."""
+    if not (check.folder / "series.csv").is_file() or not check.series:
+        return ""
+    wanted = ("vehicle.position.x", "vehicle.position.z", "vehicle.velocity.x", "vehicle.left.speed",
+              "vehicle.left.slip", "vehicle.left.drive_torque", "vehicle.gross_traction", "ledger.drive_work",
+              "ledger.integration_error")
+    names = [n for n in wanted if n in check.series] or list(check.series)[:8]
+    inner = []
+    for name in names:
+        s = check.series[name]
+        there = numpy.isfinite(s.value)
+        if not there.any() or not numpy.any(s.value[there]):
+            continue
+        rows, note = pages.thinned(len(s.time))
+        rows = rows[there[rows]]
+        half = numpy.where(numpy.isfinite(s.bar), s.bar, 0.0)
+        ends = numpy.concatenate([s.value[rows] - half[rows], s.value[rows] + half[rows]])
+        low, high = numpy.quantile(ends, (0.01, 0.99))
+        reach = 0.3 * (high - low)
+        more, cut = run_page.within([(name, ends, s)], low - reach, high + reach)
+        inner.append(made.plot(name, "time [s]", f"{name.rpartition('.')[2].replace('_', ' ')} [{s.unit}]",
+                               [(name, s.time[rows], s.value[rows], half[rows])],
+                               f"Band: seeds and step together, 95 %.{cut}{note}", **more))
+    return f'<div class="plots">{"".join(inner)}</div>'
+
+
+def costs(made, check):
+    if not (check.folder / "costs.json").is_file():
+        return ""
+    cost = check.costs
+    rows = []
+    for case in check.json["cases"]:
+        c = cost.get(case["name"], {})
+        rows.append([esc(case["name"].replace("_", " ")), esc(case["what"]), esc(case["status"]),
+                     number(c.get("wall_s"), "", f"{case['name']} wall"), number(c.get("cpu_s"), "", f"{case['name']} cpu"),
+                     number(c.get("steps")), esc("; ".join(case["overrides"])), esc(case.get("message", ""))])
+    inner = table(["case", "what", "status", "wall time [s]", "CPU time [s]", "steps", "keys changed", "message"], rows,
+                  "Medians of one run of each case.", numeric=(3, 4, 5))
+    return inner + error_over_time(made, check, cost)
+
+
+def error_over_time(made, check, cost):
+    """Error bar of the step over the wall time, a curve a figure."""
+    drawn = []
+    for one in check.json["figures"]:
+        value = one["value"]
+        points = sorted((cost[name]["wall_s"], 100 * abs(bar / value)) for name, bar in
+                        zip(check.json.get("step_cases", []), one.get("bar_of_step", []))
+                        if bar and value and cost.get(name, {}).get("wall_s"))
+        if len(points) > 1 and len(drawn) < 7:
+            drawn.append((grouser.series.split_unit(one["name"])[0], *map(list, zip(*points))))
+    return made.plot("Error over run time", "wall time of a run [s]", "error bar of the step [% of the value]", drawn,
+                     "A point for each step that was run.", log="xy") if drawn else ""
+
+
+def machine_of(check):
+    file = check.folder / "costs.json"
+    return grouser.check.read_json(file, "costs of a check").get("machine", "") if file.is_file() else ""
+
+
+def provenance(check):
+    j, program = check.json, check.json.get("program", {})
+    seeds = sorted({run["seed"] for case in j["cases"] for run in case["runs"]})
+    return facts([("scene", f"<code>{esc(j.get('scene', ''))}</code>"),
+                  ("overridden", ", ".join(f"<code>{esc(o)}</code>" for o in j.get("overrides", []))),
+                  ("program", f"grouser {esc(program.get('version', ''))}, commit "
+                              f"<code>{esc(program.get('commit', ''))}</code>"),
+                  ("machine", esc(machine_of(check))),
+                  ("seeds", ", ".join(map(str, seeds))), ("origin", f"<code>{esc(j.get('origin', ''))}</code>"),
+                  ("same bits with another skin", esc(str(j.get("skin", "")))),
+                  ("not run", "; ".join(f"{esc(axis.replace('_', ' '))}: {esc(why)}"
+                                        for axis, why in check.not_run.items()))])
+
+
+def page(folder, options):
+    import sweep_page
+    check = grouser.open_check(folder)
+    made = pages.Page(f"{check.folder.resolve().name} (check)", "check", folder)
+    made.section("figures", "Figures and their bars", figures(check))
+    made.section("shares", "What makes the bars", shares(made, check))
+    made.section("plots", "Series with their bars", bands(made, check))
+    made.section("costs", "What it cost", costs(made, check))
+    runs = [folder / path.name for path in sorted(folder.iterdir()) if (path / "manifest.json").is_file()]
+    sweep_page.add_base(made, runs, options)
+    made.section("provenance", "Where it comes from", provenance(check))
+    return made

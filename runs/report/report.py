@@ -1,0 +1,98 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""One page for a browser of all that a run, a sweep, a check or a soil's tests have left in a folder:
+
+    report.py FOLDER PAGE.html [--figures FILE.json] [--frames N] [--grains N] [--film FILE] [--program FILE]
+
+`grouser report` calls it, and gives in FILE.json what it computes itself of a run (runs/sweeps/run_figures), and its own file. Exit
+status: 0; 2 where the folder holds no results or damaged ones; 3 where a package is missing, 4 where the page cannot be
+written; the last line then says what.
+"""
+import argparse
+import json
+import os
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+# The Python package: of the checkout, beside the installed program, or where Debian's Python has it.
+sys.path[1:1] = [str(HERE.parent / "plots"), str(HERE.parents[1] / "python"),
+                 str(HERE.parents[1].parent.parent / "lib/python3/dist-packages")]
+sys.dont_write_bytecode = True
+import packages
+
+WRONG, NOT_WRITTEN = 2, 4
+KINDS = (("check.json", "check"), ("events.json", "series of events"), ("soil.json", "soil's tests"),
+         ("summary.csv", "sweep"), ("results.h5", "run"))
+
+
+def kind_of(folder):
+    """What a folder holds, by the file that says so; nothing where there is none of them."""
+    return next((kind for file, kind in KINDS if (folder / file).is_file()), None)
+
+
+def contents(folder, kind, options):
+    import check_page
+    import events_page
+    import run_page
+    import soil_page
+    import sweep_page
+    write = {"check": check_page.page, "soil's tests": soil_page.page, "sweep": sweep_page.page, "run": run_page.page,
+             "series of events": events_page.page}
+    return write[kind](folder, options)
+
+
+def end(status, message):
+    print(message)
+    sys.exit(status)
+
+
+def put(text, file):
+    """Writes the page under another name and renames it: whoever opens it finds it whole."""
+    fresh = file.with_name(file.name + ".part")
+    try:
+        fresh.write_text(text, encoding="utf-8")
+        os.replace(fresh, file)
+    except OSError as error:
+        fresh.unlink(missing_ok=True)
+        end(NOT_WRITTEN, f"{file}: cannot be written: {error.strerror}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("page", type=Path)
+    parser.add_argument("--figures", type=Path)
+    parser.add_argument("--film", type=Path)
+    parser.add_argument("--program")
+    parser.add_argument("--frames", type=int, default=60)
+    parser.add_argument("--grains", type=int, default=40000)
+    options = parser.parse_args()
+    packages.require("numpy", "h5py")
+    try:
+        import grouser
+    except ImportError:
+        end(packages.MISSING, "the Python package grouser is missing, which the program is installed with; set "
+                              "PYTHONPATH to the folder that it lies in")
+    kind = kind_of(options.folder)
+    if kind is None:
+        names = ", ".join(file for file, _ in KINDS)
+        end(WRONG, f"{options.folder}: holds no results; a folder of a run, a sweep, a check or a soil's tests has one "
+                   f"of {names}")
+    try:
+        options.figures = json.loads(options.figures.read_text(encoding="utf-8")) if options.figures else {}
+        made = contents(options.folder, kind, options)
+    except grouser.FileError as error:
+        end(WRONG, str(error).replace("\n", " "))
+    except FileNotFoundError as error:
+        end(packages.MISSING if "javascript" in str(error.filename) else WRONG, f"{error.filename}: {error.strerror}")
+    except (OSError, KeyError, ValueError, RuntimeError, IndexError) as error:
+        words = " ".join(str(error).split())
+        end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version: {words}")
+    text = made.html()
+    put(text, options.page)
+    print(f"report    {options.page}, {len(text.encode()) / 1e6:.1f} MB; open it in a browser")
+
+
+if __name__ == "__main__":
+    main()

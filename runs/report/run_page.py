@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report of one run."""
+import base64
+import math
+import re
+
+import numpy
+
+import grouser
+import page as pages
+import space
+from page import esc, exact, facts, folded, number, table, with_bar
+
+LARGEST_FILM = 4e6  # bytes that lie in the page; larger ones stay beside it
+FILMS = {".mp4": "video/mp4", ".webm": "video/webm", ".mov": "video/mp4"}
+
+# Plots of what a run has: title, label of y, names of series. SIDE: left and right.
+CURVES = (
+    ("Speed of the hull at each track", "speed [m/s]", ["vehicle.SIDE.speed"]),
+    ("Slip", "slip [-]", ["vehicle.SIDE.slip", "vehicle.SIDE.tooth_slip"]),
+    ("Drive torque", "torque [N m]", ["vehicle.SIDE.drive_torque"]),
+    ("Traction and resistance", "force [N]",
+     ["vehicle.gross_traction", "vehicle.drawbar_pull", "vehicle.motion_resistance"]),
+    ("Ground force on the vehicle", "force [N]", ["vehicle.ground_force"]),
+    ("Attitude of the hull", "angle [rad]", ["vehicle.heading", "vehicle.pitch_angle", "vehicle.roll_angle"]),
+    ("Energy ledger", "energy [J]", ["ledger.drive_work", "ledger.kinetic", "ledger.potential", "ledger.elastic",
+                                     "ledger.dissipated", "ledger.integration_error"]),
+    ("What is lost, by cause", "energy [J]", ["ledger.dissipated_damping", "ledger.dissipated_friction",
+                                               "ledger.dissipated_rolling", "ledger.dissipated_parts",
+                                               "ledger.dissipated_joints", "ledger.dissipated_yielding",
+                                               "ledger.dissipated_crushing"]),
+    ("What the length of the steps costs", "energy [J]", ["ledger.integration_error", "ledger.residual"]),
+    ("Pairs of grains in touch", "contacts [-]", ["terrain.contacts"]),
+    ("Largest overlap", "overlap [grain radii]", ["terrain.max_overlap", "terrain.part_overlap"]),
+    ("Squeezed contacts", "contacts [-]", ["terrain.squeezed", "terrain.squeezed_at_boundaries",
+                                          "terrain.squeezed_by_parts"]),
+)
+LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissipated_damping", "dissipated_friction",
+          "dissipated_rolling", "dissipated_yielding", "dissipated_crushing", "dissipated_parts", "dissipated_joints",
+          "integration_error", "residual", "turnover")
+SPREADS = (("Sinkage of the shoes on the ground run", "sinkage [m]", "sinkage"),
+           ("Track tension", "tension [N]", "tension"),
+           ("Ground pressure under the shoes", "pressure [Pa]", "ground_pressure"))
+
+
+def sides(names):
+    return [name.replace("SIDE", side) for name in names for side in (("left", "right") if "SIDE" in name else ("",))]
+
+
+def columns_of(run, name):
+    """[(label, values)] of a series that has a number, or a vector, a row; none of one with a number a shoe."""
+    series = run[name]
+    if series.value.ndim == 1:
+        return [(name, series.value, series)]
+    if series.labels and len(series.labels) == series.value.shape[1]:
+        return [(f"{name}.{label}", series.value[:, k], series) for k, label in enumerate(series.labels)]
+    return []
+
+
+def short(name):
+    return re.sub(r"^(vehicle|ledger|terrain)\.", "", name).replace("_", " ").replace(".", " ")
+
+
+def meanings(columns):
+    """What the curves are: "speed: of the hull at this track; ..."."""
+    told = {}
+    for _, _, series in columns:
+        told.setdefault(re.sub(r"^(left|right) ", "", short(series.name)), series.help)
+    return "; ".join(f"{what}: {help}" for what, help in told.items())
+
+
+def within(columns, low, high):
+    """The range of an axis that leaves out what lies far beyond [low, high], and what to say of it."""
+    values = numpy.concatenate([values[numpy.isfinite(values)] for _, values, _ in columns])
+    if values.min() >= low and values.max() <= high:
+        return {}, ""
+    return {"range": [max(low, values.min()), min(high, values.max())]}, \
+        f" Drawn from {low:g} to {high:g}; it runs from {values.min():.3g} to {values.max():.3g}."
+
+
+def curves(made, run):
+    """The plots of what the run has."""
+    rows, note = pages.thinned(len(run.time))
+    time = run.time[rows]
+    figures = []
+    for title, axis, names in CURVES:
+        found = [column for name in sides(names) if name in run for column in columns_of(run, name)]
+        found = [column for column in found if numpy.isfinite(column[1]).any()]
+        lively = [column for column in found if numpy.nanmax(numpy.abs(column[1])) > 0]
+        if not lively:
+            continue
+        drawn = lively
+        more, cut = within(drawn, -1.0, 1.0) if title == "Slip" else ({}, "")
+        figures.append(made.plot(title, "time [s]", axis,
+                                 [(short(name), time, values[rows]) for name, values, _ in drawn],
+                                 f"{meanings(drawn)}.{cut}{note}", **more))
+    for title, axis, name in SPREADS:
+        drawn = []
+        for side, series in (run.by_shoe(name) if f"vehicle.left.{name}" in run else {}).items():
+            there = numpy.isfinite(series.value).any(axis=1)
+            values = numpy.where(there[:, None], series.value, 0.0)[rows]
+            blank = numpy.where(there, 1.0, numpy.nan)[rows]
+            drawn.append((side, time, numpy.nanmean(values, axis=1) * blank,
+                          numpy.nanmin(values, axis=1) * blank, numpy.nanmax(values, axis=1) * blank))
+        if any(numpy.isfinite(curve[2]).any() for curve in drawn):
+            figures.append(made.plot(title, "time [s]", axis, drawn, f"{series.help}; line: mean over the shoes of a "
+                                     f"track that have one, band: from the least to the largest.{note}"))
+    for group in ("surfaces", "obstacles"):
+        for name in run.names(group + "."):
+            if name.endswith(".force"):
+                figures.append(made.plot(f"Force on {name.split('.')[1]}", "time [s]", "force [N]", [
+                    (label.rpartition(".")[2], time, values[rows]) for label, values, _ in columns_of(run, name)],
+                    run[name].help + "." + note))
+    return f'<div class="plots">{"".join(figures)}</div>' if figures else ""
+
+
+def any_series(made, run):
+    """A plot of whichever column is chosen, and a table of all of them."""
+    rows, note = pages.thinned(len(run.time))
+    if len(run.time) < 2:
+        return ""
+    columns = [column for name in run.names() for column in columns_of(run, name)]
+    listed, options, lines, start = [], [], [], None  # start: the first that changes
+    for k, (name, values, series) in enumerate(columns):
+        array = made.array(f"series.{name}", numpy.asarray(values, dtype=float)[rows])
+        listed.append({"name": name, "array": array, "axis": f"{short(name)} [{series.unit}]", "help": series.help})
+        there = values[numpy.isfinite(values)]
+        if start is None and len(there) and numpy.ptp(there) > 0:
+            start = k
+        options.append(f"<option{' selected' if k == start else ''}>{esc(name)} [{esc(series.unit)}]</option>")
+        marks = [values[0], values[-1], *([there.min(), there.mean(), there.max()] if len(there) else [math.nan] * 3)]
+        lines.append([f"<code>{esc(name)}</code>", esc(series.unit),
+                      *(number(float(mark), "", f"{name} {what}") for mark, what in
+                        zip(marks, ("first", "last", "least", "mean", "largest"))), esc(series.help)])
+    time = made.array("series.time", run.time[rows])
+    shown = listed[start or 0]
+    figure = made.plot("Any series", "time [s]", shown["axis"], [
+        (shown["name"], run.time[rows], numpy.asarray(columns[start or 0][1], dtype=float)[rows])],
+        "Of all columns of timeseries.csv." + note)
+    made.data["explorer"] = {"plot": len(made.data["plots"]) - 1, "time": time, "series": listed}
+    chosen = (f'<div class="controls"><label>Series <select id="any-series">{"".join(options)}</select></label>'
+              f'<span id="any-help">{esc(shown["help"])}</span></div>{figure}')
+    return chosen + folded("All series in numbers", table(
+        ["series", "unit", "first", "last", "least", "mean", "largest", "what it is"], lines,
+        "Over all rows of results.h5; of vectors each component.", numeric=range(2, 7)))
+
+
+def figures(run, options):
+    """Figures of the steady part, with the bars of the last check of this scene where there is one."""
+    told = options.figures
+    check = told.get("check") or {}
+    barred = {figure["name"]: figure for figure in check.get("check", {}).get("figures", [])}
+    rows = []
+    for figure in told.get("figures", []):
+        name, value = figure["name"], figure["value"]
+        plain, unit = grouser.series.split_unit(name)
+        checked = barred.get(name)
+        bar = "none"
+        if checked and checked["bar"] is not None:
+            parts = ", ".join([e["axis"].replace("_", " ") for e in checked["errors"]] + [f"{checked['seeds']} seeds"])
+            bar = f'{with_bar(checked["value"], checked["bar"], "", f"{plain} checked")} ({esc(parts)})'
+        if value is not None or checked:
+            rows.append([esc(plain), number(value, "", plain), esc(unit), *([bar] if check else [])])
+    if not rows:
+        return f'<p>{esc(told["note"])}</p>' if told.get("note") else ""
+    since = told.get("steady_from")
+    words = "Means and extremes" + (f" from {number(since, 's', 'steady from')} on" if since is not None else "") + \
+        ", as the summary of a sweep has them."
+    if check:
+        words += (f" Error bars: of the last check of this scene, in <code>{esc(check['folder'])}</code>, commit "
+                  f"<code>{esc(check['check']['program']['commit'])}</code>, over its own seeds.")
+    else:
+        words += " This scene has not been checked: <code>grouser check</code> finds error bars."
+    headings = ["figure", "this run", "unit", *(["checked value and its 95 % bar"] if check else [])]
+    return table(headings, rows, words, numeric=(1,))
+
+
+def constants(run):
+    rows = []
+    for name, q in run.constants.items():
+        if q.value.shape == () and q.value.dtype.kind in "fiu":
+            rows.append([f"<code>{esc(name)}</code>", number(float(q), "", name), esc(q.unit), esc(q.help)])
+    told = run.manifest.get("figures", {})
+    rows += [[f"<code>{esc(key)}</code>", number(float(value), "", key), "", "of the run, from manifest.json"]
+             for key, value in told.items()]
+    return table(["what", "value", "unit", ""], rows, numeric=(1,)) if rows else ""
+
+
+def ledger(run):
+    """The energy ledger at the end, and whether it closes."""
+    rows = []
+    names = run.names("ledger.")
+    first = [f"ledger.{word}" for word in LEDGER if f"ledger.{word}" in names]
+    for name in first + [name for name in names if name not in first]:
+        series = run[name]
+        if series.value.ndim == 1 and len(series.value):
+            rows.append([esc(short(name)), number(float(series.value[-1]), "", name + " at the end"), esc(series.unit),
+                         esc(series.help)])
+    if not rows:
+        return ""
+    return table(["term", "at the end", "unit", "what it is"], rows, "Changes since the first step of the run. Kinetic, "
+                 "potential, elastic and dissipated energy with the integration error make the work of the drives, to "
+                 "the residual.", numeric=(1,))
+
+
+def switches(manifest):
+    rows = []
+    for line in manifest.get("switches", "").split("\n"):
+        word, what, why = line[2:7].strip(), line[7:33].strip(), line[33:].strip()
+        if len(line) > 33 and line[32:34].strip():  # no column between them
+            what, why = line[7:].strip(), ""
+        if what:
+            rows.append([f'<span class="{word}">{word}</span>' if word else "", esc(what), esc(why)])
+    if not rows:
+        return "<p>The version that ran this did not record it; <code>grouser plan</code> tells it of a scene.</p>"
+    return table(["", "feature", "why, or how"], rows, "A feature that is off is not built, not allocated and not run.")
+
+
+def provenance(run):
+    m, program = run.manifest, run.manifest.get("program", {})
+    inputs = [line.rpartition(" ") for line in m.get("inputs", "").strip().split("\n") if line]
+    rows = [("status", f"<strong>{esc(run.status)}</strong>"), ("message", esc(m.get("message", ""))),
+            ("command", f"<code>{esc(m['command_line'])}</code>" if "command_line" in m else ""),
+            ("scene", f"<code>{esc(m.get('scene', ''))}</code>"),
+            ("overridden", ", ".join(f"<code>{esc(o)}</code>" for o in m.get("overrides", []))),
+            ("seed", number_text(run.scene.get("run", {}).get("seed"))),
+            ("program", esc(" ".join(str(program.get(k, "")) for k in ("name", "version"))) +
+             f", commit <code>{esc(program.get('commit', run.facts.get('commit', '')))}</code>, "
+             f"{esc(program.get('compiler', ''))}{', CUDA ' + esc(program['cuda']) if program.get('cuda') else ''}"),
+            ("machine", esc(m.get("machine", run.facts.get("machine", "")))), ("device", esc(m.get("device", ""))),
+            ("ranks", esc(m.get("ranks", ""))), ("begun", esc(m.get("started", ""))), ("ended", esc(m.get("ended", ""))),
+            ("steps", number_text(m.get("steps"))),
+            ("simulated time", number(m["simulated_time_s"], "s", "simulated_time_s") if "simulated_time_s" in m else ""),
+            ("wall time", number(m["wall_time_s"], "s", "wall_time_s") if "wall_time_s" in m else ""),
+            ("state hash", f"<code>{esc(m['state_hash'])}</code>" if "state_hash" in m else ""),
+            ("input files", ", ".join(f"{esc(what)} <code>{esc(mark)}</code>" for what, _, mark in inputs))]
+    soils = [(f"soil of {material}", f"{esc(use['soil'])}, {esc(use['file'])} <code>{esc(use['hash'])}</code>, grains of "
+              f"{number(use['grain_radius_m'], 'm')}, scaled by {number(use['scale'])}")
+             for material, use in m.get("soils", {}).items()]
+    files = table(["file", "bytes"], [[f"<code>{esc(name)}</code>", str(f["bytes"])]
+                                      for name, f in m.get("files", {}).items()], numeric=(1,))
+    return facts(rows + soils) + folded("Files of the run", files)
+
+
+def number_text(value):
+    return "" if value is None else f'<data value="{exact(value)}">{value:.0f}</data>'
+
+
+def film_of(folder, options):
+    """The film in the page, or where it lies."""
+    file = options.film or next((f for f in sorted(folder.iterdir()) if f.suffix in FILMS), None)
+    if file is None:
+        return ""
+    if not options.film and file.stat().st_size > LARGEST_FILM:
+        return (f"<p>The film <code>{esc(file.name)}</code> beside this page has "
+                f"{file.stat().st_size / 1e6:.0f} MB; <code>--film</code> puts it in.</p>")
+    data = base64.b64encode(file.read_bytes()).decode()
+    kind = FILMS.get(file.suffix, "video/mp4")
+    return (f'<figure><video controls src="data:{kind};base64,{data}"></video><figcaption>{esc(file.name)}'
+            f'</figcaption></figure>')
+
+
+def page(folder, options):
+    run = grouser.open_run(folder)
+    made = pages.Page(f"{run.folder.resolve().name} (run)", "run", folder)
+    failed = ""
+    if run.status != "finished":
+        failed = (f'<p class="bad">This run has not ended well: {esc(run.status)}. '
+                  f'{esc(run.manifest.get("message", ""))}</p>')
+    made.section("figures", "Figures", failed + figures(run, options) + folded("Constants of the run", constants(run)))
+    made.section("space", "In space", space.section(made, run.frames, options))
+    made.section("pictures", "Pictures", pages.pictures([
+        film_of(run.folder, options), pages.picture(run.folder / "picture.png", "The end of the run"),
+        pages.picture(run.folder / "surface.png", "The undisturbed surface, with the way of the vehicle")]))
+    made.section("plots", "Plots", curves(made, run))
+    made.section("ledger", "Energy ledger", ledger(run))
+    made.section("series", "All series", any_series(made, run))
+    made.section("switches", "What was on and off", switches(run.manifest))
+    made.section("scene", "Scene", folded("The resolved scene: every key with its value",
+                                          f'<pre>{esc(pages_text(run))}</pre>'))
+    made.section("provenance", "Where it comes from", provenance(run))
+    return made
+
+
+def pages_text(run):
+    file = run.folder / "scene.toml"
+    return file.read_text(encoding="utf-8") if file.is_file() else ""

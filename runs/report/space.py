@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Grains and parts of a run over time, as the 3-D view takes them: fewer frames and grains where there are many,
+places as 16-bit numbers, shapes of parts once."""
+import numpy
+
+import grouser
+import page as pages
+
+PLACES = 12e6  # places of grains in all frames together, at most: they are the bulk of a page
+CODES = 65535  # of a coordinate: the last one stands for grains that are not there
+
+
+def chosen_frames(count, most):
+    return numpy.unique(numpy.linspace(0, count - 1, min(count, most)).round().astype(int))
+
+
+def at_surface(position, radius):
+    """[n] Whether each grain is near the top of its column of two diameters' width, or at a side of the bed."""
+    width = 4 * float(numpy.median(radius))
+    low, high = position.min(axis=0), position.max(axis=0)
+    cell = numpy.floor((position[:, :2] - low[:2]) / width).astype(int)
+    columns = cell[:, 0] * (cell[:, 1].max() + 1) + cell[:, 1]
+    top = numpy.full(columns.max() + 1, -numpy.inf)
+    numpy.maximum.at(top, columns, position[:, 2])
+    side = ((position[:, :2] < low[:2] + width / 2) | (position[:, :2] > high[:2] - width / 2)).any(axis=1)
+    return (position[:, 2] > top[columns] - width / 2) | side
+
+
+def chosen_grains(first, last, most):
+    """The ids that are drawn: those at the surface in the first frame and all that came later, then those that moved
+    most."""
+    ids = numpy.union1d(first.id, last.id)
+    if len(ids) <= most:
+        return ids
+    score = numpy.zeros(len(ids))
+    score[~numpy.isin(ids, first.id)] = 2  # that came later
+    both, in_first, in_last = numpy.intersect1d(first.id, last.id, return_indices=True)
+    moved = numpy.linalg.norm(last.position[in_last] - first.position[in_first], axis=1)
+    score[numpy.searchsorted(ids, both)] = moved / (moved.max() or 1)
+    surface = at_surface(first.position, first.radius)
+    score[numpy.searchsorted(ids, first.id[surface])] += 1
+    return numpy.sort(ids[numpy.argsort(-score, kind="stable")[:most]])
+
+
+def grains_of(made, frames, picked, most):
+    """Places, speeds and radii of the grains in the frames picked; nothing where there are none."""
+    first, last = frames[picked[0]], frames[picked[-1]]
+    if len(first) + len(last) == 0:
+        return None, None, 0
+    total = len(numpy.union1d(first.id, last.id))
+    ids = chosen_grains(first, last, min(most, int(PLACES / len(picked))))
+    places = numpy.full((len(picked), len(ids), 3), numpy.nan)
+    speed = numpy.zeros((len(picked), len(ids)))
+    radius = numpy.zeros(len(ids))
+    for k, index in enumerate(picked):
+        frame = frames[index]
+        if not len(frame):
+            continue
+        at = numpy.searchsorted(ids, frame.id)
+        here = (at < len(ids)) & (ids[numpy.minimum(at, len(ids) - 1)] == frame.id)
+        places[k, at[here]] = frame.position[here]
+        speed[k, at[here]] = frame.grains("speed")[here]
+        radius[at[here]] = frame.radius[here]
+    return {"places": places, "speed": speed, "radius": radius}, total, len(ids)
+
+
+def shapes_of(frames):
+    """The meshes of the parts, each once: [(vertices in the frame of its parts, triangles, [parts])]."""
+    if not frames.parts:
+        return []
+    mesh, poses = frames[0].parts, frames[0].poses
+    shapes = {}
+    for part in range(len(poses)):
+        triangles = mesh.triangles[mesh.part == part]
+        if len(triangles) == 0:
+            continue
+        used, inner = numpy.unique(triangles, return_inverse=True)
+        local = (mesh.vertices[used] - poses[part, :3]) @ grouser.rotation(poses[part, 3:])
+        inner = inner.reshape(-1, 3)
+        key = (len(used), len(inner), inner.tobytes())
+        for vertices, _, parts in shapes.setdefault(key, []):
+            if numpy.abs(vertices - local).max() < 1e-4 * numpy.abs(local).max():
+                parts.append(part)
+                break
+        else:
+            shapes[key].append((local, inner, [part]))
+    return [shape for same in shapes.values() for shape in same]
+
+
+def box_of(places, corners, ground):
+    """Corners of all that is drawn."""
+    clouds = [cloud.reshape(-1, 3) for cloud in (places, corners, ground) if cloud is not None and cloud.size]
+    points = numpy.concatenate(clouds)
+    return numpy.nanmin(points, axis=0), numpy.nanmax(points, axis=0)
+
+
+def add_grains(made, drawn, middle, data):
+    places, radius = drawn["places"] - middle, drawn["radius"]
+    low = numpy.nanmin(places, axis=(0, 1))
+    unit = numpy.maximum(numpy.nanmax(places, axis=(0, 1)) - low, 1e-9) / (CODES - 1)
+    there = numpy.isfinite(places)
+    codes = numpy.full(places.shape, CODES, dtype=numpy.uint16)
+    codes[there] = ((places - low) / unit).round()[there].astype(numpy.uint16)
+    codes = codes.transpose(0, 2, 1).copy()
+    codes[1:] = codes[1:] - codes[:-1]  # modulo 65536; grains at rest become zeros, which pack well
+    fastest = float(drawn["speed"].max())
+    moved = numpy.linalg.norm(drawn["places"] - drawn["places"][0], axis=2)
+    most_moved = float(numpy.nanquantile(moved, 0.99)) if numpy.isfinite(moved).any() else 0.0
+    heights = drawn["places"][..., 2]
+    data["grains"] = {
+        "places": made.array("space.places", codes), "low": low.tolist(), "unit": unit.tolist(),
+        "radius": made.array("space.radius", radius.astype(numpy.float32)),
+        "speed": made.array("space.speed", (drawn["speed"] / (fastest or 1) * 255).round().astype(numpy.uint8)),
+        "fastest": fastest,
+        "ranges": {"height": [float(numpy.nanmin(heights)), float(numpy.nanmax(heights))],
+                   "speed": [0.0, float(numpy.quantile(drawn["speed"], 0.995)) or fastest or 1.0],
+                   "moved": [0.0, most_moved or 1.0]},
+        "units": {"height": "m", "speed": "m/s", "moved": "m"}}
+
+
+def section(made, frames, options):
+    """HTML of the view, with its data put into the page; empty where the run has no frames."""
+    if frames is None or options.frames == 0 or len(frames) == 0:
+        return ""
+    picked = chosen_frames(len(frames), options.frames)
+    drawn, total, count = grains_of(made, frames, picked, options.grains)
+    shapes = shapes_of(frames)
+    ground = frames.ground
+    poses = numpy.array([frames[k].poses for k in picked]) if shapes else None
+    if drawn is None and poses is None:
+        return ""
+    corners = None if poses is None else numpy.concatenate([frames[k].parts.vertices for k in (picked[0], picked[-1])])
+    low, high = box_of(None if drawn is None else drawn["places"], corners, None if ground is None else ground.vertices)
+    reach = 0.0 if drawn is None else float(drawn["radius"].max())  # of grains their places alone are in the box
+    low, high = low - reach, high + reach
+    middle = 0.5 * (low + high)
+    made.need(pages.SPACE)
+    data = {"time": made.array("space.time", frames.time[picked]), "middle": middle.tolist(), "names": frames.parts,
+            "box": [(low - middle).tolist(), (high - middle).tolist()], "shapes": []}
+    if drawn is not None:
+        add_grains(made, drawn, middle, data)
+    if poses is not None:
+        poses[:, :, :3] -= middle
+        data["poses"] = made.array("space.poses", poses.astype(numpy.float32))
+        for k, (vertices, triangles, parts) in enumerate(shapes):
+            data["shapes"].append({"vertices": made.array(f"space.shape{k}", vertices.astype(numpy.float32)),
+                                   "triangles": made.array(f"space.corners{k}", triangles.astype(numpy.uint32)),
+                                   "parts": parts})
+    if ground is not None:
+        data["ground"] = {"vertices": made.array("space.ground", (ground.vertices - middle).astype(numpy.float32)),
+                          "triangles": made.array("space.ground.corners", ground.triangles.astype(numpy.uint32))}
+    made.data["space"] = data
+    return frame_html(len(picked), len(frames), count, total, drawn is not None, "chassis" in frames.parts)
+
+
+def frame_html(shown, frames, count, total, grains, vehicle):
+    words = [f"{shown} of {frames} frames"]
+    if grains:
+        left_out = "" if count == total else ": those at the surface and the sides first, then those that moved most"
+        words.append(f"{count} of {total} grains{left_out}; places to 1/65534 of the bed's extent")
+    colours = """<label>Colour of grains <select id="space-colour"><option value="moved">way from the first frame [m]</option>
+<option value="speed">speed [m/s]</option><option value="height">height z [m]</option></select></label>
+<span class="scale"><span id="space-low"></span><canvas id="space-scale" width="192" height="16" role="img"
+ aria-label="colour scale"></canvas><span id="space-high"></span></span>""" if grains else ""
+    follow = '<label><input type="checkbox" id="space-follow"> follow the vehicle</label>' if vehicle else ""
+    return f"""<figure><div class="space" id="space"><canvas id="space-canvas" tabindex="0" role="application"
+ aria-label="Grains and parts in space" aria-describedby="space-keys"></canvas>
+<div class="label" id="space-time" aria-live="off"></div></div>
+<div class="controls"><button id="space-back" aria-label="one frame back">&#9664;&#xfe0e;</button>
+<button id="space-play">Play</button><button id="space-on" aria-label="one frame on">&#9654;&#xfe0e;</button>
+<input type="range" id="space-frame" min="0" max="{shown - 1}" value="{shown - 1}" aria-label="frame">
+<button id="space-home">Reset view</button>{follow}</div>
+<div class="controls">{colours}</div>
+<figcaption>{"; ".join(words)}. The white bar is the scale. <span id="space-keys" class="keys">Drag turns, wheel zooms,
+right button shifts. With the picture in focus: <kbd>Space</kbd> plays and pauses, <kbd>,</kbd> <kbd>.</kbd> step,
+<kbd>Home</kbd> <kbd>End</kbd> first and last frame, arrows turn, <kbd>+</kbd> <kbd>&minus;</kbd> zoom,
+<kbd>0</kbd> resets.</span></figcaption></figure>"""

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report of a sweep, or of anything else whose tables are a sweep's: figures over what was varied, means with
+intervals over seeds, every run."""
+import math
+import re
+import subprocess
+
+import numpy
+
+import grouser
+import page as pages
+import run_page
+import space
+from page import esc, facts, folded, number, table, with_bar
+
+MOST_CURVES = 7
+
+
+def text_of(keys):
+    return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in keys.items()) or "as the scene says"
+
+
+def lively(sweep):
+    """Figures that are there and that change."""
+    found = []
+    for name in sweep.units:
+        values = sweep[name].value
+        there = values[numpy.isfinite(values)]
+        if len(there) and (numpy.ptp(there) > 0 or len(sweep.runs) == 1):
+            found.append(name)
+    return found
+
+
+def varied(sweep):
+    """The key whose values the plots go over: the first with several numbers, but for the seed."""
+    for key in sweep.keys:
+        values = sweep.values(key)
+        if key != "run.seed" and values.dtype.kind == "f" and len(set(values)) > 1:
+            return key
+    return None
+
+
+def unit_of(key, program):
+    """The unit of a scene's key, by the program's own tables; "-" where it has none, or cannot be asked."""
+    words = key.split(".")
+    section, asked = (words[1], ["--vehicle"]) if words[0] == "spec" else (words[0], [])
+    try:
+        text = subprocess.run([program, "fields", *asked], capture_output=True, text=True, check=True).stdout
+    except (OSError, TypeError, subprocess.CalledProcessError):
+        return "-"
+    here = ""
+    for line in text.split("\n"):
+        if title := re.match(r"### `\[+([a-z_]+)", line):
+            here = title[1]
+        cells = [cell.strip(" `") for cell in line.split("|")]
+        if here == section and len(cells) > 2 and cells[1] == words[-1]:
+            return cells[2] or "-"
+    return "-"
+
+
+def plots(made, sweep, program):
+    key = varied(sweep)
+    if key is None:
+        return ""
+    across = f"{key} [{unit_of(key, program)}]"
+    inner = []
+    for name in lively(sweep):
+        axis = f"{name} [{sweep.units[name]}]"
+        means = sweep.means.get(name)
+        groups = {}
+        if means:
+            for mean in means:
+                rest = text_of({k: v for k, v in mean.keys.items() if k != key})
+                groups.setdefault(rest, []).append((float(mean.keys[key]), mean.mean.value, mean.mean.half_width))
+            caption = "Mean over the seeds, with its 95 % interval."
+        else:
+            for run in sweep.runs:
+                rest = text_of({k: v for k, v in run.keys.items() if k != key})
+                groups.setdefault(rest, []).append((float(run.keys[key]), run.figures[name]))
+            caption = "A point for each run."
+        drawn = []
+        for label, points in list(groups.items())[:MOST_CURVES]:
+            points = sorted(p for p in points if math.isfinite(p[1]))
+            if points:
+                columns = [list(c) for c in zip(*points)]
+                if len(columns) == 3:
+                    columns[2] = [h if math.isfinite(h) else 0.0 for h in columns[2]]
+                drawn.append((label if len(groups) > 1 else name, *columns))
+        if drawn:
+            more = f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
+            inner.append(made.plot(name[:1].upper() + name[1:], across, axis, drawn, caption + more))
+    return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
+
+
+def means_table(sweep):
+    if not sweep.means:
+        return ""
+    names = [name for name in lively(sweep) if name in sweep.means]
+    if not names:
+        return ""
+    combinations = [m.keys for m in sweep.means[names[0]]]
+    def half(estimate):
+        return estimate.half_width if math.isfinite(estimate.half_width) else None
+    words = "Means over the seeds, \u00b1 half of the 95 % interval."
+    if len(combinations) <= 6:
+        rows = [[esc(n), esc(sweep.units[n]), *(with_bar(m.mean.value, half(m.mean), "", f"{n} {text_of(m.keys)}")
+                                                for m in sweep.means[n])] for n in names]
+        return table(["figure", "unit", *map(text_of, combinations)], rows,
+                     f"{words} Seeds: {', '.join(str(m.seeds) for m in sweep.means[names[0]])}.",
+                     numeric=range(2, 2 + len(combinations)))
+    rows = [[esc(text_of(keys)), str(sweep.means[names[0]][k].seeds),
+             *(with_bar(sweep.means[n][k].mean.value, half(sweep.means[n][k].mean), "", f"{n} {text_of(keys)}")
+               for n in names)] for k, keys in enumerate(combinations)]
+    return table(["", "seeds", *(f"{n} [{sweep.units[n]}]" for n in names)], rows, words,
+                 numeric=range(1, 2 + len(names)))
+
+
+def runs_table(sweep):
+    names = [n for n in sweep.units if numpy.isfinite(sweep[n].value).any()]
+    rows = [[f"<code>{esc(run.name)}</code>", *(esc(v) for v in run.keys.values()), esc(run.status), esc(run.message),
+             *(number(run.figures[n], "", f"{run.name} {n}") for n in names), f"<code>{esc(run.state_hash)}</code>"]
+            for run in sweep.runs]
+    first = 3 + len(sweep.keys)
+    return table(["run", *sweep.keys, "status", "message", *(f"{n} [{sweep.units[n]}]" for n in names), "state hash"],
+                 rows, "Every run, as summary.csv has it.", numeric=range(first, first + len(names)))
+
+
+def add_base(made, folders, options):
+    """Of the first run that is there: what was on and off, its scene, its machine, the view in space."""
+    for folder in folders:
+        try:
+            run = grouser.open_run(folder)
+        except grouser.FileError:
+            continue
+        with run:
+            name = esc(folder.name)
+            view = space.section(made, run.frames, options)
+            made.section("space", "In space", f"<p>The run <code>{name}</code>.</p>{view}" if view else "")
+            made.section("switches", "What was on and off",
+                         f"<p>In the run <code>{name}</code>.</p>{run_page.switches(run.manifest)}")
+            made.section("scene", "Scene", folded(f"The resolved scene of {folder.name}: every key with its value",
+                                                  f"<pre>{esc(run_page.pages_text(run))}</pre>"))
+            made.section("first", "The first run", run_page.provenance(run))
+        return
+
+
+def page(folder, options):
+    sweep = grouser.open_sweep(folder)
+    made = pages.Page(f"{sweep.folder.resolve().name} (sweep)", "sweep", folder)
+    ended = [run.status for run in sweep.runs]
+    bad = [run for run in sweep.runs if run.status not in ("finished", "pending")]
+    told = facts([("varied", ", ".join(f"<code>{esc(k)}</code>: {esc(', '.join(dict.fromkeys(r.keys[k] for r in sweep.runs)))}"
+                                       for k in sweep.keys)),
+                  ("runs", f"{len(ended)}, of which {ended.count('finished')} have finished")])
+    if bad:
+        told += "".join(f'<p class="bad">{esc(run.name)}: {esc(run.status)}. {esc(run.message)}</p>' for run in bad)
+    made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep),
+                                                                           opened=not sweep.means))
+    made.section("plots", "Plots", plots(made, sweep, options.program))
+    add_base(made, [run.folder for run in sweep.runs], options)
+    return made

@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The documents: commands that they name are there with their options, the tutorial works as it stands, and the site has
+no link that leads nowhere."""
+import math
+import os
+import re
+import subprocess
+import unittest
+from functools import cache
+
+from fixture import ROOT, FolderTest
+
+import grouser
+
+DOCUMENTS = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]
+#: A call of the program in code: its words up to what a shell takes apart.
+CALL = re.compile(r"(?:^|[\s`])(?:build/bin/)?grouser((?: +[^\s`|;&#)]+)+)")
+
+
+@cache
+def help_of(command):
+    done = subprocess.run([str(grouser.find_program()), *command, "--help"], capture_output=True, text=True)
+    return done.stdout if done.returncode == 0 else None
+
+
+@cache
+def commands_of(command):
+    """What commands a command has, by its help."""
+    text = help_of(command)
+    if text is None or "Subcommands:" not in text:
+        return set()
+    return set(re.findall(r"^  ([a-z-]+)\s", text.split("Subcommands:")[1], re.M))
+
+
+def code_of(text):
+    """[(line, code)]: indented and fenced lines, and spans."""
+    fenced = False
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.startswith("```"):
+            fenced = not fenced
+        elif fenced or line.startswith("    "):
+            yield number, line.strip()
+        else:
+            for span in re.findall(r"`([^`]+)`", line):
+                yield number, span
+
+
+def faults_of(words):
+    """What is wrong with a call: [text]."""
+    command = []
+    while words and words[0] in commands_of(tuple(command)):
+        command.append(words.pop(0))
+    if not command:
+        return [] if not words or words[0].startswith("-") or not re.fullmatch(r"[a-z]+", words[0]) else \
+            [f"there is no command {words[0]}"]
+    known = help_of(tuple(command))
+    return [f"grouser {' '.join(command)} has no {option}"
+            for option in (re.match(r"--[a-z][a-z-]*", word) for word in words) if option
+            and not re.search(re.escape(option[0]) + r"(?![a-z-])", known) for option in [option[0]]]
+
+
+class Commands(unittest.TestCase):
+    def test_a_wrong_call_is_seen(self):
+        self.assertEqual(faults_of("run scene.toml --set a=1 --out x".split()), [])
+        self.assertEqual(faults_of("bench bed --threads 2".split()), [])
+        self.assertEqual(faults_of("run scene.toml --sett a=1".split()), ["grouser run has no --sett"])
+        self.assertEqual(faults_of("drive scene.toml".split()), ["there is no command drive"])
+
+    def test_all_that_documents_name_are_there(self):
+        count = 0
+        for document in DOCUMENTS:
+            for line, code in code_of(document.read_text(encoding="utf-8")):
+                for call in CALL.findall(code):
+                    count += 1
+                    with self.subTest(place=f"{document.relative_to(ROOT)}:{line}", call=call):
+                        self.assertEqual(faults_of(call.split()), [])
+        self.assertGreater(count, 150)
+
+    def test_scenes_that_are_called_are_there(self):
+        for document in DOCUMENTS:
+            for line, code in code_of(document.read_text(encoding="utf-8")):
+                for name in re.findall(r"(?<![\w/.])((?:runs|tests|assets)/[\w/]+\.toml)", code):
+                    self.assertTrue((ROOT / name).is_file(), f"{document.relative_to(ROOT)}:{line}: {name}")
+
+
+class Tutorial(FolderTest):
+    def test_its_commands_work_as_they_stand(self):
+        text = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"^```(\w+)\n(.*?)^```", text, re.M | re.S)
+        (self.folder / "build/bin").mkdir(parents=True)
+        (self.folder / "build/bin/grouser").symlink_to(grouser.find_program())
+        (self.folder / "python").symlink_to(ROOT / "python")
+        written = {"toml": "thesis.toml", "python": "figure.py"}
+        environment = {**os.environ, "GROUSER_CACHE": str(self.folder / "cache")}
+        environment.pop("PYTHONPATH", None)
+        called = 0
+        for language, code in blocks:
+            if language in written:
+                (self.folder / written[language]).write_text(code)
+                continue
+            self.assertEqual(language, "sh")
+            for command in code.strip().split("\n"):
+                called += 1
+                done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=environment)
+                self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
+        self.assertEqual(called, 6)
+        for file in ("out/thesis/report.html", "out/speeds/report.html", "out/speeds/intervals.csv", "sinkage.pdf"):
+            self.assertGreater((self.folder / file).stat().st_size, 1000, file)
+        sweep = grouser.open_sweep("out/speeds")
+        self.assertEqual([run.status for run in sweep.runs], ["finished"] * 6)
+        for figure in ("sinkage mean", "slip"):
+            values = [mean.mean.value for mean in sweep.means[figure]]
+            self.assertEqual(len(values), 3)
+            self.assertTrue(all(math.isfinite(value) for value in values), figure)
+            self.assertEqual(len(set(values)), 3, figure)
+        refused = subprocess.run("build/bin/grouser plan thesis.toml --set material.soil.restitution=1.4".split(),
+                                 capture_output=True, text=True, env=environment)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("is outside [0, 1]", refused.stderr)
+
+
+class Site(FolderTest):
+    def site(self, root):
+        return subprocess.run([str(root / "docs/site"), str(self.folder / "site")], capture_output=True, text=True)
+
+    def setUp(self):
+        super().setUp()
+        if subprocess.run(["/usr/bin/python3", "-c", "import mkdocs"], capture_output=True).returncode != 0:
+            self.skipTest("mkdocs is not installed: apt-get install mkdocs")
+
+    def test_is_built_and_every_link_leads_somewhere(self):
+        done = self.site(ROOT)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        index = (self.folder / "site/index.html").read_text()
+        self.assertIn("tutorial.html", index)
+        self.assertTrue((self.folder / "site/docs/tutorial.html").is_file())
+
+    def test_broken_links_are_told(self):
+        root = self.folder / "house"
+        (root / "docs").mkdir(parents=True)
+        (root / "docs/site").write_text((ROOT / "docs/site").read_text())
+        (root / "docs/site").chmod(0o755)
+        (root / "README.md").write_text("# Title\n\n[a](docs/index.md#guides) [b](docs/nosuch.md) [c](docs/index.md#no)\n")
+        (root / "docs/index.md").write_text("# Documents\n\n## Guides\n\n![x](nosuch.png) [y](#guides)\n")
+        for name in ("ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md"):
+            (root / name).write_text(f"# {name}\n")
+        done = self.site(root)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        told = done.stderr.strip().split("\n")
+        self.assertEqual(len(told), 3, told)
+        for word in ("nosuch.md", "index.html#no has no such heading", "nosuch.png"):
+            self.assertTrue(any(word in line for line in told), told)
+
+    def test_other_files_are_not_written_over(self):
+        (self.folder / "site").mkdir()
+        (self.folder / "site/mine.txt").write_text("mine")
+        self.assertEqual(self.site(ROOT).returncode, 2)
+        self.assertEqual(sorted(p.name for p in (self.folder / "site").iterdir()), ["mine.txt"])
+
+
+if __name__ == "__main__":
+    unittest.main()
