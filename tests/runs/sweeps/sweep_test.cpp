@@ -354,12 +354,35 @@ TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
   EXPECT_TRUE(seedIntervals(plan, figures).groups.empty()) << "no seeds, no intervals";
 }
 
+TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity.2=0,-100"}});
+  // Each run names its scene: of the plan's nothing is taken.
+  plan.scene = folder_ / "none.toml";
+  for (SweepRun& run : plan.runs) run.file = scene();
+  SweepOptions o = options();
+  o.failuresStay = true;
+  const auto again = [&] { return runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {}); };
+  const std::vector<SweepOutcome> first = again();
+  ASSERT_EQ(first[0].status, output::RunStatus::finished) << first[0].message;
+  ASSERT_EQ(first[1].status, output::RunStatus::failed);
+  const std::string fast = plan.runs[1].name;
+  const auto before = ended(fast);
+  const std::vector<SweepOutcome> second = again();
+  EXPECT_EQ(ended(fast), before);
+  EXPECT_EQ(second[1].status, output::RunStatus::failed);
+  EXPECT_EQ(second[1].message, first[1].message);
+  o.failuresStay = false;
+  again();
+  EXPECT_NE(ended(fast), before);
+}
+
 class SweepSummary : public FolderTest {};
 
 TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
   scene::Scene scene = setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
+  EXPECT_DOUBLE_EQ(steadyFrom(scene, 1.0, 2.3), 1.8) << "it drove off later, and [stop] has ended it";
   scene.driver.table = scene::SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.5);
   scene.run.duration = 1;
