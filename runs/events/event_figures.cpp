@@ -12,6 +12,7 @@ namespace grouser::events {
 namespace {
 
 constexpr double kGravity = 9.81, kDegrees = 180 / base::kPi;
+constexpr const char* kPullColumn = "hitch.pull [N]";
 constexpr double kDriverHertz = 30; // of the low-pass before peaks of acceleration are read
 
 double greatest(const std::vector<double>& values) {
@@ -133,6 +134,13 @@ std::vector<Figure> figuresOf(Event event, const Motion& m, const sweeps::RunSer
     if (dt * kDriverHertz < 0.5)
       figures.push_back({"peak vertical acceleration of the hull, 30 Hz [g]",
                          greatest(lowPass(slopes(m.time, m.upSpeed), dt, kDriverHertz)) / kGravity});
+    break;
+  }
+  case Event::drawbar: {
+    const double pull = lateMean(series, kPullColumn, driveStart), weight = course.shape.mass * kGravity;
+    figures.push_back({kPull, pull});
+    figures.push_back({"pull over weight [-]", pull / weight});
+    if (course.rigid) figures.push_back({"mu W [N]", course.shape.friction * weight});
     break;
   }
   case Event::grade:

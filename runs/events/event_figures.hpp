@@ -14,6 +14,9 @@ struct Figure {
   double value = 0;
 };
 
+/// Of the event drawbar: the mean over the second half of the drive.
+inline constexpr const char* kPull = "drawbar pull [N]";
+
 /// Figures of an event from a run's motion and time series; `driveStart` [s] as in motionOf().
 std::vector<Figure> figuresOf(Event event, const Motion& motion, const sweeps::RunSeries& series, double driveStart,
                               const Trial& trial, const Course& course);

@@ -50,8 +50,14 @@ Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs:
   const double start = sweeps::RunManifest(folder).figure("drive_start_s");
   if (std::isnan(start)) return {false, "never drove off"};
   const Motion motion = motionOf(series, start, planned.event == Event::steadyTurn);
-  for (const Figure& f : figuresOf(planned.event, motion, series, start, planned.trial, course))
+  double pull = 0;
+  for (const Figure& f : figuresOf(planned.event, motion, series, start, planned.trial, course)) {
     gathered.add(f.name, f.value);
+    if (f.name == kPull) pull = f.value;
+  }
+  // A carriage that imposes the slip goes its way whatever the vehicle does.
+  if (planned.event == Event::drawbar)
+    return {pull > 0, fmt::format("{} {:.3g} kN", pull > 0 ? "pulls" : "is pulled with", std::fabs(pull) / 1000)};
   return judge(motion, planned.trial);
 }
 
@@ -120,7 +126,7 @@ std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Cou
       return event == Event::softSoil ? a->level > b->level : a->level < b->level;
     };
     std::sort(levels.begin(), levels.end(), harder);
-    if (levels.size() < 2) continue;
+    if (levels.size() < 2 || event == Event::drawbar) continue;
     EventLimit limit{event, {}, {}, referenceOf(event, course), {}};
     for (const EventRow* row : levels) {
       if (row->gos < row->runs) {

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/sweeps/overrides.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -152,6 +153,8 @@ std::string levelText(Event event) {
     return "steepest slope of the ditch [-]";
   case Event::halfRound:
     return "radius of the half-round [m]";
+  case Event::drawbar:
+    return "slip [-]";
   case Event::softSoil:
     return "share of the soil's friction coefficients [-]";
   case Event::acceleration:
@@ -182,6 +185,8 @@ std::string titleOf(Event event) {
     return "through a ditch";
   case Event::halfRound:
     return "over a half-round";
+  case Event::drawbar:
+    return "pulling, at a slip that is imposed";
   case Event::motionResistance:
     return "straight on at constant speed";
   case Event::softSoil:
@@ -223,6 +228,8 @@ std::vector<double> levelsOf(Event event, const Course& c, bool quick) {
   case Event::halfRound:
     return c.rigid ? Levels{rounded(0.1 * scale), rounded(0.2 * scale), rounded(0.3 * scale)}
                    : all({rounded(0.1 * scale), rounded(0.2 * scale)}, {rounded(0.15 * scale)});
+  case Event::drawbar:
+    return c.rigid ? Levels{0.05, 0.2, 0.5} : all({0.05, 0.1, 0.2, 0.3, 0.5, 0.7}, {0.1, 0.2, 0.4});
   case Event::softSoil:
     return all({0.2, 0.4, 0.6, 0.8, 1.0}, {0.4, 1.0});
   case Event::acceleration:
@@ -278,6 +285,12 @@ Trial trialOf(Event event, double level, const Course& c) {
     trial.overrides.push_back(set("cylinder.0.length", s.width));
     break;
   }
+  case Event::drawbar:
+    straight(c, trial, 0, 0, 0);
+    trial.distance = 2 * c.shape.groundRun(); // the means are of the second half of it
+    sweeps::putOverride(trial.overrides, set("stop.distance", trial.distance));
+    trial.overrides.push_back(set("hitch.slip", level));
+    break;
   case Event::motionResistance:
     straight(c, trial, 0, 0, 0);
     break;
@@ -316,6 +329,7 @@ std::optional<Reference> referenceOf(Event event, const Course& c) {
   case Event::pivotTurn:
   case Event::steadyTurn:
   case Event::halfRound:
+  case Event::drawbar:
   case Event::motionResistance:
   case Event::softSoil:
     break;

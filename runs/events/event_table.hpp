@@ -21,6 +21,7 @@ enum class Event {
   gap,
   ditch,
   halfRound,
+  drawbar,
   motionResistance,
   softSoil
 };
@@ -85,6 +86,7 @@ template <> struct grouser::base::EnumWords<grouser::events::Event> {
                                          {E::gap, "gap"},
                                          {E::ditch, "ditch"},
                                          {E::halfRound, "half_round"},
+                                         {E::drawbar, "drawbar"},
                                          {E::motionResistance, "motion_resistance"},
                                          {E::softSoil, "soft_soil"}};
 };

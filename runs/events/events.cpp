@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *kTable = "events.csv", *kJson = "events.json", *kText = "events.txt", *kPlot = "events.png",
-                     *kPictures = "pictures.png";
+                     *kPictures = "pictures.png", *kDrawbar = "drawbar.png";
 
 fs::path folderOf(const EventsCommand& command) {
   if (!command.folder.empty()) return command.folder;
@@ -98,6 +98,7 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
   support::replaceTextFile(folder / kJson, json.dump(2) + "\n");
   for (const char* name : {kTable, kText, kJson}) fmt::print("table     {}\n", (folder / name).string());
   output::drawPicture("events.py", {folder / kJson}, folder / kPlot);
+  output::drawPicture("event_drawbar.py", {folder / kJson}, folder / kDrawbar);
   output::drawPicture("event_pictures.py", {folder / kJson}, folder / kPictures);
 }
 

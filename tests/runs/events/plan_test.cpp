@@ -53,7 +53,7 @@ TEST(EventPlan, EveryEventTakesEveryReadyVehicle) {
     options.vehicle = vehicle;
     const EventPlan plan = planEvents(options); // loads and checks every run's scene
     for (const PlannedTrial& t : plan.trials) EXPECT_FALSE(t.runs.empty());
-    EXPECT_EQ(plan.trials.size(), 22u) << vehicle;
+    EXPECT_EQ(plan.trials.size(), 25u) << vehicle;
     EXPECT_TRUE(plan.omitted.contains(Event::softSoil));
     // The scene as it stands, with the vehicle alone changed.
     for (const Event event : allEvents())
