@@ -157,7 +157,8 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
       text += fmt::format("{:<18}{} of its runs failed for a cause that is not the vehicle's\n", "", row.unknown);
     if (row.pending > 0) text += fmt::format("{:<18}{} of its runs are still to be done\n", "", row.pending);
     for (const FigureOverSeeds& f : row.figures)
-      text += fmt::format("{:<18}  {:<50} {}\n", "", f.name, studies::valueText(f.estimate));
+      text += fmt::format("{:<18}  {:<50} {}\n", "", f.name,
+                          f.runs > 1 ? studies::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value));
   }
   for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);
   if (!limits.empty()) text += "\nlimits\n";
