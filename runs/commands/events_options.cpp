@@ -22,7 +22,7 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
       "events", "Standard mobility events of a vehicle on a ground: go or no-go, limits, figures with intervals");
   events->add_option("--vehicle", o.vehicle, "a ready vehicle by name, or a vehicle file that ends in .toml")
       ->capture_default_str();
-  events->add_option("--soil", o.soil, "rigid, or a soil as scenes take them (`grouser soils`)")->capture_default_str();
+  events->add_option("--soil", o.soil, "rigid, or a soil by its name (`grouser soils`)")->capture_default_str();
   events
       ->add_option("--only", o.only,
                    fmt::format("events, separated by commas, of {}; default: all",

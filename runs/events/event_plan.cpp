@@ -24,7 +24,7 @@ using base::InputError;
 
 namespace {
 
-constexpr const char *kRigid = "rigid", *kBed = "bed", *kGround = "ground";
+constexpr const char *kRigid = "rigid", *kGround = "ground";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
 // Of a bed, in widths of a pad: what the grains measure, how deep it is, and how far it reaches beside the tracks.
 constexpr double kGrain = 1 / 20.8, kDepth = 1.6, kMargin = 4, kQuickGrain = 1 / 12.4, kQuickDepth = 0.9,
@@ -55,6 +55,10 @@ std::string vehicleFile(const std::string& word) {
 }
 
 scene::Soil soilOf(const std::string& word) {
+  if (word.find('/') != std::string::npos || word.ends_with(".toml"))
+    throw InputError(fmt::format("--soil {}: give a soil's name; a file of your own is found by its name in the folder "
+                                 "soils/ of where grouser is called",
+                                 word));
   std::vector<fs::path> tried;
   const fs::path here = fs::current_path() / "events.toml", file = scene::findSoil(word, here, tried);
   if (file.empty())
@@ -75,8 +79,8 @@ vehicle::VehicleSpec specOf(const std::string& file, const EventOptions& options
 Course courseOf(const EventOptions& options, const std::string& file, double& grainRadius) {
   Course c;
   c.shape = shapeOf(specOf(file, options));
-  c.speed = options.speed.value_or(kLightSpeed * std::sqrt(c.shape.pitchRadius / kLightRadius));
-  c.rigid = options.soil == kRigid, c.ground = kGround, c.soil = kBed;
+  c.speed = options.speed.value_or(std::round(100 * kLightSpeed * std::sqrt(c.shape.pitchRadius / kLightRadius)) / 100);
+  c.rigid = options.soil == kRigid, c.ground = kGround, c.soil = options.soil;
   if (c.rigid) {
     for (const auto& [given, name] : {std::pair{options.grainRadius.has_value(), "--grain-radius"},
                                       {options.depth.has_value(), "--depth"},
@@ -101,8 +105,8 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
                                    fmt::format("output.frames={}", options.frames)};
   if (!plan.course.rigid)
     for (const std::string& set :
-         {fmt::format("material.{}.soil=\"{}\"", kBed, options.soil), std::string("terrain.kind=\"granular\""),
-          fmt::format("terrain.material=\"{}\"", kBed), fmt::format("terrain.grain_radius={:.4g}", plan.grainRadius),
+         {std::string("terrain.kind=\"granular\""), fmt::format("terrain.material=\"{}\"", options.soil),
+          fmt::format("terrain.grain_radius={:.4g}", plan.grainRadius),
           fmt::format("terrain.depth={:.4g}", plan.course.depth)})
       sets.push_back(set);
   return sets;

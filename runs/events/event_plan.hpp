@@ -15,7 +15,7 @@ namespace grouser::events {
 /// What the user asks for.
 struct EventOptions {
   std::string vehicle = "light_tracked"; ///< a file of assets/vehicles by its name, or a path that ends in .toml
-  std::string soil = "rigid";            ///< rigid, or a soil as scenes take them
+  std::string soil = "rigid";            ///< rigid, or a soil by its name
   std::vector<std::string> only;         ///< events; empty: all
   std::vector<double> levels;            ///< of the one event that is asked for; empty: those of the event
   std::vector<std::string> fixed;        ///< "key=value", of all runs

@@ -73,7 +73,7 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   const scene::Scene& weak = plan.sweep.runs[6].scene;
   EXPECT_EQ(plan.sweep.runs[6].name, "soft_soil=0.4,seed=1");
   const auto bed = std::find_if(weak.materials.begin(), weak.materials.end(),
-                                [](const scene::Material& m) { return m.name == "bed"; });
+                                [](const scene::Material& m) { return m.name == "lete_sand"; });
   ASSERT_NE(bed, weak.materials.end());
   EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);                 // of assets/soils/lete_sand.toml
   EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 12.4, 1e-5); // of a pad's width, in four digits
@@ -106,6 +106,8 @@ TEST(EventPlan, RefusesWhatIsNone) {
             std::string::npos);
   options = {}, options.soil = "cheese";
   EXPECT_NE(fault(options).find("--soil cheese: is neither rigid ground nor a soil"), std::string::npos);
+  options = {}, options.soil = "my/sand.toml";
+  EXPECT_NE(fault(options).find("--soil my/sand.toml: give a soil's name"), std::string::npos);
   options = {}, options.levels = {0.5};
   EXPECT_NE(fault(options).find("--levels: are of one event"), std::string::npos);
   options = {}, options.seeds = 3;
