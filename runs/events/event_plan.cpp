@@ -24,7 +24,7 @@ using base::InputError;
 
 namespace {
 
-constexpr const char *kRigid = "rigid", *kGround = "ground";
+constexpr const char* kRigid = "rigid";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
 // Of a bed, in widths of a pad: what the grains measure, how deep it is, and how far it reaches beside the tracks.
 constexpr double kGrain = 1 / 20.8, kDepth = 1.6, kMargin = 4, kQuickGrain = 1 / 12.4, kQuickDepth = 0.9,
@@ -80,7 +80,7 @@ Course courseOf(const EventOptions& options, const std::string& file, double& gr
   Course c;
   c.shape = shapeOf(specOf(file, options));
   c.speed = options.speed.value_or(std::round(100 * kLightSpeed * std::sqrt(c.shape.pitchRadius / kLightRadius)) / 100);
-  c.rigid = options.soil == kRigid, c.ground = kGround, c.soil = options.soil;
+  c.rigid = options.soil == kRigid, c.soil = options.soil;
   if (c.rigid) {
     for (const auto& [given, name] : {std::pair{options.grainRadius.has_value(), "--grain-radius"},
                                       {options.depth.has_value(), "--depth"},

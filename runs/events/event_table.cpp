@@ -18,6 +18,7 @@ namespace {
 constexpr double kGravity = 9.81;        // m/s2
 constexpr double kWay = 5;               // m, that is to be driven at half the commanded speed or more
 constexpr double kEnd = 0.3;             // m, between the vehicle and the end of the terrain
+constexpr double kRunUp = 3;             // m, before those on a slope: near the limit it takes long to come up to speed
 constexpr double kBeyond = 0.3;          // m, driven on behind the course, or drifted to the side in it
 constexpr double kReferenceRun = 1.7832; // m, ground run of the light vehicle, whose obstacles are scaled to others
 constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of the ditch of ditch.png, over its length
@@ -48,13 +49,14 @@ struct Straight {
   double length = 0, width = 0;
 };
 
-/// `behind`: room for the vehicle to slide back. `obstacle`: its length along the way, 0: none.
-Straight straight(const Course& c, Trial& trial, double behind, double obstacle, double drift) {
+/// `behind`: room for the vehicle to slide back. `obstacle`: its length along the way, 0: none. `runUp`: before the way
+/// that counts.
+Straight straight(const Course& c, Trial& trial, double behind, double obstacle, double drift, double runUp = 0) {
   const double approach = 0.4 * scaleOf(c);
   Straight s;
   s.start = kEnd + behind + c.shape.rear;
   s.obstacle = s.start + c.shape.front + approach;
-  trial.distance = obstacle > 0 ? std::max(kWay, approach + c.shape.length() + obstacle) : kWay;
+  trial.distance = obstacle > 0 ? std::max(kWay, approach + c.shape.length() + obstacle) : kWay + runUp;
   s.length = s.start + c.shape.front + trial.distance + 2 * kEnd;
   s.width = 2 * (c.shape.halfWidth + std::max(c.margin, kEnd) + drift);
   const double soft = c.rigid ? 0 : c.margin; // grains before the vehicle are pushed ahead
@@ -82,6 +84,8 @@ void box(const Course& c, Trial& trial, int number, double x, double end, double
   const std::string key = fmt::format("box.{}.", number);
   trial.overrides.push_back(set(key + "position", {0.5 * (x + end), 0.0, 0.5 * (top + foot)}));
   trial.overrides.push_back(set(key + "size", {end - x, width, top - foot}));
+  // Grains touch what stands in their bed, by a law that goes with their own.
+  if (!c.rigid) trial.overrides.push_back(key + "material=" + c.soil);
 }
 
 /// One cosine wave whose steepest slope is `level`. The height-map is as long as the course behind its ditch asks for.
@@ -250,7 +254,7 @@ Trial trialOf(Event event, double level, const Course& c) {
     return trial;
   }
   case Event::grade:
-    straight(c, trial, c.shape.length(), 0, 0);
+    straight(c, trial, c.shape.length(), 0, 0, kRunUp);
     trial.overrides.push_back(leaning(level, false));
     break;
   case Event::sideSlope:
@@ -283,6 +287,7 @@ Trial trialOf(Event event, double level, const Course& c) {
     trial.overrides.push_back(set("cylinder.0.position", {s.obstacle + level, 0.0, 0.0}));
     trial.overrides.push_back(set("cylinder.0.radius", level));
     trial.overrides.push_back(set("cylinder.0.length", s.width));
+    if (!c.rigid) trial.overrides.push_back("cylinder.0.material=" + c.soil);
     break;
   }
   case Event::drawbar:

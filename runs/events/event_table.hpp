@@ -45,8 +45,7 @@ struct Course {
   double margin = 0;          ///< of a bed beside the tracks [m]
   double soilFriction = 0;    ///< of the soil's grains [-]
   double rollingFriction = 0; ///< of the soil's grains [-]
-  std::string soil;           ///< material of the bed
-  std::string ground;         ///< material of obstacles
+  std::string soil;           ///< material of the bed and of what stands in it
 };
 
 /// Levels that are run where none are given: three to five, or with `quick` those that tell most. Of events with one

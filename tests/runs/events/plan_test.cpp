@@ -70,6 +70,7 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   EXPECT_EQ(plan.seeds, 2);
   EXPECT_EQ(plan.sweep.runs.size(), 2u * (2 + 1 + 2));
   EXPECT_EQ(plan.sweep.runs[0].name, "grade=0.2,seed=1");
+  EXPECT_EQ(plan.sweep.runs[4].scene.boxes.at(0).material, "lete_sand"); // of the step, in a bed of Hertz' law
   const scene::Scene& weak = plan.sweep.runs[6].scene;
   EXPECT_EQ(plan.sweep.runs[6].name, "soft_soil=0.4,seed=1");
   const auto bed = std::find_if(weak.materials.begin(), weak.materials.end(),
