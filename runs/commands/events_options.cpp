@@ -42,7 +42,7 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
       ->check(support::wholeNumber(1, 1000));
   events
       ->add_option("--grain-radius", o.grainRadius,
-                   "mean radius of the bed's grains [m]; default: 10.4 of them on the width of a pad; with --quick 6.2")
+                   "mean radius of the bed's grains [m]; default: 10.4 of them on the width of a pad; with --quick 5")
       ->check(support::positive("a length in metres"));
   events->add_option("--depth", o.depth, "of the bed [m]; default: 1.6 widths of a pad; with --quick 0.9")
       ->check(support::positive("a length in metres"));
