@@ -355,7 +355,7 @@ TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
 }
 
 TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
-  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity.2=0,-100"}});
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0, 0, 0],[0, 0, -100]"}});
   // Each run names its scene: of the plan's nothing is taken.
   plan.scene = folder_ / "none.toml";
   for (SweepRun& run : plan.runs) run.file = scene();
