@@ -22,6 +22,12 @@ namespace {
 constexpr const char* kSteady[] = {"speed [m/s]",        "slip [-]",        "sinkage mean [m]",     "sinkage max [m]",
                                    "drive torque [N m]", "drive power [W]", "motion resistance [N]"};
 
+/// Whether means over the second half of a run tell of steady driving straight on, or on a circle.
+bool isSteady(Event event) {
+  return event != Event::pivotTurn && event != Event::step && event != Event::gap && event != Event::ditch &&
+         event != Event::halfRound;
+}
+
 /// Figures of the runs of one level, by name in the order in which they came.
 class Gathered {
 public:
@@ -95,7 +101,7 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
       if (outcome.status == output::RunStatus::finished) {
         const Verdict verdict = finishedRun(planned, plan.course, at, gathered);
         ++row.runs, row.gos += verdict.go, why = verdict.why;
-        for (std::size_t c = 0; c < steady.columns.size(); ++c)
+        for (std::size_t c = 0; isSteady(planned.event) && c < steady.columns.size(); ++c)
           if (std::find(std::begin(kSteady), std::end(kSteady), steady.columns[c]) != std::end(kSteady))
             gathered.add(steady.columns[c], steady.values[run][c]);
       } else if (outcome.status == output::RunStatus::failed) {

@@ -19,10 +19,13 @@ constexpr double kGravity = 9.81;        // m/s2
 constexpr double kWay = 5;               // m, that is to be driven at half the commanded speed or more
 constexpr double kEnd = 0.3;             // m, between the vehicle and the end of the terrain
 constexpr double kRunUp = 3;             // m, before those on a slope: near the limit it takes long to come up to speed
+constexpr double kCrawl = 0.4;           // of the commanded speed, and m/s at least: over steps, gaps and ditches
 constexpr double kBeyond = 0.3;          // m, driven on behind the course, or drifted to the side in it
 constexpr double kReferenceRun = 1.7832; // m, ground run of the light vehicle, whose obstacles are scaled to others
 constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of the ditch of ditch.png, over its length
 constexpr double kSettled = 2;                           // s, in which any vehicle stands and drives
+
+double crawl(const Course& c) { return std::max(kCrawl * c.speed, kCrawl); }
 
 double scaleOf(const Course& c) { return c.shape.groundRun() / kReferenceRun; }
 
@@ -305,7 +308,8 @@ Trial trialOf(Event event, double level, const Course& c) {
     trial.overrides.push_back(set("material." + c.soil + ".rolling_friction", level * c.rollingFriction));
     break;
   }
-  drive(c, trial, c.speed);
+  const bool crawls = event == Event::step || event == Event::gap || event == Event::ditch;
+  drive(c, trial, crawls ? crawl(c) : c.speed);
   return trial;
 }
 
@@ -319,7 +323,7 @@ std::optional<Reference> referenceOf(Event event, const Course& c) {
     return mu < tipping ? Reference{fmt::format("friction {:g}; tips at {:.3g}", mu, tipping), mu, mu}
                         : Reference{fmt::format("tips at {:.4g}", tipping), tipping, tipping};
   case Event::step: {
-    const double high = highestStep(c.shape);
+    const double high = highestStep(c.shape) + crawl(c) * crawl(c) / (2 * kGravity);
     return Reference{fmt::format("none above {:.3g} m: centre of mass over the edge", high), {}, high};
   }
   case Event::gap: {

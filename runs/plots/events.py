@@ -30,8 +30,8 @@ def limits(axis, rows):
     axis.set_yticks(range(len(rows)), [label(row) for row in rows], fontsize=7)
     axis.set_xticks([])
     axis.set_xlim(0, 1)
+    axis.set_ylim(len(rows) - 0.5, -0.5)
     axis.grid(False)
-    axis.invert_yaxis()
 
 
 def figure_of(axis, rows, name):
