@@ -188,7 +188,8 @@ std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, 
   if (const fs::path results = folder / run.name / "results.h5"; fs::exists(results))
     file.emplace(support::Hdf5File::open(results));
   const RunManifest manifest(folder / run.name);
-  const double from = steadyFrom(run.scene, manifest.figure("drive_start_s"), manifest.number("simulated_time_s"));
+  const double end = manifest.text("ended_by").empty() ? kNone : manifest.number("simulated_time_s");
+  const double from = steadyFrom(run.scene, manifest.figure("drive_start_s"), end);
   return figuresOf(file ? &*file : nullptr, from, columns);
 }
 

@@ -355,7 +355,7 @@ TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
 }
 
 TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
-  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0, 0, 0],[0, 0, -100]"}});
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,-145]"}});
   // Each run names its scene: of the plan's nothing is taken.
   plan.scene = folder_ / "none.toml";
   for (SweepRun& run : plan.runs) run.file = scene();
@@ -398,7 +398,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   plan.runs = {
       {"sprocket_speed=2", {"2"}, {}, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
   scene::Scene& scene = plan.runs[0].scene;
-  scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
+  scene.run.duration = 30, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on: see below
 
   std::vector<output::Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
                                            {"ledger/integration_error", "J", "", 1, {}},
@@ -433,6 +433,8 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   }
   output::Summary summary;
   summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
+  summary.simulatedTime = 3;
+  writer.fact("ended_by", "stop.distance: [stop] has ended it at 3 s");
   writer.finish(summary);
 
   const Csv csv(writeSummary(plan, {{output::RunStatus::finished, ""}}, folder_));
