@@ -28,6 +28,16 @@ double durationOf(const PlannedTrial& planned, const scene::Scene& scene) {
                                  : std::min(whole, kStart + kSlower * planned.trial.distance / planned.trial.speed);
 }
 
+/// What is probed for a run: its own scene, but of obstacles that reach into a bed, which the probe's copied tiles
+/// cannot have: there a bed alone.
+scene::Scene probedScene(const EventPlan& plan, const sweeps::SweepRun& run, const std::vector<std::string>& sets) {
+  std::vector<std::string> bed;
+  for (const std::string& set : sets)
+    if (!set.starts_with("box.") && !set.starts_with("cylinder.")) bed.push_back(set);
+  const bool alone = !plan.course.rigid && bed.size() < sets.size();
+  return setup::loadScene(alone ? sceneOf(Event::motionResistance) : run.file, alone ? bed : sets);
+}
+
 double h200Time(double grains, double duration, double step) {
   const double each = kStepH200 + kMore * std::max(0.0, grains - kGrainsH200);
   return kBegin + (duration + kSettling) / step * each;
@@ -57,9 +67,13 @@ std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::pat
     if (times.empty() || times.back().event != planned.event) {
       progress.update(static_cast<double>(i) / static_cast<double>(plan.trials.size()),
                       std::string(base::wordOf(planned.event)));
-      const forecast::Forecast told = forecast::forecastOf(scene, counted, {folder, timeOutput, 1, true});
-      steps = forecast::Forecast::sum(told.steps) / (duration / step) / work;
-      output = forecast::Forecast::sum(told.output), preparation = forecast::Forecast::sum(told.preparation) / work;
+      const scene::Scene probed = probedScene(plan, run, sets);
+      const forecast::CountedGrains ofProbe = forecast::countGrains(probed, step, 0);
+      const double workOfProbe = std::max(1.0, static_cast<double>(ofProbe.grains));
+      const forecast::Forecast told = forecast::forecastOf(probed, ofProbe, {folder, timeOutput, 1, true});
+      steps = forecast::Forecast::sum(told.steps) / (duration / step) / workOfProbe;
+      output = forecast::Forecast::sum(told.output);
+      preparation = forecast::Forecast::sum(told.preparation) / workOfProbe;
       times.push_back({planned.event, 0, 0, 0, 0});
     }
     EventTime& time = times.back();
