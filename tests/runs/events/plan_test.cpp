@@ -76,8 +76,8 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   const auto bed = std::find_if(weak.materials.begin(), weak.materials.end(),
                                 [](const scene::Material& m) { return m.name == "lete_sand"; });
   ASSERT_NE(bed, weak.materials.end());
-  EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);               // of assets/soils/lete_sand.toml
-  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 10, 1e-5); // of a pad's width, in four digits
+  EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // of assets/soils/lete_sand.toml
+  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 8, 1e-5); // of a pad's width, in four digits
   EXPECT_TRUE(weak.terrain->granular());
 }
 
