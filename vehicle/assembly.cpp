@@ -18,6 +18,8 @@ using base::Vec3d;
 using multibody::JointType;
 
 const Vec3d kForward{1, 0, 0}, kLeft{0, 1, 0};
+/// Mass of each body of a hull's guide over that of the hull.
+constexpr double kGuideShare = 1e-4;
 
 /// Adds one track after the other to an assembly. Points and frames are given in the vehicle frame V, whose axes are
 /// those of the chassis at the start.
@@ -72,8 +74,31 @@ private:
 
   void addChassis() {
     const ChassisSpec& c = spec().chassis;
-    assembly_.chassis = addBody("chassis", c, {c.centre, {}}, options_.fixChassis);
+    MassSpec mass = c;
+    const bool guided = options_.guide != HullGuide::none && !options_.fixChassis;
+    if (options_.guide == HullGuide::pitching && guided) mass.mass -= kGuideShare * c.mass; // what rises with it
+    assembly_.chassis = addBody("chassis", mass, {c.centre, {}}, options_.fixChassis);
     addPart(PartKind::kChassis, assembly_.chassis, c.mesh, -1, {-c.centre, {}});
+    if (guided) addGuide();
+  }
+
+  /// A carriage on rails along x; the hull, or what it pitches on, slides up and down on that. Both weigh next to
+  /// nothing: the carriage hangs on the rails, and what rises with the hull is taken from its mass.
+  void addGuide() {
+    const ChassisSpec& c = spec().chassis;
+    const MassSpec light{kGuideShare * c.mass, c.inertia * kGuideShare};
+    const auto along = [&](const Vec3d& axis, const Vec3d& other) {
+      return multibody::compose(options_.pose_W, multibody::frameWithZX(c.centre, axis, other));
+    };
+    const int carriage = addBody("guide carriage", light, {c.centre, {}});
+    assembly_.model.addJointAt("guide rails", JointType::kPrismatic, multibody::kWorld, carriage,
+                               along(kForward, kLeft));
+    int rises = assembly_.chassis;
+    if (options_.guide == HullGuide::pitching) {
+      rises = addBody("guide slider", light, {c.centre, {}});
+      addAxle("guide pivot", rises, assembly_.chassis, c.centre);
+    }
+    assembly_.model.addJointAt("guide slide", JointType::kPrismatic, carriage, rises, along({0, 0, 1}, kForward));
   }
 
   void addTrack(Side side) {
@@ -275,6 +300,17 @@ HullMotion hullMotion(const Assembly& vehicle, const multibody::State& state) {
   const double level = std::max(std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y), 1e-9);
   const double c = ahead.x / level, s = ahead.y / level;
   return {p.x, p.y, c, s, v.x * c + v.y * s, twist.w.z};
+}
+
+HitchMotion hitchMotion(const Assembly& vehicle, const multibody::State& state, const Vec3d& point) {
+  const HullMotion hull = hullMotion(vehicle, state);
+  const base::Pose& pose = state.pose[vehicle.chassis];
+  const multibody::Twist& twist = state.twist[vehicle.chassis];
+  const Vec3d lever = base::rotate(pose.orientation, point - vehicle.spec.chassis.centre);
+  HitchMotion m{pose.position + lever, twist.v + base::cross(twist.w, lever), hull.forwardX, hull.forwardY, 0};
+  for (const Track& track : vehicle.tracks) m.trackSpeed += state.joint[track.sprocketJoint].rate;
+  m.trackSpeed *= vehicle.spec.pitchRadius() / static_cast<double>(vehicle.tracks.size());
+  return m;
 }
 
 void addEngineTorques(const Assembly& vehicle, const multibody::State& state, Controls& controls) {

@@ -4,6 +4,7 @@
 #include "multibody/model.hpp"
 #include "multibody/state.hpp"
 #include "vehicle/driver.hpp"
+#include "vehicle/hitch.hpp"
 #include "vehicle/spec.hpp"
 #include "vehicle/wrap.hpp"
 
@@ -55,12 +56,20 @@ struct Track {
   std::vector<int> shoeParts;               ///< indices into Assembly::parts, in the order of `shoes`
 };
 
+/// Rails that a free hull may run on.
+enum class HullGuide {
+  none,
+  pitching, ///< it moves along, rises and pitches, and does not sway, yaw or roll
+  level     ///< nor pitch
+};
+
 struct AssemblyOptions {
-  base::Pose pose_W;       ///< of the vehicle frame in the world at the start: X_WV
-  base::Vec3d velocity;    ///< of the whole vehicle at the start, world components [m/s]
-  bool fixChassis = false; ///< the chassis never moves
-  bool left = true;        ///< build the left track
-  bool right = true;       ///< build the right track
+  base::Pose pose_W;                 ///< of the vehicle frame in the world at the start: X_WV
+  base::Vec3d velocity;              ///< of the whole vehicle at the start, world components [m/s]
+  bool fixChassis = false;           ///< the chassis never moves
+  HullGuide guide = HullGuide::none; ///< of a chassis that moves; along the axes of the vehicle frame at the start
+  bool left = true;                  ///< build the left track
+  bool right = true;                 ///< build the right track
   SprocketDrive drive = SprocketDrive::speed;
 };
 
@@ -99,6 +108,9 @@ void applyControls(const Assembly& vehicle, const Controls& controls, const base
 
 /// The hull as a driver sees it.
 HullMotion hullMotion(const Assembly& vehicle, const multibody::State& state);
+
+/// A point of the hull, given in the vehicle frame [m], as a hitch sees it.
+HitchMotion hitchMotion(const Assembly& vehicle, const multibody::State& state, const base::Vec3d& point);
 
 /// Has the engines give the torques that their governors find at the sprockets' speeds.
 void addEngineTorques(const Assembly& vehicle, const multibody::State& state, Controls& controls);

@@ -35,8 +35,11 @@ constexpr VehicleField kVehicleFields[] = {
     {"pitch_angle", "rad", "of the hull, nose up positive", &Observation::pitchAngle},
     {"roll_angle", "rad", "of the hull, right side down positive", &Observation::rollAngle},
     {"gross_traction", "N", "drive torques over the pitch radius", &Observation::grossTraction},
-    {"drawbar_pull", "N", "net thrust of the ground along the heading", &Observation::drawbarPull},
-    {"motion_resistance", "N", "gross traction minus drawbar pull", &Observation::motionResistance},
+    {"net_thrust", "N", "of the ground on the vehicle along the heading, mean since the last row",
+     &Observation::netThrust},
+    {"drawbar_pull", "N", "of the vehicle on its hitch, mean since the last row; net thrust where it has none",
+     &Observation::drawbarPull},
+    {"motion_resistance", "N", "gross traction minus net thrust", &Observation::motionResistance},
 };
 
 constexpr ScalarField kTrackFields[] = {

@@ -184,8 +184,8 @@ Observation Observer::observe(const multibody::State& state, const GroundLoads& 
     const Vec3d forward{base::cos(o.heading), base::sin(o.heading), 0};
     o.groundForce = {base::dot(sum, forward), base::dot(sum, Vec3d{-forward.y, forward.x, 0}), sum.z};
   }
-  o.drawbarPull = o.groundForce.x;
-  o.motionResistance = o.grossTraction - o.drawbarPull;
+  o.netThrust = o.drawbarPull = o.groundForce.x;
+  o.motionResistance = o.grossTraction - o.netThrust;
   o.alarm = alarm(state, ground);
   return o;
 }

@@ -52,8 +52,9 @@ struct Observation {
   double rollAngle = 0;        ///< right side down positive [rad]
   base::Vec3d groundForce;     ///< sum over all bodies: forward along the heading, left, up [N]; NaN if not known
   double grossTraction = 0;    ///< sum of drive torques over the pitch radius [N]
-  double drawbarPull = 0;      ///< net thrust that the ground leaves the vehicle, forward along the heading [N]
-  double motionResistance = 0; ///< grossTraction - drawbarPull [N]
+  double netThrust = 0;        ///< that the ground leaves the vehicle, forward along the heading [N]
+  double drawbarPull = 0;      ///< of the vehicle on its hitch; where it has none, netThrust: m a [N]
+  double motionResistance = 0; ///< grossTraction - netThrust [N]
   std::vector<TrackObservation> tracks;
   std::string alarm; ///< thrown or skipped track, in words; empty while all is well
 };

@@ -40,6 +40,7 @@ constexpr const char* kSetHelp = "override a key of the scene, e.g. driver.sproc
 void addRun(CLI::App& app, const Invocation& invocation);
 void addSweep(CLI::App& app, const Invocation& invocation);
 void addCheck(CLI::App& app, const Invocation& invocation);
+void addEvents(CLI::App& app, const Invocation& invocation);
 void addPlan(CLI::App& app, const Invocation& invocation);
 void addBench(CLI::App& app, const Invocation& invocation);
 void addHash(CLI::App& app, const Invocation& invocation);

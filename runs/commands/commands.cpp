@@ -148,8 +148,19 @@ void hashCommand(const HashCommand& command) {
 void sinkageCommand(const SinkageCommand& command) {
   const fs::path results = command.results;
   const fs::path folder = command.folder.empty() ? fs::absolute(results).parent_path() : fs::path(command.folder);
-  fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder).string());
-  drawAndName(results, folder, {"sinkage"});
+  if (command.shoes.empty()) {
+    if (!command.control.empty())
+      throw base::InputError("--control is drawn behind single shoes; name them by --shoes, such as 10-13,20");
+    fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder).string());
+    return drawAndName(results, folder, {"sinkage"});
+  }
+  const std::vector<int> shoes = output::shoesNamed(command.shoes);
+  if (!command.control.empty()) output::requireShoes(command.control, shoes);
+  fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder, shoes).string());
+  std::vector<fs::path> inputs{results};
+  if (!command.control.empty()) inputs.push_back(fs::absolute(command.control));
+  inputs.emplace_back(fmt::format("{}", fmt::join(shoes, ",")));
+  output::drawPicture("single_shoes.py", inputs, folder / "sinkage_shoes.png");
 }
 
 void planCommand(const PlanCommand& command) {

@@ -50,8 +50,11 @@ void hashCommand(const HashCommand& command);
 
 struct SinkageCommand {
   std::string results;
-  std::string folder; ///< empty: beside the results
+  std::string folder;  ///< empty: beside the results
+  std::string shoes;   ///< a list "10-13,20"; empty: all
+  std::string control; ///< results of the same vehicle on rigid ground, drawn behind those shoes; empty: none
 };
+/// Throws InputError for shoes that are none, and a control without them.
 void sinkageCommand(const SinkageCommand& command);
 
 struct PlanCommand {

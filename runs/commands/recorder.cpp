@@ -76,10 +76,19 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
         channels.push_back(c);
   for (const setup::Obstacle& o : simulation.setup().ground.obstacles)
     for (const output::Channel& c : output::obstacleChannels(o.surface.name)) channels.push_back(c);
+  if (simulation.vehicle() && simulation.vehicle()->towing())
+    for (const output::Channel& c : output::hitchChannels()) channels.push_back(c);
   for (const output::Channel& c : output::ledgerChannels()) channels.push_back(c);
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
 }
+
+void setHitchRow(output::RowBuilder& row, const simulation::HitchObservation& o) {
+  row.set("hitch/force", o.force), row.set("hitch/pull", o.pull);
+  row.set("hitch/speed", o.speed), row.set("hitch/power", o.power), row.set("hitch/work", o.work);
+  row.set("hitch/towed_way", o.towedWay), row.set("hitch/towed_speed", o.towedSpeed);
+}
+
 /// `touching`: whether vehicle and bed may exchange impulses.
 void setLedgerRow(output::RowBuilder& row, const simulation::Ledger& l, bool touching) {
   row.set("ledger/drive_work", l.driveWork);
@@ -229,6 +238,8 @@ void Recorder::row() {
   const std::vector<setup::Obstacle>& obstacles = simulation_.setup().ground.obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     row_.set("obstacles/" + obstacles[i].surface.name + "/force", simulation_.vehicle()->meanForceOn(i));
+  if (const simulation::VehicleRig* rig = simulation_.vehicle(); rig && rig->towing())
+    setHitchRow(row_, rig->towing()->observe());
   if (const simulation::Mechanism* mechanism = simulation_.mechanism())
     output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);
   setLedgerRow(row_, l, !simulation_.mechanism());

@@ -21,6 +21,11 @@ void addSinkage(CLI::App& app, const Invocation&) {
   CLI::App* sinkage = app.add_subcommand("sinkage", "Sinkage of every shoe over time [m], as CSV and as a plot");
   sinkage->add_option("results", s.results, "results.h5 of a run")->required();
   sinkage->add_option("--out", s.folder, "folder; default: beside the results");
+  sinkage->add_option("--shoes", s.shoes,
+                      "single shoes, counted from 0: 10-13,20; writes sinkage_shoes.csv, and draws their heights and "
+                      "sinkage");
+  sinkage->add_option("--control", s.control,
+                      "results.h5 of the same vehicle on rigid ground, whose shoes are drawn behind those of --shoes");
   sinkage->callback([command] { sinkageCommand(*command); });
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/commands/bed_text.hpp"
 #include "runs/commands/failed_run.hpp"
+#include "runs/commands/ledger_text.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
 #include "runs/commands/signal_watch.hpp"
@@ -344,30 +345,6 @@ void describeSqueezed(simulation::Simulation& simulation, Recorder& recorder, ou
   summary.figures["squeezed_at_boundaries_most"] = squeezed.atBoundaries;
   summary.figures["squeezed_by_parts_most"] = squeezed.byParts;
   if (squeezed.share > 0) recorder.writer().fact("deepest_in_a_part", squeezed.deepest());
-}
-
-/// Prints the run's energies and momenta, and what finite steps and rounding have made of them.
-void describeLedger(simulation::Simulation& simulation) {
-  const simulation::Ledger l = simulation.ledger();
-  fmt::print("ledger    since the start [J]: drive work {:.4g} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
-             "dissipated {:+.4g}, integration error {:+.3g}; left over {:.2g}\n",
-             l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.integrationError, l.residual);
-  const simulation::Dissipated& d = l.dissipated;
-  std::string causes;
-  for (const auto& [cause, loss] : {std::pair{"damping", d.damping},
-                                    {"friction", d.friction},
-                                    {"rolling", d.rolling},
-                                    {"yielding", d.yielding},
-                                    {"crushing", d.crushing},
-                                    {"parts", d.parts},
-                                    {"joints", d.joints}})
-    if (loss != 0) causes += fmt::format("{}{} {:.4g}", causes.empty() ? "" : ", ", cause, loss);
-  if (!causes.empty()) fmt::print("          dissipated by {}\n", causes);
-  const auto shown = [](const base::Vec3d& v) { return fmt::format("({:.2g}, {:.2g}, {:.2g})", v.x, v.y, v.z); };
-  fmt::print("momentum  left over {} N s, angular {} N m s\n", shown(l.momentumResidual), shown(l.angularResidual));
-  if (simulation.vehicle() && simulation.ground().grains)
-    fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
-               l.impulseResidual.z);
 }
 
 /// What steps an error chose.

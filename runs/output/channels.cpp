@@ -60,9 +60,21 @@ std::vector<Channel> obstacleChannels(const std::string& name) {
   return {{"obstacles/" + name + "/force", "N", "of the vehicle on it, mean since the last row", 3, kAxes}};
 }
 
+std::vector<Channel> hitchChannels() {
+  return {
+      {"hitch/force", "N", "of the hitch on the vehicle, mean since the last row", 3, {"forward", "left", "up"}},
+      {"hitch/pull", "N", "drawbar pull: of the vehicle on the hitch, forward, mean since the last row", 1, {}},
+      {"hitch/speed", "m/s", "of the hitch point along the heading, mean since the last row", 1, {}},
+      {"hitch/power", "W", "that the hitch takes from the vehicle, mean since the last row", 1, {}},
+      {"hitch/work", "J", "by the hitch on the vehicle since the start, part of ledger/drive_work", 1, {}},
+      {"hitch/towed_way", "m", "of sled or carriage since the hitch took hold", 1, {}},
+      {"hitch/towed_speed", "m/s", "of sled or carriage", 1, {}},
+  };
+}
+
 std::vector<Channel> ledgerChannels() {
   return {
-      {"ledger/drive_work", "J", "done by drives and moving surfaces", 1, {}},
+      {"ledger/drive_work", "J", "done by drives, moving surfaces and the hitch", 1, {}},
       {"ledger/kinetic", "J", "of grains, vehicle and bodies", 1, {}},
       {"ledger/potential", "J", "in the field of gravity", 1, {}},
       {"ledger/elastic", "J", "in contacts and springs", 1, {}},

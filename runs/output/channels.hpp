@@ -21,6 +21,8 @@ std::vector<Channel> terrainChannels();
 std::vector<Channel> surfaceChannels(const std::string& name, bool hasPivot = false);
 /// What a vehicle does to a surface at rest, under obstacles/NAME.
 std::vector<Channel> obstacleChannels(const std::string& name);
+/// What a vehicle pulls at its hitch.
+std::vector<Channel> hitchChannels();
 /// Energy and momentum.
 std::vector<Channel> ledgerChannels();
 

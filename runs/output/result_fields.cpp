@@ -115,6 +115,8 @@ std::vector<FileField> resultFields() {
   for (const vehicle::Quantity& q : vehicle::quantitiesOfTrack("SIDE", 2)) add(fields, channelOf(q));
   for (const Channel& c : terrainChannels()) add(fields, c);
   for (const Channel& c : surfaceChannels("NAME", true)) add(fields, c);
+  for (const Channel& c : obstacleChannels("NAME")) add(fields, c);
+  for (const Channel& c : hitchChannels()) add(fields, c);
   for (const Channel& c : ledgerChannels()) add(fields, c);
   for (const Channel& c : mechanismChannels(modelOfAll(), {})) add(fields, c);
   return fields;

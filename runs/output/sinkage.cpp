@@ -8,49 +8,119 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 namespace grouser::output {
 
-std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, const std::filesystem::path& folder) {
+namespace {
+
+constexpr int kMostShoes = 10000; // in a range, so that a slip of the finger fills no memory
+
+struct Track {
+  std::string side;
+  std::size_t shoes;
+  std::vector<double> values; ///< [rows, shoes]
+};
+
+struct Tracks {
+  std::vector<Track> tracks;
+  std::vector<double> time;
+};
+
+Tracks readSinkage(const std::filesystem::path& results) {
   const support::Hdf5File file = support::Hdf5File::open(results);
   if (file.text("/", "creator") != "grouser")
     throw base::InputError(
         fmt::format("{}: was not written by grouser; give the results.h5 of a run", results.string()));
-  struct Track {
-    std::string side;
-    std::size_t shoes;
-    std::vector<double> values; ///< [rows, shoes]
-  };
-  std::vector<Track> tracks;
-  std::vector<double> time;
+  Tracks read;
   for (const std::string side : {"left", "right"}) {
     const std::string group = fmt::format("/{}", shoeSinkage(side));
     if (!file.has(group + "/value")) continue;
-    time = file.numbers(group + "/time");
-    tracks.push_back({side, file.shape(group + "/value").back(), file.numbers(group + "/value")});
-    if (tracks.back().values.size() != time.size() * tracks.back().shoes)
+    read.time = file.numbers(group + "/time");
+    read.tracks.push_back({side, file.shape(group + "/value").back(), file.numbers(group + "/value")});
+    if (read.tracks.back().values.size() != read.time.size() * read.tracks.back().shoes)
       throw base::InputError(
           fmt::format("{}: {} has another length than its times; the file is damaged, run the scene again",
                       results.string(), group));
   }
-  if (tracks.empty())
+  if (read.tracks.empty())
     throw base::InputError(fmt::format(
         "{}: has no sinkage, for its scene has no vehicle; give the results of one that has", results.string()));
+  return read;
+}
 
+/// A whole number at the front of `text`, which it is taken from; empty where there is none.
+std::optional<int> takeNumber(std::string_view& text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || number < 0) return {};
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return number;
+}
+
+} // namespace
+
+std::vector<int> shoesNamed(const std::string& list) {
+  const auto refuse = [&](const std::string& why) {
+    throw base::InputError(
+        fmt::format("--shoes {}: {}; give numbers and ranges of shoes, counted from 0: 10-13,20", list, why));
+  };
+  std::vector<int> shoes;
+  std::string_view rest = list;
+  while (true) {
+    const std::optional<int> first = takeNumber(rest);
+    if (!first) refuse("is no list of shoes");
+    int last = *first;
+    if (!rest.empty() && rest.front() == '-') {
+      rest.remove_prefix(1);
+      const std::optional<int> end = takeNumber(rest);
+      if (!end) refuse("has a range without an end");
+      last = *end;
+      if (last < *first) refuse("has a range that runs backwards");
+      if (last - *first > kMostShoes) refuse("has more shoes than any track");
+    }
+    for (int s = *first; s <= last; ++s) shoes.push_back(s);
+    if (rest.empty()) break;
+    if (rest.front() != ',') refuse("is no list of shoes");
+    rest.remove_prefix(1);
+  }
+  return shoes;
+}
+
+void requireShoes(const std::filesystem::path& results, const std::vector<int>& shoes) {
+  for (const Track& t : readSinkage(results).tracks)
+    for (const int s : shoes)
+      if (static_cast<std::size_t>(s) >= t.shoes)
+        throw base::InputError(fmt::format("--shoes: there is no shoe {}; the {} track of {} has shoes 0 to {}", s,
+                                           t.side, results.string(), t.shoes - 1));
+}
+
+std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, const std::filesystem::path& folder,
+                                      const std::vector<int>& shoes) {
+  const Tracks read = readSinkage(results);
+  const auto chosen = [&](const Track& t) {
+    std::vector<std::size_t> list(shoes.begin(), shoes.end());
+    if (shoes.empty())
+      for (std::size_t s = 0; s < t.shoes; ++s) list.push_back(s);
+    return list;
+  };
+  if (!shoes.empty()) requireShoes(results, shoes);
   std::string text = "time [s]";
-  for (const Track& t : tracks)
-    for (std::size_t s = 0; s < t.shoes; ++s) text += fmt::format(",{} {} [m]", t.side, s);
-  for (std::size_t row = 0; row < time.size(); ++row) {
-    text += fmt::format("\n{}", time[row]);
-    for (const Track& t : tracks)
-      for (std::size_t s = 0; s < t.shoes; ++s) text += fmt::format(",{}", t.values[row * t.shoes + s]);
+  for (const Track& t : read.tracks)
+    for (const std::size_t s : chosen(t)) text += fmt::format(",{} {} [m]", t.side, s);
+  for (std::size_t row = 0; row < read.time.size(); ++row) {
+    text += fmt::format("\n{}", read.time[row]);
+    for (const Track& t : read.tracks)
+      for (const std::size_t s : chosen(t)) text += fmt::format(",{}", t.values[row * t.shoes + s]);
   }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  std::filesystem::path path = folder / "sinkage.csv";
+  std::filesystem::path path = folder / (shoes.empty() ? "sinkage.csv" : "sinkage_shoes.csv");
   support::writeTextFile(path, text + '\n', "--out");
   return path;
 }

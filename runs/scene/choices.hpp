@@ -10,6 +10,7 @@
 #include "terrain/grain_model.hpp"
 #include "terrain/radius_distribution.hpp"
 #include "vehicle/driver.hpp"
+#include "vehicle/hitch.hpp"
 
 /// What a scene file chooses from a list of words. An enum of the solvers serves here as it is; the words stand here
 /// alone.
@@ -33,8 +34,19 @@ enum class TerrainKind { granular, rigid };
 /// Of a granular [terrain]: how its grains are laid before they settle.
 enum class Arrangement { random, lattice };
 
-/// Of [vehicle]: whether the chassis moves, or is held as on a bench.
-enum class ChassisMount { free, fixed };
+/// Of [vehicle]: whether the chassis moves, runs on rails, or is held as on a bench.
+enum class ChassisMount {
+  free,
+  fixed,
+  guided, ///< it moves along, rises and pitches
+  level   ///< it moves along and rises
+};
+
+/// Of [vehicle].
+enum class Tracks {
+  both,
+  single ///< in the middle of the hull, as on a test rig
+};
 
 /// Of [vehicle]: the parts that soil meets.
 enum class SoilMeets {
@@ -55,6 +67,12 @@ namespace grouser::base {
 template <> struct EnumWords<vehicle::SprocketDrive> {
   using E = vehicle::SprocketDrive;
   static constexpr EnumWord<E> list[] = {{E::speed, "speed"}, {E::torque, "torque"}, {E::engine, "engine"}};
+};
+
+template <> struct EnumWords<vehicle::HitchKind> {
+  using E = vehicle::HitchKind;
+  static constexpr EnumWord<E> list[] = {
+      {E::force, "force"}, {E::ramp, "ramp"}, {E::sled, "sled"}, {E::speed, "speed"}};
 };
 
 template <> struct EnumWords<scene::ContactLawKind> {
@@ -79,7 +97,12 @@ template <> struct EnumWords<scene::Arrangement> {
 };
 template <> struct EnumWords<scene::ChassisMount> {
   using E = scene::ChassisMount;
-  static constexpr EnumWord<E> list[] = {{E::free, "free"}, {E::fixed, "fixed"}};
+  static constexpr EnumWord<E> list[] = {
+      {E::free, "free"}, {E::fixed, "fixed"}, {E::guided, "guided"}, {E::level, "level"}};
+};
+template <> struct EnumWords<scene::Tracks> {
+  using E = scene::Tracks;
+  static constexpr EnumWord<E> list[] = {{E::both, "both"}, {E::single, "single"}};
 };
 template <> struct EnumWords<scene::SoilMeets> {
   using E = scene::SoilMeets;

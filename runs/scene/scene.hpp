@@ -209,6 +209,7 @@ struct Vehicle {
   double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   ChassisMount chassis = ChassisMount::free;
+  Tracks tracks = Tracks::both;
   SoilMeets soilMeets = SoilMeets::all;   ///< which parts grains touch
   std::vector<vehicle::SpecKey> specKeys; ///< [spec.SECTION]: keys of the vehicle file with other values
   std::optional<double> hullSphereRadius; ///< [m]; empty: 0.02, or sphereRadius where that is more
@@ -270,6 +271,21 @@ struct Driver {
   bool isFree() const { return course || drive == vehicle::SprocketDrive::torque; }
 };
 
+/// [hitch]: what pulls at the hull, from the begin of the drive on. What belongs to another kind has no value.
+struct Hitch {
+  vehicle::HitchKind kind = vehicle::HitchKind::force;
+  std::optional<base::Vec3d> position; ///< [m] in the vehicle frame; empty: the rear axle of the track, in the middle
+  double start = 0;                    ///< [s] after the begin of the drive
+  double ramp = 0.3;                   ///< [s]
+  std::optional<double> force, rate;   ///< [N], [N/s]
+  std::optional<double> mass, friction, length; ///< [kg], [-], [m] of a sled and its rope
+  std::optional<double> slip;                   ///< [-] that a carriage imposes
+  std::optional<double> stiffness;              ///< [N/m] of rope or carriage; empty: by the masses
+  double dampingRatio = 0.7;                    ///< [-] of either
+  bool operator==(const Hitch&) const = default;
+  static constexpr double kLength = 3; ///< [m], where not given
+};
+
 /// [stop]: what ends a run of a vehicle before run.duration.
 struct Stop {
   std::optional<double> distance; ///< [m] from where it was set down
@@ -319,6 +335,7 @@ struct Scene {
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;
   Driver driver;
+  std::optional<Hitch> hitch;
   Stop stop;
   Output output;
   Parallel parallel;

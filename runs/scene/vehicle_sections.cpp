@@ -39,7 +39,14 @@ Table<Vehicle> vehicleTable() {
         "of the parts against grains and, for friction, obstacles; where not given they are of the other's own "
         "material, but with friction_ground of the vehicle file; on rigid ground all contact data are the vehicle "
         "file's");
-  t.add("chassis", &S::chassis, "", "free to move, or held in place as on a bench");
+  t.add(
+      "chassis", &S::chassis, "",
+      "free to move; held in place as on a bench; or on rails along the heading: \"guided\", it moves along, rises and "
+      "pitches, \"level\", it does not pitch");
+  t.add("tracks", &S::tracks, "",
+        "both, or a single one in the middle of the hull, as on a test rig: that wants chassis = \"guided\", \"level\" "
+        "or "
+        "\"fixed\". The hull weighs what the vehicle file says; results are under left");
   t.add("soil_meets", &S::soilMeets, "",
         "parts that grains touch: all (the hull if hull_touches), or the shoes alone, so that no grain is pinched by "
         "sprocket, wheels, "
@@ -182,6 +189,10 @@ void checkStop(const Section& section, Stop& s, const Scene& scene) {
 void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
   if (!v.material.empty()) requireMaterial(scene, section, "material", v.material);
   resolveFile(scene, section, "spec", v.spec);
+  if (v.tracks != Tracks::both && v.chassis == ChassisMount::free)
+    section.fail("tracks",
+                 "is a single one, and falls over where the hull is free; set vehicle.chassis = \"guided\" or "
+                 "\"level\", or tracks = \"both\"");
   const bool hasGround = scene.terrain || !scene.planes.empty();
   if (!hasGround && v.chassis != ChassisMount::fixed)
     section.fail("chassis", "is \"free\" over no ground; add [terrain] or [[plane]], or set chassis = \"fixed\"");
@@ -226,6 +237,8 @@ void checkTorques(const Section& section, const Driver& d) {
 }
 
 void checkCourse(const Section& section, Course& c, const Scene& scene) {
+  if (scene.vehicle->tracks != Tracks::both)
+    section.fail("", "steers by two tracks, and vehicle.tracks = \"single\"; give sprocket_speed");
   if (scene.vehicle->chassis == ChassisMount::fixed)
     section.fail("", "is for a hull that moves, and vehicle.chassis = \"fixed\"; free it, or give sprocket_speed");
   if (c.radius && *c.radius == 0) section.fail("radius", "[m] is no circle; give one above 0 (left) or below (right)");

@@ -61,6 +61,12 @@ std::optional<terrain::Rectangle> terrainArea(const scene::Scene& scene) {
   return terrain::Rectangle{0, size[0], -0.5 * size[1], 0.5 * size[1]};
 }
 
+vehicle::VehicleSpec vehicleSpec(const scene::Scene& scene) {
+  vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+  if (scene.vehicle->tracks == scene::Tracks::single) spec.trackOffset = 0;
+  return spec;
+}
+
 Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   const double heading = scene.vehicle->heading * base::kPi / 180;
   const std::optional<terrain::Rectangle> area = terrainArea(scene);

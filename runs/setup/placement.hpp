@@ -18,6 +18,9 @@ struct Placement {
   double heading{}; ///< from the x axis towards y [rad]
 };
 
+/// The vehicle file of the scene, with the scene's keys; a single track lies in the middle. Throws InputError.
+vehicle::VehicleSpec vehicleSpec(const scene::Scene& scene);
+
 /// The scene's terrain in the plane; empty without one.
 std::optional<terrain::Rectangle> terrainArea(const scene::Scene& scene);
 

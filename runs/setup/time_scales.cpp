@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "base/table.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/vehicle_setup.hpp"
 #include "vehicle/engine.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -171,12 +172,24 @@ void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   add("idler", "stop_stiffness", "N/m", s.idler.stopStiffness, s.idler.carrierMass + s.idler.mass);
 }
 
+/// The swing of the hull on its hitch, which is explicit.
+void addHitch(std::vector<TimeScale>& scales, const scene::Scene& scene) {
+  if (!scene.hitch) return;
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+  const scene::Hitch& h = *scene.hitch;
+  if (scene.driver.driveBegins() + h.start < scene.run.duration && h.kind != vehicle::HitchKind::ramp)
+    addRamp(scales, h.ramp, failsIn(scene, "hitch", "ramp"));
+  if (const double stiffness = hitchStiffness(h, spec); stiffness > 0)
+    addPeriod(scales, 2 * base::kPi * std::sqrt(hitchedMass(h, spec) / stiffness), "swing", "N/m",
+              failsIn(scene, "hitch", "stiffness"));
+}
+
 } // namespace
 
 std::vector<TimeScale> timeScales(const scene::Scene& scene) {
   std::vector<TimeScale> scales;
   addSurfaces(scales, scene), addDrives(scales, scene), addDriver(scales, scene);
-  addVehicle(scales, scene);
+  addVehicle(scales, scene), addHitch(scales, scene);
   return scales;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/vehicle_setup.hpp"
 
+#include "base/math.hpp"
 #include "runs/setup/obstacles.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace grouser::setup {
 
@@ -39,12 +41,36 @@ vehicle::DriverOptions driverOptions(const scene::Driver& d, const vehicle::Vehi
   return options;
 }
 
+vehicle::HitchOptions hitchOptions(const scene::Hitch& h, const vehicle::VehicleSpec& spec) {
+  vehicle::HitchOptions o;
+  o.kind = h.kind;
+  o.point = h.position.value_or(spec.sprocketInFront() ? base::Vec3d{spec.idler.x, 0, spec.idler.z} : base::Vec3d{});
+  o.start = h.start, o.ramp = h.ramp;
+  o.force = h.force.value_or(0), o.rate = h.rate.value_or(0);
+  o.mass = h.mass.value_or(0), o.friction = h.friction.value_or(0), o.length = h.length.value_or(0);
+  o.slip = h.slip.value_or(0);
+  o.stiffness = hitchStiffness(h, spec);
+  o.damping = 2 * h.dampingRatio * std::sqrt(o.stiffness * hitchedMass(h, spec));
+  return o;
+}
+
 } // namespace
+
+double hitchedMass(const scene::Hitch& hitch, const vehicle::VehicleSpec& spec) {
+  const double hull = spec.chassis.mass;
+  return hitch.mass ? hull * *hitch.mass / (hull + *hitch.mass) : hull;
+}
+
+double hitchStiffness(const scene::Hitch& hitch, const vehicle::VehicleSpec& spec) {
+  constexpr double kRate = 2 * base::kPi * 10; // [rad/s]
+  if (hitch.kind != vehicle::HitchKind::sled && hitch.kind != vehicle::HitchKind::speed) return 0;
+  return hitch.stiffness.value_or(hitchedMass(hitch, spec) * kRate * kRate);
+}
 
 VehicleSetup vehicleSetup(const scene::Scene& scene) {
   const scene::Vehicle& v = *scene.vehicle;
   VehicleSetup setup;
-  setup.spec = vehicle::readVehicleSpec(v.source());
+  setup.spec = vehicleSpec(scene);
   if (scene.driver.drive == vehicle::SprocketDrive::engine && !setup.spec.engine)
     scene.fail(
         "driver", "drive",
@@ -53,12 +79,16 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.place = placeVehicle(scene, setup.spec);
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
   setup.fixChassis = v.chassis == scene::ChassisMount::fixed;
+  if (v.chassis == scene::ChassisMount::guided) setup.guide = vehicle::HullGuide::pitching;
+  if (v.chassis == scene::ChassisMount::level) setup.guide = vehicle::HullGuide::level;
+  setup.single = v.tracks == scene::Tracks::single;
   setup.sphereRadius = v.sphereRadius;
   setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
   setup.hullTouches = hullTouches(scene);
   setup.hullSphereRadius = v.hullSphereRadius.value_or(std::max(kHullSphereRadius, v.sphereRadius));
   setup.stop = {scene.stop.distance, scene.stop.edge, scene.stop.immobile};
   setup.driver = driverOptions(scene.driver, setup.spec);
+  if (scene.hitch) setup.hitch = hitchOptions(*scene.hitch, setup.spec);
   // What hangs or weighs nothing presses on no ground.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();
   return setup;

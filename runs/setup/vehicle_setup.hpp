@@ -3,7 +3,9 @@
 
 #include "runs/scene/scene.hpp"
 #include "runs/setup/placement.hpp"
+#include "vehicle/assembly.hpp"
 #include "vehicle/driver.hpp"
+#include "vehicle/hitch.hpp"
 #include "vehicle/spec.hpp"
 
 #include <limits>
@@ -23,18 +25,26 @@ struct StopSetup {
 struct VehicleSetup {
   vehicle::VehicleSpec spec;
   Placement place;
-  double clearance{};         ///< between the lowest grouser and the ground at the start [m]
-  bool onTerrain{};           ///< else it hangs at height 0
-  bool fixChassis{};          ///< as on a bench
+  double clearance{}; ///< between the lowest grouser and the ground at the start [m]
+  bool onTerrain{};   ///< else it hangs at height 0
+  bool fixChassis{};  ///< as on a bench
+  vehicle::HullGuide guide = vehicle::HullGuide::none;
+  bool single = false;        ///< track, of two
   double sphereRadius{};      ///< of the parts' sphere sets [m]
   bool soilMeetsShoesAlone{}; ///< and no other part
   bool hullTouches{};         ///< ground, grains and obstacles
   double hullSphereRadius{};  ///< of its set then [m]
   vehicle::DriverOptions driver;
+  std::optional<vehicle::HitchOptions> hitch;
   StopSetup stop;
   double thickestStone{}; ///< that may get between wheels and plates [m]: the largest grain, where soil meets them
   double largestTurn = std::numeric_limits<double>::infinity(); ///< of a body in a step [rad]
 };
+
+/// Of a hitch's rope or bar [N/m]: as given, or such that hull (and sled) would swing on it at 10 Hz. 0 without either.
+double hitchStiffness(const scene::Hitch& hitch, const vehicle::VehicleSpec& spec);
+/// What swings on it [kg]: the hull, or hull and sled against each other.
+double hitchedMass(const scene::Hitch& hitch, const vehicle::VehicleSpec& spec);
 
 /// Reads the spec. Throws InputError where that, or where the vehicle stands, is not possible.
 VehicleSetup vehicleSetup(const scene::Scene& scene);

@@ -5,7 +5,6 @@
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/scene_surfaces.hpp"
-#include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
 
 #include <algorithm>
@@ -49,7 +48,7 @@ std::vector<SceneSurface> movingSurfaces(const scene::Scene& scene) {
 class Course {
 public:
   explicit Course(const scene::Scene& scene)
-      : scene_(scene), spec_(vehicle::readVehicleSpec(scene.vehicle->source())), place_(placeVehicle(scene, spec_)) {
+      : scene_(scene), spec_(vehicleSpec(scene)), place_(placeVehicle(scene, spec_)) {
     const vehicle::Wrap wrap = vehicle::wrapTrack(spec_);
     const double reach = 0.5 * spec_.shoe.pitch - spec_.shoe.padBottom + spec_.shoe.grouserHeight;
     double rear = 1e300, front = -1e300, top = -1e300;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 9; // of the layout below
+constexpr int kVersion = 10; // of the layout below
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -99,6 +99,8 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/bodies", v.bodies);
     archive("/vehicle/observers", v.observers);
     archive("/vehicle/driver", v.driver);
+    archive("/vehicle/hitch", v.hitch);
+    archive("/vehicle/hitch_books", v.hitchBooks);
     archive("/vehicle/track/states", v.track.states);
     archive("/vehicle/track/sums", v.track.sums);
     archive("/vehicle/ground/states", v.ground.states);

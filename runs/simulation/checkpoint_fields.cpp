@@ -101,6 +101,11 @@ constexpr Meaning kMeanings[] = {
      "when the drive began, and since when it had rested, -1: not yet; of a course the integrals of the errors of "
      "speed "
      "and of turning, and the way along it"},
+    {"vehicle/hitch", "-, m, m/s",
+     "whether it has taken hold; its level place and heading then, and speed; place and velocity of the sled; way of "
+     "sled or carriage, speed of the carriage; empty without a hitch"},
+    {"vehicle/hitch_books", "J, N, m/s, W, -",
+     "its work since the start, and sums since the last row of force, speed and power, and of how many steps"},
     {"vehicle/track/states", "m, N/m, J",
      "of contacts of shoes with sprocket, wheels, rollers and idler: spring, its stiffness, dissipated"},
     {"vehicle/track/sums", "-",

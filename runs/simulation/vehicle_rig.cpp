@@ -23,6 +23,7 @@ vehicle::Assembly assembled(const setup::VehicleSetup& setup,
   const setup::Placement& place = setup.place;
   vehicle::AssemblyOptions options;
   options.fixChassis = setup.fixChassis;
+  options.guide = setup.guide, options.right = !setup.single;
   options.drive = setup.driver.drive;
   options.pose_W = setup.onTerrain ? setup::setDown(setup.spec, place, setup.clearance, surfaceHeight)
                                    : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
@@ -108,6 +109,7 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
                                                     vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone})) {
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
                                                 setup.vehicle->soilMeetsShoesAlone, kept);
+  if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
 
 void VehicleRig::collectLoads() {
@@ -131,7 +133,9 @@ vehicle::Controls VehicleRig::controls() {
 void VehicleRig::advance() {
   vehicle::applyControls(assembly_, controls(), gravity_, loads_);
   replicated_.run([this] {
+    if (towing_) towing_->pull(assembly_, state_, driver_, timeStep_, gravity_, loads_);
     solver_->step(state_, loads_, timeStep_);
+    if (towing_) towing_->book(assembly_, state_, timeStep_);
     observer_->update(state_, timeStep_);
     contacts_->trackTravel(state_);
   });
@@ -150,7 +154,15 @@ vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
 }
 
 vehicle::Observation VehicleRig::observe() const {
-  return observer_->observe(state_, groundLoads(rowMeans_), surfaceHeight_);
+  vehicle::Observation seen = observer_->observe(state_, groundLoads(rowMeans_), surfaceHeight_);
+  if (towing_) seen.drawbarPull = towing_->observe().pull;
+  return seen;
+}
+
+void VehicleRig::restartMeans() {
+  rowMeans_.restart();
+  contacts_->forgetPressed();
+  if (towing_) towing_->restartMeans();
 }
 
 Vec3d VehicleRig::meanGroundForce() const {
@@ -255,7 +267,7 @@ void VehicleRig::addTo(Ledger& ledger) const {
   const multibody::Balance b = bodiesBalance();
   const VehicleContacts::Ledger c = contacts_->ledger();
   ledger.kinetic += b.now.kinetic, ledger.work += b.now.kinetic - b.leftOver, ledger.turnover += b.turnover;
-  ledger.driveWork += b.driveWork;
+  ledger.driveWork += b.driveWork + (towing_ ? towing_->work() : 0);
   ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;
   ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
   ledger.dissipated.crushing += c.crushed, ledger.cappedNow += c.capped, ledger.cutImpulse += c.cutImpulse;
@@ -274,6 +286,7 @@ VehicleState VehicleRig::save() const {
   s.bodies = state_.save();
   s.observers = observer_->save();
   s.driver = driver_.save();
+  if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->books();
   contacts_->save(s);
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
   s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
@@ -289,6 +302,7 @@ void VehicleRig::restore(const VehicleState& s) {
   state_.restore(s.bodies);
   observer_->restore(s.observers);
   driver_.restore(s.driver);
+  if (towing_) towing_->restore(s.hitch, s.hitchBooks);
   contacts_->restore(s);
   rowMeans_ = {s.groundForces, s.meanSteps};
   alarmMeans_ = {s.alarmForces, s.alarmSteps};

@@ -6,6 +6,7 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/ledger.hpp"
 #include "runs/simulation/swing_growth.hpp"
+#include "runs/simulation/towing.hpp"
 #include "runs/simulation/vehicle_contacts.hpp"
 #include "runs/simulation/vehicle_parts.hpp"
 #include "runs/simulation/vehicle_state.hpp"
@@ -50,7 +51,8 @@ public:
   /// Ground loads are means since the last restartMeans(): on grains a single step says little.
   vehicle::Observation observe() const;
   void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
-  void restartMeans() { rowMeans_.restart(), contacts_->forgetPressed(); }
+  void restartMeans();
+  const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
   base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
   /// Of the vehicle on one of setup.ground.obstacles, mean since restartMeans() [N].
   base::Vec3d meanForceOn(std::size_t obstacle) const;
@@ -107,6 +109,7 @@ private:
   multibody::State state_;
   multibody::Loads loads_;
   vehicle::Driver driver_;
+  std::optional<Towing> towing_;
   std::unique_ptr<vehicle::Observer> observer_;
   std::unique_ptr<VehicleContacts> contacts_;
   ForceMeans rowMeans_, alarmMeans_;

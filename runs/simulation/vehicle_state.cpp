@@ -25,6 +25,7 @@ std::vector<std::uint32_t> VehicleState::words() const {
   };
   add(bodies, bodies.empty() ? 0 : bodies.size() - multibody::State::kBooks);
   add(driver, driver.size());
+  add(hitch, hitch.size());
   for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
     words.insert(words.end(), more.begin(), more.end());
   // Of surfaces those patches that are in touch: what is out of reach is no part of the state.

@@ -19,6 +19,7 @@ struct VehicleState {
   std::vector<double> bodies;     ///< multibody::State::save()
   std::vector<double> observers;  ///< vehicle::Observer::save()
   std::vector<double> driver;     ///< vehicle::Driver::save()
+  std::vector<double> hitch;      ///< vehicle::Hitch::save(); empty without one
   contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
   contact::SavedPatches ground;   ///< of shoes with rigid ground; empty without it
   contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them
@@ -30,6 +31,7 @@ struct VehicleState {
   std::vector<base::Vec3l> alarmForces;  ///< by part and surface, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
   std::vector<double> judged;            ///< SwingGrowth::save()
+  std::vector<double> hitchBooks;        ///< Towing::books()
   std::int64_t stalledSteps{};           ///< for which driven tracks have not moved the hull
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
   base::Vec3d angularOnParts;            ///< since the start [N m s]

@@ -37,10 +37,11 @@ using output::RunStatus;
 
 constexpr const char* kLog = "log.txt"; // what a run printed
 
-bool isFinished(const fs::path& folder, const scene::Scene& scene) {
+/// Whether a run of this scene by this program has ended so.
+bool hasEnded(RunStatus status, const fs::path& folder, const scene::Scene& scene) {
   const RunManifest manifest(folder);
-  if (manifest.text("status") != base::wordOf(RunStatus::finished) ||
-      manifest.commit() != support::buildInfo().commit || manifest.text("inputs") != setup::inputsOf(scene))
+  if (manifest.text("status") != base::wordOf(status) || manifest.commit() != support::buildInfo().commit ||
+      manifest.text("inputs") != setup::inputsOf(scene))
     return false;
   try {
     return identity(setup::loadScene(folder / "scene.toml")) == identity(scene);
@@ -127,9 +128,12 @@ public:
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       const bool anew =
           options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
-      if (!anew && isFinished(folder(i), plan.runs[i].scene)) {
+      if (!anew && hasEnded(RunStatus::finished, folder(i), plan.runs[i].scene)) {
         outcomes_[i].status = RunStatus::finished;
         progress_.note(fmt::format("{} finished already", title(i)));
+      } else if (!anew && options.failuresStay && hasEnded(RunStatus::failed, folder(i), plan.runs[i].scene)) {
+        outcomes_[i] = {RunStatus::failed, RunManifest(folder(i)).text("error")};
+        progress_.note(fmt::format("{} failed before: {}", title(i), outcomes_[i].message));
       } else {
         waiting_.push_back(i);
       }
@@ -163,6 +167,7 @@ private:
   };
 
   fs::path folder(std::size_t i) const { return options_.folder / plan_.runs[i].name; }
+  const fs::path& fileOf(std::size_t i) const { return plan_.runs[i].file.empty() ? plan_.scene : plan_.runs[i].file; }
   std::string title(std::size_t i) const {
     return fmt::format("run {} of {}  {:<28}", i + 1, plan_.runs.size(), plan_.runs[i].name);
   }
@@ -179,7 +184,7 @@ private:
     awaitFormer(folder(i));
     // What an earlier run left must not be taken for what this one does.
     for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
-    std::vector<std::string> words = {options_.program.string(), "run", plan_.scene.string()};
+    std::vector<std::string> words = {options_.program.string(), "run", fileOf(i).string()};
     std::vector<std::string> overrides = plan_.runs[i].overrides;
     if (options_.jobs > 1 && plan_.runs[i].scene.run.threads == 0)
       putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
@@ -260,7 +265,7 @@ std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& 
     throw base::InputError(
         fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
   support::FileLock alone; // two sweeps in one folder would take each other's files away
-  if (!alone.take(options.folder))
+  if (!options.shared && !alone.take(options.folder))
     throw base::InputError(
         fmt::format("{}: another sweep or check is at work in this folder; wait for its end, or name "
                     "another with --out",

@@ -20,6 +20,8 @@ struct SweepOptions {
   bool force = false;            ///< run again what has already been run, and overwrite folders of other origin
   std::vector<std::string> made; ///< names of runs that `force` does not run again: made a moment ago
   bool plot = true;
+  bool failuresStay = false; ///< a run that has failed is a result: it is not run again
+  bool shared = false;       ///< other calls work in the same folder at the same time, on other runs
 };
 
 using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;

@@ -9,7 +9,6 @@
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/simulation/mechanism.hpp"
-#include "vehicle/spec_file.hpp"
 
 namespace grouser::sweeps {
 
@@ -17,7 +16,7 @@ void checkScene(const scene::Scene& scene) {
   setup::checkRestitutions(scene);
   setup::plannedGrains(scene);
   if (scene.vehicle) {
-    setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()));
+    setup::placeVehicle(scene, setup::vehicleSpec(scene));
     setup::checkParts(scene);
   }
   const double step = setup::chooseTimeStep(scene);

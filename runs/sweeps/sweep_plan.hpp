@@ -28,6 +28,7 @@ struct SweepRun {
   std::vector<std::string> values;    ///< as given, one a swept key
   std::vector<std::string> overrides; ///< "key=value", the swept ones and the fixed ones
   scene::Scene scene;                 ///< with the overrides applied
+  std::filesystem::path file{};       ///< of its scene; empty: the plan's
 };
 
 struct SweepPlan {

@@ -187,8 +187,10 @@ std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, 
   std::optional<support::Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; fs::exists(results))
     file.emplace(support::Hdf5File::open(results));
-  const double driveStart = RunManifest(folder / run.name).figure("drive_start_s");
-  return figuresOf(file ? &*file : nullptr, steadyFrom(run.scene, driveStart), columns);
+  const RunManifest manifest(folder / run.name);
+  const double end = manifest.text("ended_by").empty() ? kNone : manifest.number("simulated_time_s");
+  const double from = steadyFrom(run.scene, manifest.figure("drive_start_s"), end);
+  return figuresOf(file ? &*file : nullptr, from, columns);
 }
 
 /// The cells of one run, in the order of the header.
@@ -210,14 +212,15 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
 
 } // namespace
 
-double steadyFrom(const scene::Scene& scene, double driveStart) {
-  if (!scene.vehicle) return 0.5 * scene.run.duration;
+double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
+  const double duration = std::isfinite(end) ? end : scene.run.duration;
+  if (!scene.vehicle) return 0.5 * duration;
   const double begins = std::isfinite(driveStart) ? driveStart : scene.driver.driveBegins();
   double ramped = begins + scene.driver.rampOfDrive();
   if (const auto& course = scene.driver.course) ramped = begins + std::fabs(course->speed) / course->acceleration;
   if (const auto& torques = scene.driver.torqueTable) ramped = std::max(ramped, begins + torques->time.back());
   if (scene.driver.table) ramped = std::max(ramped, begins + scene.driver.table->time.back());
-  return ramped < scene.run.duration ? 0.5 * (ramped + scene.run.duration) : kNone;
+  return ramped < duration ? 0.5 * (ramped + duration) : kNone;
 }
 
 SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {

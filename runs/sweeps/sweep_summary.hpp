@@ -19,8 +19,10 @@ struct SweepOutcome {
 
 /// Time [s] from which a run counts as steady: the second half of what follows the drive's ramp (and the last time of a
 /// speed table), NaN where the run ends before; without a vehicle the second half of the run.
-/// `driveStart`: when the drive began [s]; NaN: as the scene says, at the earliest.
-double steadyFrom(const scene::Scene& scene, double driveStart = std::numeric_limits<double>::quiet_NaN());
+/// `driveStart`: when the drive began [s]; NaN: as the scene says, at the earliest. `end`: when the run has ended,
+/// where [stop] may have ended it [s]; NaN: as the scene says.
+double steadyFrom(const scene::Scene& scene, double driveStart = std::numeric_limits<double>::quiet_NaN(),
+                  double end = std::numeric_limits<double>::quiet_NaN());
 
 /// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5.
 struct SweepFigures {

@@ -20,7 +20,7 @@ LIBRARIES = {
 }
 # The rooms of the program stand on the libraries and on the rooms before them, but not on those of the same line.
 PROGRAM = [['support'], ['scene'], ['setup'], ['simulation'], ['output'], ['render', 'studies', 'bench'],
-           ['bevameter', 'forecast', 'sweeps'], ['commands']]
+           ['bevameter', 'forecast', 'sweeps'], ['events'], ['commands']]
 # What only keeps or draws needs no physics.
 NARROW = {
     'runs/support': {'base'},

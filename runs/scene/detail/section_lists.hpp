@@ -15,6 +15,7 @@ SectionList surfaceSections();
 SectionList terrainSections();
 SectionList mechanismSections();
 SectionList vehicleSections();
+SectionList hitchSections();
 SectionList outputSections();
 
 } // namespace grouser::scene::detail

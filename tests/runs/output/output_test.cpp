@@ -286,6 +286,31 @@ TEST_F(Output, SinkageCsvHasOneColumnAShoe) {
   EXPECT_TRUE(std::isnan(row[3]));
 }
 
+TEST_F(Output, SinkageCsvOfSingleShoesHasThoseAlone) {
+  {
+    RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
+    for (int r = 0; r < 2; ++r) writer.row(numbered(r));
+    writer.finish({});
+  }
+  const fs::path file = writeSinkageCsv(folder_ / "results.h5", folder_, {2, 1});
+  EXPECT_EQ(file, folder_ / "sinkage_shoes.csv");
+  const std::vector<std::string> text = lines(contents(file));
+  ASSERT_EQ(text.size(), 3u);
+  EXPECT_EQ(text[0], "time [s],left 2 [m],left 1 [m],right 2 [m],right 1 [m]");
+  EXPECT_EQ(cells(text[2])[2], 1.2);
+  EXPECT_THROW(writeSinkageCsv(folder_ / "results.h5", folder_, {0, 3}), base::InputError) << "there are three";
+  EXPECT_THROW(requireShoes(folder_ / "results.h5", {3}), base::InputError);
+  requireShoes(folder_ / "results.h5", {0, 2});
+}
+
+TEST(ShoesNamed, AreNumbersAndRanges) {
+  EXPECT_EQ(shoesNamed("10-13,20"), (std::vector<int>{10, 11, 12, 13, 20}));
+  EXPECT_EQ(shoesNamed("5"), std::vector<int>{5});
+  EXPECT_EQ(shoesNamed("3-3,1"), (std::vector<int>{3, 1}));
+  for (const char* none : {"", "a", "1-", "-1", "4-2", "1,", "1;2", "1.5", "0-99999999", "2-3-4", "99999999999999"})
+    EXPECT_THROW(shoesNamed(none), base::InputError) << none;
+}
+
 TEST_F(Output, SinkageOfAForeignFileIsAnInputError) {
   fs::create_directories(folder_);
   EXPECT_THROW(writeSinkageCsv(folder_ / "nothing.h5", folder_), base::InputError);

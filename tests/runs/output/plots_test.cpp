@@ -83,6 +83,15 @@ TEST_F(Plots, AreDrawnOrSayWhatToInstall) {
   for (const fs::path& plot : drawn) EXPECT_GT(fs::file_size(plot), 10000u) << plot;
 }
 
+TEST_F(Plots, SingleShoesAreDrawnWithAControlBehindThem) {
+  const fs::path alone = folder_ / "alone.png", both = folder_ / "both.png", results = folder_ / "results.h5";
+  drawPicture("single_shoes.py", {results, "2,3,5"}, alone);
+  drawPicture("single_shoes.py", {results, results, "2,3,5"}, both);
+  if (std::string warning; drawPlots(results, folder_, {"sinkage"}, warning).empty()) GTEST_SKIP() << warning;
+  EXPECT_GT(fs::file_size(alone), 10000u);
+  EXPECT_GT(fs::file_size(both), fs::file_size(alone));
+}
+
 TEST_F(Plots, WithoutAShoeOnTheGroundRunAreDrawnEmpty) {
   const fs::path hanging = folder_ / "hanging";
   const std::vector<Channel> channels = {{"vehicle/left/sinkage", "m", "", kShoes, {}},

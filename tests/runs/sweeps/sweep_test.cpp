@@ -354,12 +354,35 @@ TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
   EXPECT_TRUE(seedIntervals(plan, figures).groups.empty()) << "no seeds, no intervals";
 }
 
+TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,-145]"}});
+  // Each run names its scene: of the plan's nothing is taken.
+  plan.scene = folder_ / "none.toml";
+  for (SweepRun& run : plan.runs) run.file = scene();
+  SweepOptions o = options();
+  o.failuresStay = true;
+  const auto again = [&] { return runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {}); };
+  const std::vector<SweepOutcome> first = again();
+  ASSERT_EQ(first[0].status, output::RunStatus::finished) << first[0].message;
+  ASSERT_EQ(first[1].status, output::RunStatus::failed);
+  const std::string fast = plan.runs[1].name;
+  const auto before = ended(fast);
+  const std::vector<SweepOutcome> second = again();
+  EXPECT_EQ(ended(fast), before);
+  EXPECT_EQ(second[1].status, output::RunStatus::failed);
+  EXPECT_EQ(second[1].message, first[1].message);
+  o.failuresStay = false;
+  again();
+  EXPECT_NE(ended(fast), before);
+}
+
 class SweepSummary : public FolderTest {};
 
 TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
   scene::Scene scene = setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
   scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
+  EXPECT_DOUBLE_EQ(steadyFrom(scene, 1.0, 2.3), 1.8) << "it drove off later, and [stop] has ended it";
   scene.driver.table = scene::SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
   EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.5);
   scene.run.duration = 1;
@@ -375,7 +398,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   plan.runs = {
       {"sprocket_speed=2", {"2"}, {}, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
   scene::Scene& scene = plan.runs[0].scene;
-  scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on
+  scene.run.duration = 30, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on: see below
 
   std::vector<output::Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
                                            {"ledger/integration_error", "J", "", 1, {}},
@@ -410,6 +433,8 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   }
   output::Summary summary;
   summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
+  summary.simulatedTime = 3;
+  writer.fact("ended_by", "stop.distance: [stop] has ended it at 3 s");
   writer.finish(summary);
 
   const Csv csv(writeSummary(plan, {{output::RunStatus::finished, ""}}, folder_));

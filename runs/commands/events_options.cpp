@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/command_entry.hpp"
+
+#include "runs/commands/output_times.hpp"
+#include "runs/events/events.hpp"
+#include "runs/support/option_checks.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+namespace grouser::commands {
+
+void addEvents(CLI::App& app, const Invocation& invocation) {
+  const auto command = std::make_shared<grouser::events::EventsCommand>();
+  grouser::events::EventsCommand& c = *command;
+  c.words = invocation.words, c.timeOutput = timeOutput, c.pieces.threads = 0;
+  events::EventOptions& o = c.options;
+  CLI::App* events = app.add_subcommand(
+      "events", "Standard mobility events of a vehicle on a ground: go or no-go, limits, figures with intervals");
+  events->add_option("--vehicle", o.vehicle, "a ready vehicle by name, or a vehicle file that ends in .toml")
+      ->capture_default_str();
+  events->add_option("--soil", o.soil, "rigid, or a soil by its name (`grouser soils`)")->capture_default_str();
+  events
+      ->add_option("--only", o.only,
+                   fmt::format("events, separated by commas, of {}; default: all",
+                               fmt::join(base::wordsOf<events::Event>(), ", ")))
+      ->delimiter(',');
+  events
+      ->add_option("--levels", o.levels,
+                   "of the one event that --only names, separated by commas: tangents of slopes [-], heights, widths "
+                   "and radii [m]; default: by the vehicle's size and friction")
+      ->delimiter(',');
+  events
+      ->add_option("--speed", o.speed,
+                   "commanded [m/s], but twice that in acceleration; default: 1.2 of the light vehicle, others by the "
+                   "root of their pitch radius")
+      ->check(support::positive("a speed in metres a second"));
+  events->add_option("--seeds", o.seeds, "beds of each level; default: 3; with --quick 2")
+      ->check(support::wholeNumber(1, 1000));
+  events
+      ->add_option("--grain-radius", o.grainRadius,
+                   "mean radius of the bed's grains [m]; default: 10.4 of them on the width of a pad; with --quick 4")
+      ->check(support::positive("a length in metres"));
+  events->add_option("--depth", o.depth, "of the bed [m]; default: 1.6 widths of a pad; with --quick 0.9")
+      ->check(support::positive("a length in metres"));
+  events->add_flag("--quick", o.quick,
+                   "coarse and shallow beds, fewer levels and seeds: an hour on 16 cores is aimed at");
+  events->add_option("--set", o.fixed, kSetHelp)->allow_extra_args(false);
+  events->add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
+  events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
+  studies::addPieceOptions(*events, c.pieces);
+  events->add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
+      ->check(support::wholeNumber(1, 1024))
+      ->capture_default_str();
+  events->add_option("--out,--output", c.folder, "folder of the results; default: out/events_VEHICLE_SOIL");
+  events->add_flag("--force", c.force, "run again what has been run, and overwrite what is in that folder");
+  events->callback([command] { events::eventsCommand(*command); });
+}
+
+} // namespace grouser::commands

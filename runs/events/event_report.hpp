@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/events/event_figures.hpp"
+#include "runs/events/event_plan.hpp"
+#include "runs/support/line_fit.hpp"
+#include "runs/sweeps/sweep_summary.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// The table of a set of events.
+namespace grouser::events {
+
+struct FigureOverSeeds {
+  std::string name; ///< with its unit
+  int runs = 0;
+  support::Estimate estimate; ///< mean with the half width of its 95 % interval, infinite for one run
+};
+
+/// A level of an event, over its seeds.
+struct EventRow {
+  Event event{};
+  double level = 0;
+  int runs = 0;    ///< that have a verdict
+  int gos = 0;     ///< of these
+  int unknown = 0; ///< runs that failed for another cause than the vehicle's
+  int pending = 0;
+  std::string why; ///< of the first run
+  std::vector<FigureOverSeeds> figures;
+  std::string picture; ///< of the first run, from the folder; empty where there is none
+};
+
+/// Between which levels an event's limit lies.
+struct EventLimit {
+  Event event{};
+  std::optional<double> go;   ///< highest level that all seeds pass, with none that any fails below
+  std::optional<double> noGo; ///< lowest that some seed fails
+  std::optional<Reference> reference;
+  /// Whether runs and reference agree: nothing passes that it blocks, or fails that it passes; empty: nothing to say.
+  std::optional<bool> agrees;
+};
+
+std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
+                                const std::filesystem::path& folder);
+/// Of the events that have more than one level.
+std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Course& course);
+
+/// Both tables to read.
+std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);
+/// A row for each level and figure, with its runs, mean and half width.
+std::string eventsCsv(const std::vector<EventRow>& rows);
+/// Everything, with the keys that each level sets.
+nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits,
+                                  const EventPlan& plan);
+
+} // namespace grouser::events

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Single shoes over time: single_shoes.py RESULTS.h5 [CONTROL.h5] SHOES FILE.png   with SHOES such as 10,11,12
+
+Heights of their pads, and their sinkage; those of a control run behind them, in grey. Times count from when the
+sprockets begin to turn, so that runs which rest for different times lie upon each other.
+"""
+import packages
+
+packages.require("numpy", "matplotlib", "h5py")
+import h5py
+import numpy
+
+import drawing
+import series
+
+CARRYING = {"linewidth": 2.0}
+OFF_GROUND = {"linewidth": 0.8, "alpha": 0.5}
+
+
+def drive_begin(run):
+    """[s] the last row before the sprockets turn; 0 where that is not known."""
+    teeth = run.get("vehicle/left/teeth_passed")
+    if teeth is None:
+        return 0.0
+    turning = numpy.nonzero(numpy.abs(teeth) > 1e-6)[0]
+    return run.time[max(0, turning[0] - 1)] if len(turning) else 0.0
+
+
+def surface_under(pads, sinkage):
+    """[m] mean height of the undisturbed surface where shoes have lain."""
+    return numpy.nanmean(pads + sinkage) if numpy.isfinite(sinkage).any() else 0.0
+
+
+def draw_control(axes, run, control, side, shoes):
+    """Its ground may lie at another height: its pads are moved by that."""
+    time = control.time - drive_begin(control)
+    pads, sinkage = control.shoes("pad_height").get(side), control.shoes("sinkage").get(side)
+    if sinkage is None:
+        return
+    lift = surface_under(run.shoes("pad_height")[side], run.shoes("sinkage")[side]) - surface_under(pads, sinkage)
+    for shoe in shoes:
+        axes[0].plot(time, pads[:, shoe] + lift, color="0.75", zorder=0, linewidth=1.0)
+        axes[1].plot(time, 1000 * sinkage[:, shoe], color="0.75", zorder=0, **CARRYING)
+    axes[1].plot([], [], color="0.75", label="control", **CARRYING)
+
+
+def main():
+    results, *others, chosen, file = drawing.words(__doc__, lambda given: len(given) in (3, 4))
+    shoes = [int(shoe) for shoe in chosen.split(",")]
+    with h5py.File(results, "r") as opened:
+        run = series.Run(opened)
+        tracks = run.shoes("sinkage")
+        pads = run.shoes("pad_height")
+        begin = drive_begin(run)
+        figure = drawing.Figure(figsize=(4.5 + 4.5 * (len(tracks) - 1), 6.5))
+        columns = figure.subplots(2, len(tracks), sharex=True, sharey="row", squeeze=False).T
+        for axes, (side, sinkage) in zip(columns, tracks.items()):
+            for other in others:
+                with h5py.File(other, "r") as control:
+                    draw_control(axes, run, series.Run(control), side, shoes)
+            for shoe in shoes:
+                on_ground = numpy.isfinite(sinkage[:, shoe])
+                height = pads[side][:, shoe]
+                (line,) = axes[0].plot(run.time - begin, height, **OFF_GROUND)
+                axes[0].plot(run.time - begin, numpy.where(on_ground, height, numpy.nan), color=line.get_color(),
+                             **CARRYING)
+                axes[1].plot(run.time - begin, 1000 * sinkage[:, shoe], color=line.get_color(), label=f"shoe {shoe}",
+                             **CARRYING)
+            axes[0].set_title(f"{side} track")
+            axes[1].set_xlabel("time since the sprockets turn [s]")
+            axes[1].legend(loc="best", fontsize=8, ncol=2)
+        columns[0][1].invert_yaxis()
+        columns[0][0].set_ylabel("height of the pad [m]")
+        columns[0][1].set_ylabel("sinkage [mm]")
+        figure.savefig(file, dpi=150)
+
+
+if __name__ == "__main__":
+    main()

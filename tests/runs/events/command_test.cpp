@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `grouser events` as a user calls it: one event for half a second, its tables, and what a second call leaves out.
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace grouser::events {
+
+using namespace test; // fixtures
+
+namespace {
+
+using EventsProgram = ProgramTest;
+
+TEST_F(EventsProgram, WritesItsTablesAndGoesOn) {
+  const std::string words = "events --only acceleration --set run.duration=0.7 --set driver.drive_start=0.46 "
+                            "--set vehicle.sphere_radius=0.04 --set output.picture=false --threads 1 --out out";
+  const Outcome first = call(words);
+  ASSERT_EQ(first.code, 0) << first.errors;
+  EXPECT_NE(first.out.find("no-go"), std::string::npos) << first.out; // it has no time for 5 m
+  const auto json = nlohmann::json::parse(contents(folder_ / "out" / "events.json"));
+  ASSERT_EQ(json["rows"].size(), 1u);
+  EXPECT_EQ(json["rows"][0]["event"], "acceleration");
+  EXPECT_EQ(json["rows"][0]["verdict"], "no-go");
+  EXPECT_EQ(json["rows"][0]["scene"], "event_acceleration.toml");
+  EXPECT_NE(contents(folder_ / "out" / "events.csv").find("acceleration,,,1,0,comes 0."), std::string::npos);
+  EXPECT_FALSE(contents(folder_ / "out" / "events.txt").empty());
+
+  const Outcome refused = call(words);
+  EXPECT_EQ(refused.code, 2);
+  const Outcome again = call(words + " --resume");
+  EXPECT_EQ(again.code, 0) << again.errors;
+  EXPECT_NE(again.out.find("finished already"), std::string::npos) << again.out;
+}
+
+TEST_F(EventsProgram, EndsWithTwoAndOneLineWhereAWordIsWrong) {
+  for (const char* words : {"--only jump", "--vehicle tank", "--soil cheese", "--levels 0.3", "--seeds 2",
+                            "--only step --levels 0.3,0.3", "--set terrain.colour=red", "--speed -1", "--part 3/2"}) {
+    const Outcome o = call(std::string("events ") + words);
+    EXPECT_EQ(o.code, 2) << words;
+    EXPECT_FALSE(o.error().empty()) << words << ": " << o.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << words;
+  }
+}
+
+} // namespace
+
+} // namespace grouser::events

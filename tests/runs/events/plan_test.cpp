@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the events ask of a vehicle, by its shape, and whether every scene takes every ready vehicle.
+#include "runs/events/event_plan.hpp"
+#include "runs/events/event_report.hpp"
+
+#include "base/error.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/sweeps/scene_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace grouser::events {
+
+namespace {
+
+/// A box of 2 x 0.5 m, its centre of mass `ahead` of its middle and `height` high.
+VehicleShape boxShape(double ahead, double height) {
+  VehicleShape s;
+  s.outline = {{-1, 0}, {1, 0}, {1, 0.5}, {-1, 0.5}};
+  s.rear = s.front = 1, s.firstWheel = -0.8, s.lastWheel = 0.8;
+  s.massCentre = {ahead, height}, s.halfWidth = 0.6;
+  return s;
+}
+
+TEST(VehicleShape, StepOfABoxIsThatOfTheClosedForm) {
+  // Pitched by t about its rear edge the underside below the centre of mass, a before the edge and H over the
+  // underside, lies (a cos t - H sin t) tan t over the ground; the best of whole degrees.
+  const VehicleShape box = boxShape(0, 0.45);
+  double best = 0;
+  for (int degrees = 1; degrees <= 60; ++degrees) {
+    const double t = degrees * std::acos(-1.0) / 180;
+    best = std::max(best, (std::cos(t) - 0.45 * std::sin(t)) * std::tan(t));
+  }
+  EXPECT_NEAR(highestStep(box), best, 1e-12); // round-off
+  EXPECT_GT(highestStep(boxShape(0.3, 0.45)), best);
+  EXPECT_LT(highestStep(boxShape(0, 0.6)), best);
+}
+
+TEST(VehicleShape, GapsAndTippingFollowTheCentreOfMass) {
+  const VehicleShape box = boxShape(0.1, 0.4);
+  EXPECT_DOUBLE_EQ(gapBounds(box).sure, 0.7);
+  EXPECT_DOUBLE_EQ(gapBounds(box).never, 0.9);
+  EXPECT_DOUBLE_EQ(tippingSlope(box), 1.5);
+}
+
+TEST(EventPlan, EveryEventTakesEveryReadyVehicle) {
+  for (const char* vehicle : {"light_tracked", "m113_like", "robot"}) {
+    EventOptions options;
+    options.vehicle = vehicle;
+    const EventPlan plan = planEvents(options); // loads and checks every run's scene
+    for (const PlannedTrial& t : plan.trials) EXPECT_FALSE(t.runs.empty());
+    EXPECT_EQ(plan.trials.size(), 25u) << vehicle;
+    EXPECT_TRUE(plan.omitted.contains(Event::softSoil));
+    // The scene as it stands, with the vehicle alone changed.
+    for (const Event event : allEvents())
+      EXPECT_NO_THROW(sweeps::checkScene(
+          setup::loadScene(sceneOf(event), {std::string("vehicle.spec=vehicles/") + vehicle + ".toml"})))
+          << base::wordOf(event) << " " << vehicle;
+  }
+}
+
+TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
+  EventOptions options;
+  options.soil = "lete_sand", options.quick = true, options.only = {"step", "soft_soil", "grade"};
+  const EventPlan plan = planEvents(options);
+  EXPECT_EQ(plan.seeds, 2);
+  EXPECT_EQ(plan.sweep.runs.size(), 2u * (2 + 1 + 2));
+  EXPECT_EQ(plan.sweep.runs[0].name, "grade=0.2,seed=1");
+  EXPECT_EQ(plan.sweep.runs[4].scene.boxes.at(0).material, "lete_sand"); // of the step, in a bed of Hertz' law
+  const scene::Scene& weak = plan.sweep.runs[6].scene;
+  EXPECT_EQ(plan.sweep.runs[6].name, "soft_soil=0.4,seed=1");
+  const auto bed = std::find_if(weak.materials.begin(), weak.materials.end(),
+                                [](const scene::Material& m) { return m.name == "lete_sand"; });
+  ASSERT_NE(bed, weak.materials.end());
+  EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // of assets/soils/lete_sand.toml
+  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 8, 1e-5); // of a pad's width, in four digits
+  EXPECT_TRUE(weak.terrain->granular());
+}
+
+TEST(EventPlan, LeansGravityAndKeepsItsSize) {
+  EventOptions options;
+  options.only = {"grade"}, options.levels = {0.75};
+  const base::Vec3d g = planEvents(options).sweep.runs[0].scene.run.gravity;
+  EXPECT_NEAR(g.x, -9.81 * 0.6, 1e-5); // six digits
+  EXPECT_NEAR(g.z, -9.81 * 0.8, 1e-5);
+  EXPECT_EQ(g.y, 0);
+}
+
+TEST(EventPlan, RefusesWhatIsNone) {
+  const auto fault = [](const EventOptions& options) -> std::string {
+    try {
+      planEvents(options);
+      return "";
+    } catch (const base::InputError& error) {
+      return error.what();
+    }
+  };
+  EventOptions options;
+  options.only = {"jump"};
+  EXPECT_NE(fault(options).find("--only jump: is no event; events: acceleration, grade"), std::string::npos);
+  options = {}, options.vehicle = "tank";
+  EXPECT_NE(fault(options).find("--vehicle tank: is no vehicle; ready ones: light_tracked, m113_like, robot"),
+            std::string::npos);
+  options = {}, options.soil = "cheese";
+  EXPECT_NE(fault(options).find("--soil cheese: is neither rigid ground nor a soil"), std::string::npos);
+  options = {}, options.soil = "my/sand.toml";
+  EXPECT_NE(fault(options).find("--soil my/sand.toml: give a soil's name"), std::string::npos);
+  options = {}, options.levels = {0.5};
+  EXPECT_NE(fault(options).find("--levels: are of one event"), std::string::npos);
+  options = {}, options.seeds = 3;
+  EXPECT_NE(fault(options).find("--seeds: rigid ground has no grains"), std::string::npos);
+  options = {}, options.only = {"soft_soil"};
+  EXPECT_NE(fault(options).find("--only soft_soil: rigid ground does not become softer"), std::string::npos);
+}
+
+TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {
+  Course course;
+  course.shape = boxShape(0, 0.45), course.shape.friction = 0.8;
+  std::vector<EventRow> rows;
+  for (const auto& [level, gos] : {std::pair{0.4, 1}, {0.784, 1}, {0.816, 0}}) {
+    EventRow row;
+    row.event = Event::grade, row.level = level, row.runs = 1, row.gos = gos;
+    rows.push_back(row);
+  }
+  std::vector<EventLimit> limits = eventLimits(rows, course);
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_EQ(limits[0].go, 0.784);
+  EXPECT_EQ(limits[0].noGo, 0.816);
+  EXPECT_EQ(limits[0].agrees, true);
+  rows[2].gos = 1;
+  EXPECT_EQ(eventLimits(rows, course)[0].agrees, false); // friction 0.8 blocks 0.816
+  EXPECT_FALSE(eventLimits(rows, course)[0].noGo);
+  rows[0].gos = 0;
+  EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go is none to rely on
+}
+
+} // namespace
+
+} // namespace grouser::events

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A vehicle on rigid ground that pulls: by forces, a sled, and a carriage that imposes its slip.
+#include "base/error.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/simulation/simulation.hpp"
+#include "tests/device_under_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace grouser::simulation {
+namespace {
+
+using base::Vec3d;
+
+/// On level rigid ground, 20 m long.
+scene::Scene sceneWith(const std::string& hitch, double speed = 2, double step = 1e-4) {
+  return setup::parseScene(
+      fmt::format("version = 1\n[run]\nduration = 6\ntime_step = {1}\n[material.steel]\nstiffness = 1e6\n"
+                  "friction = 0.5\n[terrain]\nkind = \"rigid\"\nheightmap = \"heightmaps/flat.png\"\nsize = [20, 3]\n"
+                  "height_range = [0, 0]\nmaterial = \"steel\"\n[vehicle]\n"
+                  "spec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\nhull_touches = false\n"
+                  "position = [3, 0]\n[driver]\nsprocket_speed = {2}\n{0}",
+                  hitch.empty() ? "" : "[hitch]\n" + hitch, step, speed),
+      GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
+}
+
+Simulation begin(const scene::Scene& scene, int threads = 2) {
+  return Simulation(setup::simulationSetup(scene), testExec(threads), [](double, double) {});
+}
+
+void advance(Simulation& simulation, double until) {
+  const auto to = std::llround(until / simulation.timeStep());
+  while (simulation.steps() < to) simulation.step();
+}
+
+/// Of the hitch from `from` to `to` [s].
+HitchObservation meanOver(Simulation& simulation, double from, double to) {
+  advance(simulation, from);
+  simulation.restartMeans();
+  advance(simulation, to);
+  return simulation.vehicle()->towing()->observe();
+}
+
+double weightOf(const Simulation& simulation) { return simulation.vehicle()->assembly().mass * 9.81; }
+
+/// All shoes on the ground slide straight back.
+TEST(Towing, AtHighSlipACarriageIsPulledByTheFrictionOfTheWholeWeight) {
+  Simulation simulation = begin(sceneWith("kind = \"speed\"\nslip = 0.4\n"));
+  const HitchObservation o = meanOver(simulation, 1.5, 2.5);
+  const double friction = simulation.vehicle()->assembly().spec.contact.frictionGround;
+  const double coefficient = o.pull / weightOf(simulation);
+  const double imposed = 0.6 * 2 * simulation.vehicle()->assembly().spec.pitchRadius();
+  std::printf("pull / weight = %.5f at friction %.2f, speed / imposed %.6f, thrust / weight %.5f\n", coefficient,
+              friction, o.speed / imposed, simulation.vehicle()->observe().netThrust / weightOf(simulation));
+  EXPECT_NEAR(coefficient, friction, 0.02 * friction) << "shoes at the ends of the run turn as they slide";
+  EXPECT_NEAR(o.speed, imposed, 1e-4 * imposed) << "the swing on its bar";
+  EXPECT_NEAR(o.power, o.pull * o.speed, 0.01 * o.power);
+  EXPECT_EQ(simulation.vehicle()->observe().drawbarPull, o.pull);
+  const Ledger l = simulation.ledger();
+  EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+  EXPECT_LT(norm(l.momentumResidual), 1e-9 * weightOf(simulation) * simulation.time());
+}
+
+/// Sprockets that stand, on ground where a force moves the vehicle: what it pulls beyond friction accelerates it.
+TEST(Towing, AForceBeyondFrictionAcceleratesTheVehicle) {
+  Simulation simulation = begin(sceneWith("kind = \"force\"\nforce = 60e3\nramp = 0\n", 0));
+  advance(simulation, 1.5);
+  simulation.restartMeans();
+  const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
+  const auto momentum = [&] { return simulation.ledger().momentum.x; };
+  const double before = momentum();
+  advance(simulation, 2);
+  const HitchObservation o = simulation.vehicle()->towing()->observe();
+  const double ground = simulation.vehicle()->meanGroundForce().x;
+  EXPECT_NEAR(o.pull, 60e3, 1e-6);
+  EXPECT_NEAR(momentum() - before, (ground - 60e3) * 0.5, 1e-6 * 60e3);
+  EXPECT_NEAR(ground / weightOf(simulation), assembly.spec.contact.frictionGround, 0.01);
+  EXPECT_LT(simulation.vehicle()->state().twist[0].v.x, -0.1);
+}
+
+TEST(Towing, ASledPullsWithItsFriction) {
+  Simulation simulation = begin(sceneWith("kind = \"sled\"\nmass = 1500\nfriction = 0.5\n"));
+  const HitchObservation o = meanOver(simulation, 2, 4);
+  const double friction = 0.5 * 1500 * 9.81;
+  std::printf("pull of the sled / mu m g = %.5f, thrust %.5f\n", o.pull / friction,
+              simulation.vehicle()->observe().netThrust / friction);
+  EXPECT_NEAR(o.pull, friction, 0.01 * friction) << "m a of the teeth's ripple within 2 s";
+  EXPECT_NEAR(simulation.vehicle()->observe().netThrust, friction, 0.02 * friction);
+}
+
+/// The grip ends where the ramp has come to friction times weight.
+TEST(Towing, ARampStopsTheVehicleAtItsFriction) {
+  Simulation simulation = begin(sceneWith("kind = \"ramp\"\nforce = 30e3\nrate = 5000\n", 1));
+  const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
+  while (simulation.steps() < 50000) {
+    simulation.step();
+    if (simulation.time() > 1.5 && simulation.vehicle()->state().twist[0].v.x < 0) break;
+  }
+  simulation.restartMeans();
+  simulation.step();
+  const double pull = simulation.vehicle()->towing()->observe().pull;
+  const double limit = assembly.spec.contact.frictionGround * weightOf(simulation);
+  std::printf("a ramp turns the vehicle back at %.4f of friction x weight\n", pull / limit);
+  EXPECT_NEAR(pull, limit, 0.03 * limit);
+}
+
+/// The same bits for threads, and resumed while the rope swings.
+TEST(OneAnswer, OfATowingVehicle) {
+  for (const char* hitch : {"kind = \"sled\"\nmass = 1500\nfriction = 0.5\n", "kind = \"speed\"\nslip = 0.3\n",
+                            "kind = \"ramp\"\nrate = 4000\n"}) {
+    const scene::Scene scene = sceneWith(hitch);
+    Simulation one = begin(scene, 1), two = begin(scene, 2);
+    advance(one, 0.7);
+    Simulation resumed(setup::simulationSetup(scene), testExec(2), one.save());
+    EXPECT_EQ(resumed.stateHash(), one.stateHash());
+    for (Simulation* s : {&one, &two, &resumed}) advance(*s, 1);
+    EXPECT_EQ(two.stateHash(), one.stateHash()) << "threads: " << hitch;
+    EXPECT_EQ(resumed.stateHash(), one.stateHash()) << "resumed: " << hitch;
+    const HitchObservation o = one.vehicle()->towing()->observe(), r = resumed.vehicle()->towing()->observe();
+    EXPECT_EQ(o.work, r.work);
+    EXPECT_EQ(o.pull, r.pull);
+    EXPECT_NE(o.work, 0);
+  }
+}
+
+/// Drives, hitch and what contacts and joints hold and lose: what is left falls with the step.
+TEST(Towing, TheLedgerClosesTheBetterTheShorterTheStep) {
+  double error[2], drive[2];
+  for (const int k : {0, 1}) {
+    Simulation simulation = begin(sceneWith("kind = \"speed\"\nslip = 0.3\nramp = 0.4\n", 1, k == 0 ? 1e-4 : 5e-5));
+    advance(simulation, 1.5);
+    const Ledger l = simulation.ledger();
+    const double hitch = simulation.vehicle()->towing()->observe().work;
+    error[k] = std::fabs(l.integrationError), drive[k] = l.driveWork - hitch;
+    std::printf("step %g: drives %.4g J, hitch %.4g J, error %.3g J, left over %.2g J\n", simulation.timeStep(),
+                drive[k], hitch, l.integrationError, l.residual);
+    EXPECT_LT(hitch, -500);
+    EXPECT_LT(error[k], 0.02 * drive[k]);
+    EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+  }
+  EXPECT_GT(std::log2(error[0] / error[1]), 0.5) << "measured order";
+}
+
+TEST(Towing, WithoutAHitchNothingIsSaved) {
+  Simulation simulation = begin(sceneWith("", 0));
+  EXPECT_EQ(simulation.vehicle()->towing(), nullptr);
+  EXPECT_TRUE(simulation.save().vehicle->hitch.empty());
+}
+
+TEST(Towing, WrongHitchesAreRefused) {
+  const auto refused = [](const std::string& hitch, std::initializer_list<const char*> words) {
+    try {
+      setup::simulationSetup(sceneWith(hitch));
+      FAIL() << "accepted: " << hitch;
+    } catch (const base::InputError& error) {
+      const std::string said = error.what();
+      for (const char* word : words) EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
+    }
+  };
+  refused("kind = \"force\"\n", {"hitch.force", "missing", "kind = \"force\" needs it"});
+  refused("kind = \"sled\"\nmass = 10\n", {"hitch.friction", "missing"});
+  refused("kind = \"speed\"\nslip = 0.2\nmass = 3\n", {"hitch.mass", "no meaning", "kind = \"sled\""});
+  refused("kind = \"ramp\"\nrate = 2\nstiffness = 1e6\n", {"hitch.stiffness", "no meaning"});
+  refused("kind = \"speed\"\nslip = 0.2\nstiffness = 1e12\n", {"hitch.stiffness", "under-resolved", "swing"});
+  refused("kind = \"pull\"\n", {"hitch.kind", "sled"});
+}
+
+} // namespace
+} // namespace grouser::simulation
