@@ -210,7 +210,7 @@ scene::Scene hurried(const scene::Scene& scene) {
   scene::Scene piece = scene;
   piece.driver.tensionRamp = piece.driver.weightRamp = 0.3 * kHurry;
   piece.driver.driveStart = 0.6 * kHurry, piece.driver.driveRamp = 0.4 * kHurry;
-  piece.hitch.reset(); // costs nothing, and might hold it longer than the piece
+  piece.hitch.reset();                            // costs nothing, and might hold it longer than the piece
   if (const auto& course = scene.driver.course) { // of another place: straight on with its speed
     piece.driver.sprocketSpeed = course->speed / vehicle::readVehicleSpec(piece.vehicle->source()).pitchRadius();
     piece.driver.course.reset();
