@@ -304,7 +304,7 @@ INSTANTIATE_TEST_SUITE_P(
                "[terrain]",
                "[[plane]]\npoint = [0, 0, -9]\nnormal = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"plane0\"\n"
                "position = [0, 0, -8]\nsize = [1, 1, 1]\nmaterial = \"soil\"\n[terrain]",
-               {"box.0.name = plane0", "without a name is called", "choose another"}},
+               {"box.0.name = \"plane0\"", "without a name is called", "choose another"}},
         Broken{"PlaneWithoutNormal",
                "[terrain]",
                "[[plane]]\nnormal = [0, 0, 0]\nmaterial = \"soil\"\n[terrain]",

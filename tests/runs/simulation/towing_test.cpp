@@ -78,10 +78,11 @@ TEST(Towing, AForceBeyondFrictionAcceleratesTheVehicle) {
   const double before = momentum(), begun = simulation.time();
   advance(simulation, begun + 0.3);
   const HitchObservation o = simulation.vehicle()->towing()->observe();
-  const double ground = simulation.vehicle()->meanGroundForce().x;
+  const Vec3d load = simulation.vehicle()->meanGroundForce();
+  const double ground = load.x;
   EXPECT_NEAR(o.pull, 60e3, 1e-6);
   EXPECT_NEAR(momentum() - before, (ground - 60e3) * 0.3, 1e-6 * 60e3);
-  EXPECT_NEAR(ground / weightOf(simulation), assembly.spec.contact.frictionGround, 0.01);
+  EXPECT_NEAR(ground / load.z, assembly.spec.contact.frictionGround, 0.01) << "the hull still swings on its arms";
   EXPECT_LT(simulation.vehicle()->state().twist[0].v.x, -0.1);
 }
 
