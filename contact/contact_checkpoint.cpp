@@ -7,6 +7,7 @@
 #include "contact/patch_contacts.hpp"
 #include "contact/saved_contacts.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace grouser::contact {
@@ -47,6 +48,29 @@ void PatchBuffers::restore(const SavedPatches& saved) {
   if (saved.states.size() != states.size() || saved.sums.size() != sums.size()) refuse();
   states.assign(saved.states);
   sums.assign(saved.sums);
+}
+
+std::vector<GrainPartContacts::Touch> GrainPartContacts::touching() const {
+  std::vector<std::uint64_t> listed = key_.toHost();
+  listed.resize(pairs_);
+  const std::vector<PatchMemory> memory = memory_.toHost();
+  std::vector<std::uint64_t> keys;
+  for (std::size_t k = 0; k < listed.size(); ++k)
+    for (std::size_t q = 0; q < kPatches; ++q) {
+      if (norm2(memory[k * kPatches + q].normal) == 0) continue;
+      keys.push_back(listed[k]);
+      break;
+    }
+  if (held_ != Held::everywhere && !comm_.alone()) {
+    const auto all = comm_.gatherAll(keys);
+    keys.clear();
+    for (const std::vector<std::uint64_t>& of : all) keys.insert(keys.end(), of.begin(), of.end());
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Touch> touches;
+  for (const std::uint64_t key : keys)
+    touches.push_back({static_cast<std::uint32_t>(key >> 16), static_cast<int>(key & 0xffffu)});
+  return touches;
 }
 
 SavedGrainPatches GrainPartContacts::save() const {

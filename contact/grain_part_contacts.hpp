@@ -64,6 +64,14 @@ public:
     float overlap; ///< [m]
   };
   std::vector<Press> pressing(std::uint32_t grain) const;
+  /// A grain and a part in touch at the last compute.
+  struct Touch {
+    std::uint32_t grain;
+    int part;
+  };
+  /// Ascending by grain, then part; of all ranks, which all call it. Looks at all pairs that are listed: for rows, not
+  /// for steps.
+  std::vector<Touch> touching() const;
   /// Grains that were crushed to their middle in the last compute, by id, ascending; of all ranks, which all call it.
   std::vector<std::uint32_t> ended() const;
   /// Forgets grains that are taken out before the next step: what their contacts held is dissipated by crushing.

@@ -74,7 +74,7 @@ private:
 
   void addChassis() {
     const ChassisSpec& c = spec().chassis;
-    MassSpec mass = c;
+    MassSpec mass{c.mass, c.inertia};
     const bool guided = options_.guide != HullGuide::none && !options_.fixChassis;
     if (options_.guide == HullGuide::pitching && guided) mass.mass -= kGuideShare * c.mass; // what rises with it
     assembly_.chassis = addBody("chassis", mass, {c.centre, {}}, options_.fixChassis);

@@ -34,7 +34,7 @@ constexpr VehicleField kVehicleFields[] = {
     {"heading", "rad", "of the hull, from world x towards y", &Observation::heading},
     {"pitch_angle", "rad", "of the hull, nose up positive", &Observation::pitchAngle},
     {"roll_angle", "rad", "of the hull, right side down positive", &Observation::rollAngle},
-    {"gross_traction", "N", "drive torques over the pitch radius", &Observation::grossTraction},
+    {"gross_traction", "N", "mean drive torques over the pitch radius", &Observation::grossTraction},
     {"net_thrust", "N", "of the ground on the vehicle along the heading, mean since the last row",
      &Observation::netThrust},
     {"drawbar_pull", "N", "of the vehicle on its hitch, mean since the last row; net thrust where it has none",
@@ -46,6 +46,9 @@ constexpr ScalarField kTrackFields[] = {
     {"sprocket_speed", "rad/s", "forward positive", &TrackObservation::sprocketSpeed},
     {"drive_torque", "N m", "of the hull on the sprocket by its drive, forward positive",
      &TrackObservation::driveTorque},
+    {"mean_torque", "N m", "the same, mean since the last row", &TrackObservation::meanTorque},
+    {"drive_power", "W", "of the hull on the sprocket by its drive, mean since the last row",
+     &TrackObservation::drivePower},
     {"idler_force", "N", "of the tensioner on the idler, positive away from the sprocket",
      &TrackObservation::idlerForce},
     {"idler_slide", "m", "from the drawn place, positive away from the sprocket", &TrackObservation::idlerSlide},
@@ -69,6 +72,16 @@ constexpr ShoeField kShoeFields[] = {
     {"on_ground", "-", "1 on the ground run and carrying load", &TrackObservation::onGround},
 };
 
+/// Where they are asked for.
+constexpr ShoeField kForceFields[] = {
+    {"normal_force", "N", "of the ground on each shoe, square to its pad, mean since the last row",
+     &TrackObservation::normalForce},
+    {"forward_force", "N", "the same along the shoe, which is forward on the ground run",
+     &TrackObservation::forwardForce},
+    {"left_force", "N", "the same across the shoe, to the left positive", &TrackObservation::leftForce},
+    {"shear", "Pa", "shear force on each pad, of both directions together, over its area", &TrackObservation::shear},
+};
+
 } // namespace
 
 std::string firstQuantity() { return std::string("vehicle/") + kVectorFields[0].name; }
@@ -82,24 +95,34 @@ std::vector<Quantity> quantitiesOfHull() {
   return list;
 }
 
-std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes) {
+std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes, int wheels, bool shoeForces) {
   std::vector<Quantity> list;
   const std::string folder = "vehicle/" + side + "/";
   for (const ScalarField& f : kTrackFields) list.push_back({folder + f.name, f.unit, f.help, 1, {}});
+  Quantity arms{
+      folder + "arm_angle", "rad", "of each road wheel's arm from the drawn place, wheel up positive", wheels, {}};
+  for (int i = 0; i < wheels; ++i) arms.columns.push_back(std::to_string(i));
+  list.push_back(arms);
   for (const ShoeField& f : kShoeFields) list.push_back({folder + f.name, f.unit, f.help, shoes, {}});
+  if (!shoeForces) return list;
+  for (const ShoeField& f : kForceFields) list.push_back({folder + f.name, f.unit, f.help, shoes, {}});
   return list;
 }
 
-std::vector<Quantity> quantities(const Assembly& vehicle) {
+std::vector<Quantity> quantities(const Assembly& vehicle, bool shoeForces) {
   std::vector<Quantity> list = quantitiesOfHull();
   for (const Track& track : vehicle.tracks)
-    for (Quantity& q : quantitiesOfTrack(sideName(track.side), static_cast<int>(track.shoes.size())))
+    for (Quantity& q : quantitiesOfTrack(sideName(track.side), static_cast<int>(track.shoes.size()),
+                                         static_cast<int>(track.armJoints.size()), shoeForces))
       list.push_back(std::move(q));
   return list;
 }
 
-std::vector<double> flatten(const Observation& observation) {
+std::vector<double> flatten(const Observation& observation, bool shoeForces) {
   std::vector<double> values;
+  const auto add = [&values](const std::vector<double>& more) {
+    values.insert(values.end(), more.begin(), more.end());
+  };
   for (const VectorField& f : kVectorFields) {
     const base::Vec3d& v = observation.*f.member;
     values.insert(values.end(), {v.x, v.y, v.z});
@@ -107,10 +130,10 @@ std::vector<double> flatten(const Observation& observation) {
   for (const VehicleField& f : kVehicleFields) values.push_back(observation.*f.member);
   for (const TrackObservation& track : observation.tracks) {
     for (const ScalarField& f : kTrackFields) values.push_back(track.*f.member);
-    for (const ShoeField& f : kShoeFields) {
-      const std::vector<double>& shoes = track.*f.member;
-      values.insert(values.end(), shoes.begin(), shoes.end());
-    }
+    add(track.armAngle);
+    for (const ShoeField& f : kShoeFields) add(track.*f.member);
+    if (!shoeForces) continue;
+    for (const ShoeField& f : kForceFields) add(track.*f.member);
   }
   return values;
 }

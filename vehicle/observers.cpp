@@ -97,10 +97,21 @@ Observer::Observer(const Assembly& vehicle, const ObserverOptions& options)
     : vehicle_(&vehicle), stone_(options.stone) {
   for (int i = 0; i < static_cast<int>(vehicle.tracks.size()); ++i)
     travel_.emplace_back(vehicle, i, options.averageTeeth);
+  driven_.resize(vehicle.tracks.size());
 }
 
 void Observer::update(const multibody::State& state, double dt) {
   for (Travel& travel : travel_) travel.update(state, dt);
+  for (std::size_t i = 0; i < driven_.size(); ++i) {
+    const multibody::JointReading& sprocket = state.joint[vehicle_->tracks[i].sprocketJoint];
+    driven_[i].torque += sprocket.driveForce, driven_[i].power += sprocket.driveForce * sprocket.rate;
+  }
+  ++updates_;
+}
+
+void Observer::restartMeans() {
+  driven_.assign(driven_.size(), {});
+  updates_ = 0;
 }
 
 std::string Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
@@ -136,12 +147,22 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
     o.onGround.push_back(carries ? 1 : 0);
     o.sinkage.push_back(carries && surface ? vehicle::sinkage(spec, pose, surface) : kNaN);
     o.tension.push_back(base::norm(state.joint[t.shoeJoints[i]].force));
-    o.groundPressure.push_back(known ? base::dot(force, base::rotate(pose.orientation, {0, 0, 1})) / padArea : kNaN);
+    const auto along = [&](const Vec3d& axis) {
+      return known ? base::dot(force, base::rotate(pose.orientation, axis)) : kNaN;
+    };
+    const double normal = along({0, 0, 1}), forward = along({1, 0, 0}), left = along({0, 1, 0});
+    o.normalForce.push_back(normal), o.forwardForce.push_back(forward), o.leftForce.push_back(left);
+    o.groundPressure.push_back(normal / padArea);
+    o.shear.push_back(std::sqrt(forward * forward + left * left) / padArea);
   }
   const multibody::JointReading& sprocket = state.joint[t.sprocketJoint];
   const multibody::JointReading& slide = state.joint[t.slideJoint];
   o.sprocketSpeed = sprocket.rate;
   o.driveTorque = sprocket.driveForce;
+  const DriveSums& driven = driven_[track];
+  o.meanTorque = updates_ > 0 ? driven.torque / updates_ : o.driveTorque;
+  o.drivePower = updates_ > 0 ? driven.power / updates_ : o.driveTorque * o.sprocketSpeed;
+  for (const int arm : t.armJoints) o.armAngle.push_back(state.joint[arm].position);
   o.idlerForce = slide.springForce;
   o.idlerSlide = slide.position;
   o.speed = trackSpeed(*vehicle_, track, state);
@@ -173,7 +194,7 @@ Observation Observer::observe(const multibody::State& state, const GroundLoads& 
   double torque = 0;
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
     o.tracks.push_back(observeTrack(i, state, ground, surface));
-    torque += o.tracks.back().driveTorque;
+    torque += o.tracks.back().meanTorque;
   }
   o.grossTraction = torque / vehicle_->spec.pitchRadius();
   o.groundForce = {kNaN, kNaN, kNaN};
@@ -196,14 +217,20 @@ std::vector<double> Observer::save() const {
     const std::vector<double> one = travel.save();
     flat.insert(flat.end(), one.begin(), one.end());
   }
+  for (const DriveSums& sums : driven_) flat.push_back(sums.torque), flat.push_back(sums.power);
+  flat.push_back(updates_);
   return flat;
 }
 
 void Observer::restore(const std::vector<double>& flat) {
   const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
-  if (flat.size() != each * travel_.size()) throw base::InputError("observers: the checkpoint is of another vehicle");
+  if (flat.size() != each * travel_.size() + 2 * driven_.size() + 1)
+    throw base::InputError("observers: the checkpoint is of another vehicle");
   const auto place = [&](std::size_t i) { return flat.begin() + static_cast<std::ptrdiff_t>(i * each); };
   for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i].restore({place(i), place(i + 1)});
+  const double* sums = flat.data() + each * travel_.size();
+  for (DriveSums& driven : driven_) driven = {sums[0], sums[1]}, sums += 2;
+  updates_ = *sums;
 }
 
 } // namespace grouser::vehicle

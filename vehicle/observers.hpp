@@ -28,8 +28,15 @@ struct TrackObservation {
   std::vector<double> tension;        ///< constraint force in the pin joint ahead of each shoe [N]
   std::vector<double> groundPressure; ///< ground force normal to the pad over the pad's area [Pa]; NaN if not known
   std::vector<double> onGround;       ///< 1 on the ground run and carrying load, else 0
+  std::vector<double> normalForce;    ///< of the ground, square to the pad, away from the ground positive [N]
+  std::vector<double> forwardForce;   ///< along the shoe, which is forward on the ground run [N]
+  std::vector<double> leftForce;      ///< across it [N]
+  std::vector<double> shear;          ///< both of these together over the pad's area [Pa]; NaN if not known
+  std::vector<double> armAngle;       ///< one a road wheel: of its arm from the drawn place, wheel up positive [rad]
   double sprocketSpeed = 0;           ///< [rad/s]
   double driveTorque = 0;             ///< of the hull on the sprocket, positive drives forward [N m]
+  double meanTorque = 0;              ///< the same, mean since restartMeans() [N m]
+  double drivePower = 0;              ///< of the drive, mean since restartMeans() [W]
   double idlerForce = 0;              ///< of the tensioner on the idler's carrier, positive away from the sprocket [N]
   double idlerSlide = 0;              ///< from the place of the wrap, forward positive [m]
   double speed = 0;                   ///< of the hull at this track, along the hull's x axis [m/s]
@@ -51,7 +58,7 @@ struct Observation {
   double pitchAngle = 0;       ///< nose up positive [rad]
   double rollAngle = 0;        ///< right side down positive [rad]
   base::Vec3d groundForce;     ///< sum over all bodies: forward along the heading, left, up [N]; NaN if not known
-  double grossTraction = 0;    ///< sum of drive torques over the pitch radius [N]
+  double grossTraction = 0;    ///< sum of the mean drive torques over the pitch radius [N]
   double netThrust = 0;        ///< that the ground leaves the vehicle, forward along the heading [N]
   double drawbarPull = 0;      ///< of the vehicle on its hitch; where it has none, netThrust: m a [N]
   double motionResistance = 0; ///< grossTraction - netThrust [N]
@@ -75,6 +82,8 @@ public:
   Observation observe(const multibody::State& state, const GroundLoads& ground, const SurfaceHeight& surface) const;
   /// The alarm alone, cheap enough for every step or every few: "" while all is well.
   std::string alarm(const multibody::State& state, const GroundLoads& ground) const;
+  /// Begins the means of torque and power anew. Before the first update() behind it they are those of the state.
+  void restartMeans();
   const Travel& travel(int track) const { return travel_[track]; }
 
   std::vector<double> save() const;
@@ -84,8 +93,15 @@ private:
   TrackObservation observeTrack(int track, const multibody::State& state, const GroundLoads& ground,
                                 const SurfaceHeight& surface) const;
 
+  /// Sums over the updates since restartMeans().
+  struct DriveSums {
+    double torque = 0, power = 0; ///< [N m], [W]
+  };
+
   const Assembly* vehicle_;
-  double stone_; ///< [m]
+  double stone_;                  ///< [m]
+  std::vector<DriveSums> driven_; ///< one a track
+  double updates_ = 0;
   std::vector<Travel> travel_;
 };
 

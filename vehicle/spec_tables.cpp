@@ -195,7 +195,7 @@ Table<ContactSpec> contactTable() {
       .atLeast(0)
       .atMost(2)
       .required();
-  t.add("friction_ground", &ContactSpec::frictionGround, "-", "shoes against ground").atLeast(0).atMost(2).required();
+  t.add("friction_ground", &ContactSpec::frictionGround, "-", "shoes against ground").atLeast(0).atMost(5).required();
   return t;
 }
 

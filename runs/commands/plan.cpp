@@ -21,7 +21,6 @@
 #include "runs/simulation/bed_cache.hpp"
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/surfaces.hpp"
-#include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
 
@@ -191,9 +190,11 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   text += fmt::format("  {:<24} {}{}\n", "grains", grains, doubt);
   if (grains) text += memoryText(scene, static_cast<double>(grains));
   if (scene.vehicle) {
-    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+    const vehicle::VehicleSpec spec = setup::vehicleSpec(scene);
     setup::placeVehicle(scene, spec);
-    text += fmt::format("  {:<24} {:.0f} kg, 2 x {} shoes, pitch radius {:.4f} m\n", "vehicle", spec.totalMass(),
+    const int tracks = scene.vehicle->tracks == scene::Tracks::single ? 1 : 2;
+    text += fmt::format("  {:<24} {:.0f} kg, {} x {} shoes, pitch radius {:.4f} m\n", "vehicle",
+                        spec.chassis.mass + 0.5 * tracks * (spec.totalMass() - spec.chassis.mass), tracks,
                         spec.shoe.count, spec.pitchRadius());
     setup::checkParts(scene);
   }

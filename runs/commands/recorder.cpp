@@ -61,12 +61,18 @@ std::optional<output::UndisturbedSurface> undisturbedSurface(const simulation::G
   return s;
 }
 
+/// Of a vehicle on grains, where the scene asks for it.
+bool countsGear(const simulation::Simulation& simulation) {
+  return simulation.vehicle() && simulation.ground().grains && simulation.setup().output.gearContacts;
+}
+
 std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation) {
   std::vector<output::Channel> channels;
   if (simulation.mechanism())
     channels = output::mechanismChannels(simulation.mechanism()->model(), simulation.setup().output.record);
   if (simulation.vehicle())
-    for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly()))
+    for (const vehicle::Quantity& q :
+         vehicle::quantities(simulation.vehicle()->assembly(), simulation.setup().output.shoeForces))
       channels.push_back(output::channelOf(q));
   if (simulation.ground().grains)
     for (const output::Channel& c : output::terrainChannels()) channels.push_back(c);
@@ -78,9 +84,23 @@ std::vector<output::Channel> channelsOf(const simulation::Simulation& simulation
     for (const output::Channel& c : output::obstacleChannels(o.surface.name)) channels.push_back(c);
   if (simulation.vehicle() && simulation.vehicle()->towing())
     for (const output::Channel& c : output::hitchChannels()) channels.push_back(c);
+  if (countsGear(simulation))
+    for (const output::Channel& c : output::gearChannels()) channels.push_back(c);
   for (const output::Channel& c : output::ledgerChannels()) channels.push_back(c);
   if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
   return channels;
+}
+
+void setGearRow(output::RowBuilder& row, const simulation::GearContacts& c) {
+  const std::pair<const char*, std::int64_t> counts[] = {{"grains_on_shoes", c.shoes},
+                                                         {"grains_on_sprockets", c.sprockets},
+                                                         {"grains_on_road_wheels", c.roadWheels},
+                                                         {"grains_on_rollers", c.rollers},
+                                                         {"grains_on_idlers", c.idlers},
+                                                         {"grains_on_hull", c.hull},
+                                                         {"stones", c.stones},
+                                                         {"pinched_stones", c.pinched}};
+  for (const auto& [name, count] : counts) row.set(fmt::format("gear/{}", name), static_cast<double>(count));
 }
 
 void setHitchRow(output::RowBuilder& row, const simulation::HitchObservation& o) {
@@ -161,7 +181,8 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 
 Recorder::Recorder(simulation::Simulation& simulation, const RunRequest& options, const base::Exec& exec,
                    const simulation::Checkpoint* former, std::int64_t total)
-    : simulation_(simulation), begunAt_(simulation.steps()), channels_(channelsOf(simulation)), row_(channels_),
+    : simulation_(simulation), exec_(exec), begunAt_(simulation.steps()), channels_(channelsOf(simulation)),
+      row_(channels_),
       writer_(options.folder, simulation.setup().provenance, channels_,
               writerOptions(simulation.setup().output.frames, options, exec, channels_, former, total)) {
   try {
@@ -210,10 +231,12 @@ std::vector<setup::Obstacle> Recorder::drawnObstacles() const {
 void Recorder::row() {
   row_.begin(simulation_.steps(), simulation_.time());
   if (const simulation::VehicleRig* rig = simulation_.vehicle())
-    row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(rig->observe()));
+    row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(rig->observe(), simulation_.setup().output.shoeForces));
   const simulation::Simulation::Ledger l = simulation_.ledger();
   if (const auto& grains = simulation_.ground().grains) {
     row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
+    row_.set("terrain/boundary_contacts", static_cast<double>(l.boundaryContacts));
+    row_.set("terrain/part_contacts", static_cast<double>(l.partContacts));
     row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);
     row_.set("terrain/max_speed", l.fastestGrain);
     row_.set("terrain/capped", static_cast<double>(l.cappedNow)), row_.set("terrain/cut_impulse", l.cutImpulse);
@@ -240,6 +263,7 @@ void Recorder::row() {
     row_.set("obstacles/" + obstacles[i].surface.name + "/force", simulation_.vehicle()->meanForceOn(i));
   if (const simulation::VehicleRig* rig = simulation_.vehicle(); rig && rig->towing())
     setHitchRow(row_, rig->towing()->observe());
+  if (countsGear(simulation_)) setGearRow(row_, simulation_.vehicle()->contacts().gearContacts());
   if (const simulation::Mechanism* mechanism = simulation_.mechanism())
     output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);
   setLedgerRow(row_, l, !simulation_.mechanism());
@@ -247,6 +271,15 @@ void Recorder::row() {
   squeezed_.add(row_.row());
   if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
   simulation_.restartMeans();
+}
+
+void Recorder::finalSurface() {
+  const simulation::Ground& ground = simulation_.ground();
+  if (!simulation_.setup().output.finalSurface || !simulation_.vehicle() || !ground.undisturbed) return;
+  const std::vector<double> heights = simulation::surfaceNow(ground, exec_);
+  // On several ranks all find the same; radii of what is left must not have changed the nodes.
+  if (heights.size() == ground.undisturbed->heights().size())
+    writer_.finalSurface(heights, static_cast<std::size_t>(ground.undisturbed->columns()));
 }
 
 void Recorder::frame() {

@@ -27,6 +27,8 @@ public:
   /// Of a run that has met a fault in the present step, unless there is one of that step. Grains alone may have gone
   /// some steps beyond those that the simulation counts.
   void lastFrame();
+  /// The bed as it lies at the end, where the scene has a vehicle on one.
+  void finalSurface();
   /// picture.png of the present state.
   void picture(int width);
 
@@ -39,6 +41,7 @@ private:
   std::vector<setup::Obstacle> drawnObstacles() const;
 
   simulation::Simulation& simulation_;
+  base::Exec exec_;
   const std::int64_t begunAt_; ///< step of the start, or of the checkpoint that the run goes on from
   std::vector<output::Channel> channels_;
   output::RowBuilder row_;

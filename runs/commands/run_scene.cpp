@@ -263,6 +263,7 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
   // The end is always written, whether or not the intervals meet it.
   if (simulation.steps() % rowEvery != 0) recorder.row();
   if (simulation.steps() % frameEvery != 0) recorder.frame();
+  recorder.finalSurface();
   progress.finish(fmt::format("{} steps", simulation.steps()));
 }
 

@@ -5,6 +5,7 @@
 #include "base/sphere.hpp"
 #include "runs/bench/bench.hpp"
 #include "runs/setup/bed_options.hpp"
+#include "runs/setup/placement.hpp"
 #include "runs/support/line_fit.hpp"
 #include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
@@ -191,7 +192,7 @@ scene::Scene pieceOf(const scene::Scene& scene, double grains, double most) {
     std::array<double, 2> size{std::max(t.size[0] * shrink, side), std::max(t.size[1] * shrink, side)};
     if (piece.vehicle) {
       // Room for it where it stands by default: a track is as long as its strand, twice as wide as their distance.
-      const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(piece.vehicle->source());
+      const vehicle::VehicleSpec spec = setup::vehicleSpec(piece);
       const double length = 0.55 * spec.shoe.count * spec.shoe.pitch, width = 2 * (spec.trackOffset + 0.5);
       const double all = std::max(length, width);
       size = {std::max(size[0], piece.vehicle->heading == 0 ? length : all),
@@ -209,6 +210,7 @@ scene::Scene hurried(const scene::Scene& scene) {
   scene::Scene piece = scene;
   piece.driver.tensionRamp = piece.driver.weightRamp = 0.3 * kHurry;
   piece.driver.driveStart = 0.6 * kHurry, piece.driver.driveRamp = 0.4 * kHurry;
+  piece.hitch.reset();                            // costs nothing, and might hold it longer than the piece
   if (const auto& course = scene.driver.course) { // of another place: straight on with its speed
     piece.driver.sprocketSpeed = course->speed / vehicle::readVehicleSpec(piece.vehicle->source()).pitchRadius();
     piece.driver.course.reset();

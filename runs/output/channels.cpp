@@ -16,6 +16,8 @@ const std::vector<std::string> kAxes = {"x", "y", "z"};
 std::vector<Channel> terrainChannels() {
   return {
       {"terrain/contacts", "-", "pairs of grains in touch", 1, {}},
+      {"terrain/boundary_contacts", "-", "contacts of grains with planes, floor and surfaces", 1, {}},
+      {"terrain/part_contacts", "-", "contacts of grains with parts of a vehicle and meshes", 1, {}},
       {"terrain/max_overlap", "-", "largest overlap in grain radii", 1, {}},
       {"terrain/squeezed", "-", "pairs of grains that overlap by more than 0.2 of the smaller radius", 1, {}},
       {"terrain/squeezed_at_boundaries", "-", "contacts of grains with planes, floor and surfaces, as deep", 1, {}},
@@ -69,6 +71,19 @@ std::vector<Channel> hitchChannels() {
       {"hitch/work", "J", "by the hitch on the vehicle since the start, part of ledger/drive_work", 1, {}},
       {"hitch/towed_way", "m", "of sled or carriage since the hitch took hold", 1, {}},
       {"hitch/towed_speed", "m/s", "of sled or carriage", 1, {}},
+  };
+}
+
+std::vector<Channel> gearChannels() {
+  return {
+      {"gear/grains_on_shoes", "-", "pairs of grain and shoe in touch", 1, {}},
+      {"gear/grains_on_sprockets", "-", "the same of sprockets", 1, {}},
+      {"gear/grains_on_road_wheels", "-", "the same of road wheels", 1, {}},
+      {"gear/grains_on_rollers", "-", "the same of rollers", 1, {}},
+      {"gear/grains_on_idlers", "-", "the same of idlers", 1, {}},
+      {"gear/grains_on_hull", "-", "the same of the hull", 1, {}},
+      {"gear/stones", "-", "grains that touch a sprocket, road wheel, roller or idler", 1, {}},
+      {"gear/pinched_stones", "-", "those of them that touch a shoe too", 1, {}},
   };
 }
 

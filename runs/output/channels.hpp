@@ -23,6 +23,8 @@ std::vector<Channel> surfaceChannels(const std::string& name, bool hasPivot = fa
 std::vector<Channel> obstacleChannels(const std::string& name);
 /// What a vehicle pulls at its hitch.
 std::vector<Channel> hitchChannels();
+/// What grains touch of a vehicle.
+std::vector<Channel> gearChannels();
 /// Energy and momentum.
 std::vector<Channel> ledgerChannels();
 

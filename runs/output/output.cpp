@@ -295,6 +295,11 @@ void RunWriter::surface(const UndisturbedSurface& surface) {
   series.results.attribute(std::string("/") + kSurfaceHeight.path, "interpolation", surface.interpolation);
 }
 
+void RunWriter::finalSurface(const std::vector<double>& height, std::size_t columns) {
+  if (!impl_->series) return;
+  impl_->series->array(kSurfaceFinal, height, {height.size() / columns, columns});
+}
+
 void RunWriter::bed(const terrain::BedStructure& bed) {
   if (!impl_->series) return;
   for (const BedConstant& c : kBedConstants) constant(c.constant, bed.*c.member);

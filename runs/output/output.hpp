@@ -65,6 +65,9 @@ public:
   /// The undisturbed surface that sinkage is measured from, in results.h5: terrain/surface/{x, y, height}.
   void surface(const UndisturbedSurface& surface);
 
+  /// Heights of the bed at the end, at the nodes of surface(); in results.h5: terrain/surface/final_height.
+  void finalSurface(const std::vector<double>& height, std::size_t columns);
+
   /// What the bed is made of, in results.h5: terrain/bed/.
   void bed(const terrain::BedStructure& bed);
 

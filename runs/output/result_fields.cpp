@@ -65,6 +65,7 @@ std::string withoutName(const std::string& path) {
 
 std::string shapeOf(const Channel& c) {
   if (c.width == 1) return "[rows]";
+  if (c.path.ends_with("/arm_angle")) return "[rows, wheels]";
   return c.columns.empty() ? "[rows, shoes]" : fmt::format("[rows, {}]", c.width);
 }
 
@@ -107,16 +108,18 @@ std::vector<FileField> resultFields() {
       fieldOf(kSurfaceX, "[columns]"),
       fieldOf(kSurfaceY, "[lines]"),
       fieldOf(kSurfaceHeight, "[lines, columns]"),
+      fieldOf(kSurfaceFinal, "[lines, columns]"),
       {std::string(kSurfaceHeight.path) + "@interpolation", "text", "", "",
        "between the nodes: \"bilinear\" or \"Catmull-Rom\""}};
   for (const BedConstant& c : kBedConstants) fields.push_back(fieldOf(c.constant, "[1]"));
   for (const BedCurve& c : kBedCurves) fields.push_back(fieldOf(c.curve, "[n]"));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfHull()) add(fields, channelOf(q));
-  for (const vehicle::Quantity& q : vehicle::quantitiesOfTrack("SIDE", 2)) add(fields, channelOf(q));
+  for (const vehicle::Quantity& q : vehicle::quantitiesOfTrack("SIDE", 2, 0, true)) add(fields, channelOf(q));
   for (const Channel& c : terrainChannels()) add(fields, c);
   for (const Channel& c : surfaceChannels("NAME", true)) add(fields, c);
   for (const Channel& c : obstacleChannels("NAME")) add(fields, c);
   for (const Channel& c : hitchChannels()) add(fields, c);
+  for (const Channel& c : gearChannels()) add(fields, c);
   for (const Channel& c : ledgerChannels()) add(fields, c);
   for (const Channel& c : mechanismChannels(modelOfAll(), {})) add(fields, c);
   return fields;

@@ -51,7 +51,11 @@ inline constexpr ResultConstant kSurfaceX{"terrain/surface/x", "m", "of the node
     kSurfaceY{"terrain/surface/y", "m", "of the nodes"},
     kSurfaceHeight{
         "terrain/surface/height", "m",
-        "of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], column i at x[i]"};
+        "of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], column i at x[i]"},
+    kSurfaceFinal{
+        "terrain/surface/final_height", "m",
+        "of the bed's surface at the same nodes at the end of the run, found alike: what is below `height` are "
+        "ruts; a bed under a vehicle alone, and where output.final_surface asks for it"};
 
 /// All that results.h5 may hold. Of each quantity of a series the dataset `value`; beside it lie `step` and `time`.
 std::vector<support::FileField> resultFields();

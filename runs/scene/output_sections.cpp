@@ -21,6 +21,13 @@ Table<Output> outputTable() {
   t.add("record", &S::record, "", "names of what of a mechanism goes into the time series; all where empty");
   t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
   t.add("contact_forces", &S::contactForces, "", "resultant of the contact forces on each grain, in those frames");
+  t.add("shoe_forces", &S::shoeForces, "",
+        "force of the ground on each shoe of a vehicle, and its shear, in results.h5");
+  t.add("gear_contacts", &S::gearContacts, "",
+        "which parts of a vehicle its grains touch, and the stones in its running gear, in every row: costs a look at "
+        "all of these contacts");
+  t.add("final_surface", &S::finalSurface, "",
+        "of the bed at the end of a run with a vehicle, in results.h5: its ruts");
   t.add("grains_csv", &S::grainsCsv, "",
         "grains.csv with every grain at every output time; \"auto\": up to 1000 grains and 1e6 lines")
       .orWord("auto");

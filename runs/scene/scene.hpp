@@ -299,8 +299,10 @@ struct Output {
   std::string folder;              ///< empty: out/NAME of the scene file
   std::vector<std::string> record; ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
   bool frames = true;
-  bool contactForces = true;     ///< of each grain in the frames
-  std::optional<bool> grainsCsv; ///< every grain in every row as text; empty: in small scenes
+  bool contactForces = true;                     ///< of each grain in the frames
+  bool shoeForces = false, gearContacts = false; ///< of a vehicle, in the rows
+  bool finalSurface = true;                      ///< of its bed
+  std::optional<bool> grainsCsv;                 ///< every grain in every row as text; empty: in small scenes
   bool picture = true;
   bool plots = true;
   int pictureWidth = 1600;

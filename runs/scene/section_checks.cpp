@@ -170,6 +170,24 @@ void checkMaterialsOfOverrides(const Section& root, const Scene& scene) {
                                          base::nearestWord(name, names), fmt::join(names, ", ")));
 }
 
+/// Surfaces without a name are called by their list and number.
+void checkNamesOfSurfaces(const Section& root, const Scene& scene) {
+  std::vector<std::string> called;
+  const auto call = [&](const char* list, const auto& surfaces) {
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      if (!surfaces[k].name) called.push_back(fmt::format("{}{}", list, k));
+  };
+  call("plane", scene.planes), call("box", scene.boxes);
+  call("cylinder", scene.cylinders), call("mesh", scene.meshes);
+  const auto judge = [&](const char* list, const auto& surfaces) {
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      if (surfaces[k].name && std::find(called.begin(), called.end(), *surfaces[k].name) != called.end())
+        root.list(list)[k].fail("name", "is what a surface without a name is called in the results; choose another");
+  };
+  judge("plane", scene.planes), judge("box", scene.boxes);
+  judge("cylinder", scene.cylinders), judge("mesh", scene.meshes);
+}
+
 } // namespace
 
 void checkTogether(const Scene& scene) {
@@ -179,6 +197,7 @@ void checkTogether(const Scene& scene) {
   checkPlaced(root, scene);
   checkPeriodic(run, scene);
   checkPlanesAcross(root.list("plane"), scene);
+  checkNamesOfSurfaces(root, scene);
   checkSettling(run, scene);
   checkSomethingMoves(scene);
 }

@@ -27,7 +27,8 @@ SimulationSetup compiled(const scene::Scene& scene, int ranks, SizeChecks sizes)
   if (!scene.mechanism.empty()) setup.mechanism = mechanismSetup(scene);
   setup.run = {scene.run.duration, scene.run.outputInterval, scene.run.frameInterval, scene.run.checkpointInterval};
   const scene::Output& o = scene.output;
-  setup.output = {o.record, o.frames, o.contactForces, o.grainsCsv, o.picture, o.pictureWidth};
+  setup.output = {o.record,       o.frames,       o.contactForces, o.grainsCsv,   o.shoeForces,
+                  o.gearContacts, o.finalSurface, o.picture,       o.pictureWidth};
   setup.planes = drawnPlanes(scene);
   return setup;
 }

@@ -24,9 +24,11 @@ struct RunSetup {
 
 /// What a run writes.
 struct OutputSetup {
-  std::vector<std::string> record; ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
-  bool frames{}, contactForces{};  ///< contact forces of each grain in the frames
-  std::optional<bool> grainsCsv;   ///< every grain in every row as text; empty: in small scenes
+  std::vector<std::string> record;   ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
+  bool frames{}, contactForces{};    ///< contact forces of each grain in the frames
+  std::optional<bool> grainsCsv;     ///< every grain in every row as text; empty: in small scenes
+  bool shoeForces{}, gearContacts{}; ///< of a vehicle, in the rows
+  bool finalSurface{};               ///< of its bed
   bool picture{};
   int pictureWidth{}; ///< [px]
 };

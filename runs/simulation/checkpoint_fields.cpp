@@ -96,7 +96,10 @@ constexpr Meaning kMeanings[] = {
     {"surfaces/patches/deepest", "-", "of each part the grain that it has pressed most since the last row"},
     {"vehicle/lift", "m", "with which it was set down"},
     {"vehicle/bodies", "m, -, m/s, rad/s", "places, velocities, springs and books of all bodies"},
-    {"vehicle/observers", "-, m", "travel of each track in teeth, pitches and metres"},
+    {"vehicle/observers", "-, m, N m, W",
+     "travel of each track in teeth, pitches and metres; then sums since the last row of torque and power of each, and "
+     "of how many "
+     "steps"},
     {"vehicle/driver", "s, m/s, rad/s, m",
      "when the drive began, and since when it had rested, -1: not yet; of a course the integrals of the errors of "
      "speed "

@@ -60,6 +60,10 @@ void keepSurface(Ground& ground, const std::vector<double>& heights, double radi
   ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * radius, heights);
 }
 
+std::vector<double> surfaceNow(const Ground& ground, const base::Exec& exec) {
+  return terrain::BedSurface(exec, *ground.grains, ground.rigid->view(), *ground.walls).heights();
+}
+
 terrain::BedExtent extentOf(const Ground& ground, const terrain::BedSurface& surface) {
   const terrain::HeightField& floor = *ground.rigid;
   const base::Period& period = ground.grains->system().constants.period;

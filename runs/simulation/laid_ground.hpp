@@ -43,6 +43,9 @@ bool isTaken(const setup::GroundSetup& setup, const base::Vec3d& centre, double 
 void keepSurface(Ground& ground, const base::Exec& exec);
 void keepSurface(Ground& ground, const std::vector<double>& heights, double radius);
 
+/// Heights of the bed as it lies now, at the nodes of a surface that was kept [m]. All ranks call it.
+std::vector<double> surfaceNow(const Ground& ground, const base::Exec& exec);
+
 /// The limits of its bed, whose surface as it lies is given. Refers to both.
 terrain::BedExtent extentOf(const Ground& ground, const terrain::BedSurface& surface);
 /// Measures the bed, whose surface has been kept.

@@ -33,7 +33,7 @@ void StepsAhead::begin() {
 }
 
 void StepsAhead::launchNext() {
-  if (vehicle_.contacts().listsWillHold()) launch();
+  if (vehicle_.contacts().listsHold(true)) launch();
 }
 
 void StepsAhead::end() {

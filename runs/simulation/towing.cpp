@@ -34,7 +34,7 @@ void Towing::book(const vehicle::Assembly& vehicle, const multibody::State& stat
 HitchObservation Towing::observe() const {
   const double share = steps_ > 0 ? 1 / static_cast<double>(steps_) : 0.0;
   HitchObservation o;
-  o.force = forces_ * share, o.pull = -o.force.x;
+  o.force = forces_ * share, o.pull = 0.0 - o.force.x;
   o.speed = speeds_ * share, o.power = taken_ * share, o.work = work_;
   o.towedWay = hitch_.way(), o.towedSpeed = hitch_.towedSpeed();
   return o;

@@ -246,10 +246,9 @@ void VehicleContacts::trackTravel(const multibody::State& state) {
   absoluteTravel_ += lastAbsolute_;
 }
 
-bool VehicleContacts::listsHold() const { return !trackHasLeft() && !groundHasLeft(); }
-
-/// A part may go four times as far as in the step before.
-bool VehicleContacts::listsWillHold() const {
+/// Ahead a part may go four times as far as in the step before.
+bool VehicleContacts::listsHold(bool ahead) const {
+  if (!ahead) return !trackHasLeft() && !groundHasLeft();
   return 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin &&
          absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kBedMargin;
 }
@@ -309,6 +308,14 @@ std::vector<std::pair<std::string, double>> VehicleContacts::pressing(std::uint3
     named.emplace_back("the " + assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
                        static_cast<double>(p.overlap));
   return named;
+}
+
+GearContacts VehicleContacts::gearContacts() const {
+  std::vector<TouchedPart> touches;
+  if (!bed_) return {};
+  for (const contact::GrainPartContacts::Touch& t : bed_->touching())
+    touches.push_back({t.grain, assembly_.parts[parts_.partOf(static_cast<std::size_t>(t.part))].kind});
+  return countGear(touches);
 }
 
 std::optional<PressedMost> VehicleContacts::pressedMost() const {

@@ -7,6 +7,7 @@
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "multibody/state.hpp"
+#include "runs/simulation/gear_contacts.hpp"
 #include "runs/simulation/ground.hpp"
 #include "runs/simulation/obstacle_contacts.hpp"
 #include "runs/simulation/pressed_grain.hpp"
@@ -53,8 +54,8 @@ public:
   void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains);
   /// Before the gate opens: what the device reads beside the poses.
   void noteTravel();
-  bool listsHold() const;     ///< for the poses last set
-  bool listsWillHold() const; ///< for those of the next step too, unless a part is thrown
+  /// For the poses last set; `ahead`: for those of the next step too, unless a part is thrown.
+  bool listsHold(bool ahead = false) const;
   std::int64_t listings() const { return listings_; }
 
   /// For the grains' step; null on rigid ground.
@@ -87,6 +88,7 @@ public:
   /// Grains that were crushed to their middle in this step, by id; of all ranks, which all call it.
   std::vector<std::uint32_t> endedGrains() const;
   void takeOut(const std::vector<std::uint32_t>& grains) { bed_->takeOut(grains); }
+  GearContacts gearContacts() const; ///< of the last step; of all ranks, which all call it. For rows, not for steps.
   /// Since forgetPressed(); of all ranks, which all call it.
   std::optional<PressedMost> pressedMost() const;
   void forgetPressed() {

@@ -162,6 +162,7 @@ vehicle::Observation VehicleRig::observe() const {
 void VehicleRig::restartMeans() {
   rowMeans_.restart();
   contacts_->forgetPressed();
+  observer_->restartMeans();
   if (towing_) towing_->restartMeans();
 }
 

@@ -146,7 +146,8 @@ TEST(Hitch, CarriageHoldsTheSpeedThatTheSlipSays) {
 
 TEST(Hitch, CarriageTakesOverAMovingHullSmoothly) {
   HitchOptions o = of(HitchKind::speed);
-  o.slip = 0.5, o.ramp = 0.4, o.damping = 2 * 0.7 * std::sqrt(o.stiffness * 1000);
+  o.slip = 0.5, o.ramp = 0.4;
+  o.stiffness = 1e8, o.damping = 2 * 0.7 * std::sqrt(o.stiffness * 1000); // its swing is quick beside the ramp
   Hitch hitch(o);
   Block block;
   block.speed = 1;
@@ -155,7 +156,7 @@ TEST(Hitch, CarriageTakesOverAMovingHullSmoothly) {
   for (int i = 0; i < 8000; ++i) most = std::fmax(most, -block.step(hitch, 1e-4, 0, 1));
   EXPECT_NEAR(block.speed, 0.5, 1e-6);
   // The ramp 3 s^2 - 2 s^3 is steepest in its middle, 1.5 / ramp: 1000 kg x 0.5 m/s x 1.5 / 0.4 s.
-  EXPECT_NEAR(most, 1875, 0.05 * 1875) << "the swing overshoots";
+  EXPECT_NEAR(most, 1875, 0.01 * 1875) << "1 % is what 316 rad/s follow a curve of 0.4 s by";
 }
 
 TEST(Hitch, SavedAndRestoredItGoesOnAlike) {

@@ -165,6 +165,58 @@ TEST_F(ObserverValues, GroundPressureIsTheForceAlongThePadsNormalOverItsArea) {
   EXPECT_EQ(o.tracks[1].onGround[first + 1], 1);
 }
 
+TEST_F(ObserverValues, ForcesOnAShoeAreInItsOwnAxes) {
+  const double pitch = 0.3;
+  place({{}, attitude(0, pitch, 0)});
+  GroundLoads ground = noLoads();
+  const int shoe = v.wrap.firstGroundShoe();
+  ground.force[left.shoes[shoe]] = {300, 40, 2000};
+  const auto o = Observer(v).observe(state, ground, nullptr).tracks[0];
+  const double area = 0.136 * 0.28, s = base::sin(pitch), c = base::cos(pitch);
+  EXPECT_NEAR(o.normalForce[shoe], -s * 300 + c * 2000, kRound);
+  EXPECT_NEAR(o.forwardForce[shoe], c * 300 + s * 2000, kRound);
+  EXPECT_NEAR(o.leftForce[shoe], 40, kRound);
+  EXPECT_NEAR(o.shear[shoe], std::sqrt((c * 300 + s * 2000) * (c * 300 + s * 2000) + 1600) / area, 1e-9);
+  EXPECT_EQ(o.normalForce[0], 0);
+  EXPECT_TRUE(std::isnan(Observer(v).observe(state, {}, nullptr).tracks[0].shear[shoe])) << "loads are not known";
+}
+
+TEST_F(ObserverValues, TorqueAndPowerAreMeansSinceTheyWereBegun) {
+  Observer observer(v);
+  const auto turn = [&](double torque, double rate) {
+    state.joint[left.sprocketJoint].driveForce = torque, state.joint[left.sprocketJoint].rate = rate;
+    state.joint[right.sprocketJoint].driveForce = -2 * torque, state.joint[right.sprocketJoint].rate = 0.5 * rate;
+  };
+  turn(100, 3);
+  const auto still = observer.observe(state, {}, nullptr);
+  EXPECT_EQ(still.tracks[0].meanTorque, 100) << "before the first step that of the state";
+  EXPECT_EQ(still.tracks[0].drivePower, 300);
+  observer.update(state, 0.01);
+  turn(400, 2), observer.update(state, 0.01);
+  const auto o = observer.observe(state, {}, nullptr);
+  EXPECT_EQ(o.tracks[0].driveTorque, 400);
+  EXPECT_EQ(o.tracks[0].meanTorque, 250);
+  EXPECT_EQ(o.tracks[0].drivePower, 550);
+  EXPECT_EQ(o.tracks[1].meanTorque, -500);
+  EXPECT_EQ(o.tracks[1].drivePower, -550);
+  EXPECT_NEAR(o.grossTraction, -250 / kPitchRadius, kRound);
+  Observer resumed(v);
+  resumed.restore(observer.save());
+  EXPECT_EQ(resumed.observe(state, {}, nullptr).tracks[1].drivePower, -550);
+  observer.restartMeans();
+  observer.update(state, 0.01);
+  EXPECT_EQ(observer.observe(state, {}, nullptr).tracks[0].meanTorque, 400);
+}
+
+TEST_F(ObserverValues, ArmsAreReadWheelByWheel) {
+  for (std::size_t i = 0; i < 5; ++i) state.joint[left.armJoints[i]].position = 0.01 * static_cast<double>(i + 1);
+  state.joint[right.armJoints[4]].position = -0.07;
+  const auto o = Observer(v).observe(state, {}, nullptr);
+  ASSERT_EQ(o.tracks[0].armAngle.size(), 5u);
+  EXPECT_EQ(o.tracks[0].armAngle[3], 0.04);
+  EXPECT_EQ(o.tracks[1].armAngle[4], -0.07);
+}
+
 TEST_F(ObserverValues, CarryingLoadIsAHundredthOfTheWeightOverBothGroundRuns) {
   EXPECT_NEAR(vehicle::carryingLoad(v), 0.01 * v.mass * 9.80665 / 24, 1e-12);
   const double half = 0.99 * vehicle::carryingLoad(v), more = 1.01 * vehicle::carryingLoad(v);
@@ -248,27 +300,30 @@ TEST_F(ObserverValues, TableWritesEachQuantityUnderItsOwnName) {
       {"position", {1, 2, 3}}, {"velocity", {4, 5, 6}}, {"ground_force", {7, 8, 9}}};
   const auto number = [&](const std::string& name, double& value) { expected[name] = {value = next}, ++next; };
   number("heading", o.heading), number("pitch_angle", o.pitchAngle), number("roll_angle", o.rollAngle);
-  number("gross_traction", o.grossTraction), number("drawbar_pull", o.drawbarPull);
+  number("gross_traction", o.grossTraction), number("drawbar_pull", o.drawbarPull), number("net_thrust", o.netThrust);
   number("motion_resistance", o.motionResistance);
   for (const std::string side : {"left/", "right/"}) {
     vehicle::TrackObservation t;
     number(side + "sprocket_speed", t.sprocketSpeed), number(side + "drive_torque", t.driveTorque);
+    number(side + "mean_torque", t.meanTorque), number(side + "drive_power", t.drivePower);
     number(side + "idler_force", t.idlerForce), number(side + "idler_slide", t.idlerSlide);
     number(side + "speed", t.speed), number(side + "slip", t.slip), number(side + "tooth_speed", t.toothSpeed);
     number(side + "tooth_slip", t.toothSlip), number(side + "teeth_passed", t.teethPassed);
     number(side + "pitches_passed", t.pitchesPassed), number(side + "skipped", t.skipped);
     number(side + "sideways", t.sideways), number(side + "wheel_lift", t.wheelLift);
     const auto shoes = [&](const std::string& name, std::vector<double>& values) {
-      for (int i = 0; i < 46; ++i) values.push_back(next++);
+      for (int i = 0; i < (name == "arm_angle" ? 5 : 46); ++i) values.push_back(next++);
       expected[side + name] = values;
     };
+    shoes("arm_angle", t.armAngle), shoes("normal_force", t.normalForce), shoes("forward_force", t.forwardForce);
+    shoes("left_force", t.leftForce), shoes("shear", t.shear);
     shoes("pad_height", t.padHeight), shoes("sinkage", t.sinkage), shoes("tension", t.tension);
     shoes("ground_pressure", t.groundPressure), shoes("on_ground", t.onGround);
     o.tracks.push_back(t);
   }
-  const std::vector<double> flat = vehicle::flatten(o);
+  const std::vector<double> flat = vehicle::flatten(o, true);
   std::size_t at = 0;
-  for (const vehicle::Quantity& q : vehicle::quantities(v)) {
+  for (const vehicle::Quantity& q : vehicle::quantities(v, true)) {
     ASSERT_EQ(q.path.rfind("vehicle/", 0), 0u) << q.path;
     const auto found = expected.find(q.path.substr(8));
     if (found == expected.end()) { // one that this test does not know stands there in its width

@@ -233,12 +233,15 @@ TEST_F(Observers, NanInTheState_RaisesTheAlarm) {
 
 TEST_F(Observers, Table_HasAsManyNumbersAsItNames) {
   const auto o = Observer(v).observe(state, standing(), nullptr);
-  std::size_t numbers = 0;
-  std::set<std::string> paths;
-  for (const vehicle::Quantity& q : vehicle::quantities(v)) {
-    numbers += q.width;
-    EXPECT_TRUE(paths.insert(q.path).second) << q.path;
-    EXPECT_TRUE(q.columns.empty() || static_cast<int>(q.columns.size()) == q.width);
+  for (const bool forces : {false, true}) {
+    std::size_t numbers = 0;
+    std::set<std::string> paths;
+    for (const vehicle::Quantity& q : vehicle::quantities(v, forces)) {
+      numbers += q.width;
+      EXPECT_TRUE(paths.insert(q.path).second) << q.path;
+      EXPECT_TRUE(q.columns.empty() || static_cast<int>(q.columns.size()) == q.width);
+    }
+    EXPECT_EQ(vehicle::flatten(o, forces).size(), numbers);
+    EXPECT_EQ(paths.count("vehicle/left/shear"), forces ? 1u : 0u);
   }
-  EXPECT_EQ(vehicle::flatten(o).size(), numbers);
 }

@@ -300,6 +300,11 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{
             "SyntaxOverTwoLines", "stiffness = 1e6", "attraction = f\nstiffness = 1e6", {"scene.toml:6", "saw 'f\\n'"}},
         Broken{"ControlCharacterInKey", "layers = 2", "\"lay\\u001Bers\" = 2", {"unknown key terrain.lay\\x1Bers"}},
+        Broken{"NameOfASurfaceWithoutOne",
+               "[terrain]",
+               "[[plane]]\npoint = [0, 0, -9]\nnormal = [0, 0, 1]\nmaterial = \"soil\"\n[[box]]\nname = \"plane0\"\n"
+               "position = [0, 0, -8]\nsize = [1, 1, 1]\nmaterial = \"soil\"\n[terrain]",
+               {"box.0.name = \"plane0\"", "without a name is called", "choose another"}},
         Broken{"PlaneWithoutNormal",
                "[terrain]",
                "[[plane]]\nnormal = [0, 0, 0]\nmaterial = \"soil\"\n[terrain]",
