@@ -49,9 +49,8 @@ TEST_F(CommandLine, VersionNamesCommitCompilerAndCuda) {
 }
 
 TEST_F(CommandLine, HelpOfEveryCommandEndsWell) {
-  for (const char* command :
-       {"", "run", "sweep", "events", "bench", "bench bed", "bench step", "bench contacts", "hash", "sinkage", "plan",
-        "spheres", "render", "fields", "soil", "manual", "report"}) {
+  for (const char* command : {"", "run", "sweep", "events", "bench", "bench bed", "bench step", "bench contacts",
+                              "hash", "sinkage", "plan", "spheres", "render", "fields", "soil", "manual", "report"}) {
     const Outcome o = call(std::string(command) + " --help");
     EXPECT_EQ(o.code, 0) << command;
     EXPECT_NE(o.out.find("Usage"), std::string::npos) << command;
