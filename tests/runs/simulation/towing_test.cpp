@@ -111,7 +111,9 @@ TEST(Towing, ARampStopsTheVehicleAtItsFriction) {
   const double pull = simulation.vehicle()->towing()->observe().pull;
   const double limit = assembly.spec.contact.frictionGround * weightOf(simulation);
   std::printf("a ramp turns the vehicle back at %.4f of friction x weight\n", pull / limit);
-  EXPECT_NEAR(pull, limit, 0.03 * limit);
+  // From there on M v' = -rate t: the speed v is gone after sqrt(2 M v / rate).
+  const double beyond = std::sqrt(2 * assembly.mass * assembly.spec.pitchRadius() * 5000);
+  EXPECT_NEAR(pull, limit + beyond, 0.03 * limit);
 }
 
 /// The same bits for threads, and resumed while the rope swings.
