@@ -86,11 +86,16 @@ class FilesOfResults(FolderTest):
         vehicle["run.output_interval"] = 0.02
         vehicle["driver"].update(tension_ramp=0.002, weight_ramp=0.002)
         vehicle["terrain.settle_kinetic_energy"] = 0.1
+        vehicle["output"] = {**vehicle.document.get("output", {}), "shoe_forces": True, "gear_contacts": True}
         self.run_and_look(vehicle, "vehicle")
         rigid = grouser.Scene.read(ROOT / "tests/scenes/rigid.toml")
         rigid["run.duration"] = 0.002
         rigid["vehicle.sphere_radius"] = 0.04
+        rigid["hitch"] = {"kind": "sled", "mass": 100.0, "friction": 0.5}
         self.run_and_look(rigid, "rigid")
+        obstacles = grouser.Scene.read(ROOT / "tests/scenes/obstacles.toml")
+        obstacles["run.duration"] = 0.002
+        self.run_and_look(obstacles, "obstacles")
         moving = grouser.Scene.read(ROOT / "tests/scenes/moving.toml")
         moving["run.duration"] = 0.01
         moving["cylinder"][0]["pivot"] = [0, 0, 0.01]

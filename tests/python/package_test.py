@@ -172,7 +172,7 @@ class Files(FolderTest):
             with self.assertRaises(KeyError):
                 wrong()
         self.assertIsNone(run.surface)
-        self.assertEqual(run.names("terrain.")[0], "terrain.capped")
+        self.assertEqual(run.names("terrain.")[0], "terrain.boundary_contacts")
         self.assertEqual(run.facts["creator"], "grouser")
         self.assertEqual(numpy.mean(falls), numpy.mean(falls.value))
 

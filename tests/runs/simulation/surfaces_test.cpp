@@ -448,7 +448,7 @@ TEST(Surfaces, WhatCannotBeIsRefusedByName) {
       {"box.lid.mass", "0", "is outside"},
       {"plane.floor.load", "3", "belongs to a surface that forces move"},
       {"plane.floor.normal", "[0,0,0]", "is zero"},
-      {"plane.floor.name", "cylinder0", "is that of"},
+      {"plane.floor.name", "cylinder0", "is what a surface without a name is called"},
       {"cylinder.0.radius", "0.009", "wider than what is in it"},
   };
   for (const Fault& f : faults) {
