@@ -50,7 +50,7 @@ TEST(CalibrationSearch, FindsAngleAndCohesionThatDependOnBothNumbers) {
   const Sticky soil;
   int trials = 1;
   while (soil.tell(search)) ++trials;
-  EXPECT_LE(trials, 7);
+  EXPECT_LE(trials, 5);
   const StrengthPoint found = search.nearest();
   EXPECT_NEAR(24 + 9 * found.way + 0.012 * found.pull, 29.8, 1);
   EXPECT_NEAR(0.3 + 0.005 * found.pull, 3.7, 0.5);
@@ -61,11 +61,11 @@ TEST(CalibrationSearch, MayLeaveOneOfBothAlone) {
   while (onlyAngle.tried(22 + 10 * onlyAngle.at().way, 1)) EXPECT_EQ(onlyAngle.at().pull, 50);
   EXPECT_NEAR(onlyAngle.nearest().way, 0.6, 0.02);
   EXPECT_EQ(onlyAngle.nearest().pull, 50);
-  StrengthSearch onlyC({}, {{3.7, 0.5, 0.054}}, {0.4, 120}); // of a soil that needs many times more than expected
+  StrengthSearch onlyC({}, {{3.7, 0.5, 0.054}}, {0.4, 10}); // of a soil that needs many times more than expected
   int trials = 1;
   while (onlyC.tried(30, 0.3 + 0.016 * onlyC.at().pull)) EXPECT_EQ(onlyC.at().way, 0.4), ++trials;
   EXPECT_NEAR(0.3 + 0.016 * onlyC.nearest().pull, 3.7, 0.5);
-  EXPECT_LE(trials, 5) << "the second trial shows the slope";
+  EXPECT_LE(trials, 4) << "the second trial shows the slope";
 }
 
 TEST(CalibrationSearch, StaysInRangeAndEndsWhereNothingReaches) {
