@@ -26,7 +26,7 @@ constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin wit
 constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
 constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
 constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
-constexpr double kBeds = 0.2; // tensile strength over w / r; Rumpf has 0.75 where all contacts of a grain pull
+constexpr double kBeds = 0.75; // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
 
 /// Time is up before all tests of a trial are there.
 struct Unfinished {

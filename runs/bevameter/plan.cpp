@@ -17,8 +17,9 @@ namespace {
 constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as `grouser study plates` has compared them
 constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: samples of 16 x 8 d scatter by a tenth
 constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
-constexpr double kFall = 0.5;   // [s] simulated for a lift, for the time left only
-constexpr double kPressed = 70; // [d sqrt(density / stress)] before shearing begins, for the same
+constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high that grains lie between
+constexpr double kFall = 0.5;              // [s] simulated for a lift, for the time left only
+constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
 
 /// An impact whose deepest overlap is that of a contact in the chains of a bed under `pressure`: so stiff are its
 /// contacts, and for that their step is chosen. A contact carries about pressure times d^2, in chains twice that.
@@ -137,6 +138,7 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.cell.depth = std::max(kCellHeight, options.shearHeight / d);
   plan.cell.inertialNumber = options.shearInertialNumber, plan.cell.strain = options.shearStrain;
   plan.cell.core = soil.isPlain;
+  plan.cell.tooth = kTooth, plan.cell.tip = kTip, plan.cell.pressesIn = true;
   checkBeds(plan);
   addTests(plan);
   return plan;
@@ -164,6 +166,7 @@ nlohmann::ordered_json TestPlan::recipe() const {
           {"shear_length_d", cell.length},
           {"shear_width_d", cell.width},
           {"shear_height_d", cell.depth},
+          {"shear_tooth_d", cell.tooth},
           {"shear_strain", options.shearStrain},
           {"shear_inertial_number", options.shearInertialNumber},
           {"repose_length_d", repose.length},

@@ -2,6 +2,7 @@
 #include "runs/studies/shear_cell.hpp"
 
 #include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kPitch = 2, kTooth = 0.7;  // [d] of the plates' teeth
+constexpr double kPitch = 2;                // [d] from tooth to tooth
 constexpr double kBack = 2;                 // [d] thickness of the plates behind their teeth
 constexpr double kBeyond = 2;               // [d] by which plates reach beyond the boundaries, at least
 constexpr double kRounded = 0.25;           // [d] radius of the spheres that a plate's mesh is cut into
@@ -25,20 +26,23 @@ constexpr double kPlateMass = 0.25;         // of the sample's
 constexpr double kOffPlates = 2;            // [d] of the core from the plates' tips
 
 /// A plate as OBJ: teeth along x with their tips at z = 0 and the body behind them, below (`up`) or above.
-std::string toothedPlate(double from, double to, double width, double d, bool up) {
+std::string toothedPlate(double from, double to, double width, double d, const ShearCell& cell, bool up) {
   const auto teeth = static_cast<int>(std::lround((to - from) / (kPitch * d)));
   std::vector<std::array<double, 2>> profile; // x, z
   for (int k = 0; k < teeth; ++k) {
-    profile.push_back({from + k * kPitch * d, -kTooth * d});
-    profile.push_back({from + (k + 0.5) * kPitch * d, 0});
+    const double tip = from + (k + 0.5) * kPitch * d;
+    profile.push_back({from + k * kPitch * d, -cell.tooth * d});
+    profile.push_back({tip - 0.5 * cell.tip * d, 0});
+    if (cell.tip > 0) profile.push_back({tip + 0.5 * cell.tip * d, 0});
   }
-  profile.push_back({from + teeth * kPitch * d, -kTooth * d});
+  profile.push_back({from + teeth * kPitch * d, -cell.tooth * d});
   const int m = static_cast<int>(profile.size());
   std::string text;
   for (const bool back : {false, true})
     for (const double y : {-kBeyond * d, width + kBeyond * d})
       for (const auto& [x, z] : profile)
-        text += fmt::format("v {:.12g} {:.12g} {:.12g}\n", x, y, (up ? 1 : -1) * (back ? -(kTooth + kBack) * d : z));
+        text +=
+            fmt::format("v {:.12g} {:.12g} {:.12g}\n", x, y, (up ? 1 : -1) * (back ? -(cell.tooth + kBack) * d : z));
   const auto at = [m](int i, int side, bool back) { return 1 + i + m * side + (back ? 2 * m : 0); };
   const auto face = [&](int a, int b, int c) {
     text += up ? fmt::format("f {} {} {}\n", a, b, c) : fmt::format("f {} {} {}\n", c, b, a);
@@ -76,6 +80,71 @@ PlateStress plateStress(const simulation::Simulation& simulation, double area) {
     if (upper) s.height = o.position.z;
   }
   return s;
+}
+
+/// Meshes of both plates. A tooth is at the same place in every period, so that plates look alike at both boundaries;
+/// the upper one reaches as far back as it is drawn.
+void writePlates(const ShearCell& cell, const BedSize& size, double d, const std::filesystem::path& folder) {
+  const double period = kPitch * d, way = cell.strain * 1.5 * size.depth;
+  const double behind = period * std::ceil((way + kBeyond * d) / period), end = size.length + period;
+  support::writeTextFile(folder / "lower.obj", toothedPlate(-period, end, size.width, d, cell, true), "--out");
+  support::writeTextFile(folder / "upper.obj", toothedPlate(-behind, end, size.width, d, cell, false), "--out");
+}
+
+/// A layer between its plates, before it is sheared.
+struct Layer {
+  BedGrains grains;
+  double upper = 0; ///< height of the upper plate's tips [m]
+  double mass = 0;  ///< of the grains [kg]
+};
+
+/// Sections of a scene: both plates, the upper one pressed down, its load rising for `ramp` [s].
+std::string plateSections(double d, const Layer& layer, double load, double ramp, const std::string& drawn) {
+  return plateSection("lower", d, 0, "") +
+         plateSection("upper", d, layer.upper,
+                      fmt::format("free = \"z\"\nmass = {:.17g}\nload = {:.17g}\nload_ramp = {:.17g}\n",
+                                  kPlateMass * layer.mass, -load, ramp) +
+                          drawn);
+}
+
+std::string grainsSection(const std::string& file) {
+  return fmt::format("[[grains]]\nform = \"file\"\nfile = \"{}\"\nmaterial = \"grain\"\n", file);
+}
+
+/// The upper plate's teeth go in while grains do not stick yet: upon a layer that holds together they would rest, and
+/// it would slide along them as one piece.
+void pressIn(const Soil& soil, const BedSize& size, double stress, std::int64_t seed,
+             const std::filesystem::path& folder, const base::Exec& exec, Layer& layer) {
+  const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / stress);
+  const std::string bed = fmt::format("poured_{:g}_{}.txt", stress, seed);
+  writeBed(folder / bed, layer.grains);
+  const std::string text =
+      soil.prepared().scene(kPressed * unit, seed, soil.preparationFriction, {0, 0, 0}, size.run()) +
+      plateSections(d, layer, stress * size.length * size.width, kRamp * unit, "") + grainsSection(bed);
+  simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "press.toml")), exec,
+                                    [](double, double) {});
+  std::filesystem::remove(folder / bed);
+  const auto all = static_cast<std::int64_t>(kPressed * unit / simulation.timeStep());
+  while (simulation.steps() < all) {
+    stopStudyIfAsked();
+    simulation.advance(std::min<std::int64_t>(all - simulation.steps(), 2000));
+  }
+  layer.grains = grainsOf(simulation, size);
+  layer.upper = plateStress(simulation, size.length * size.width).height;
+}
+
+/// Way of the grains at the upper plate's tips over that at the lower one's, a second: what the layer itself is
+/// sheared.
+double shearedSpeed(const simulation::Simulation& simulation, double d, double height) {
+  constexpr double kNear = 1; // [d] from the tips inwards
+  const terrain::GrainSnapshot s = simulation.ground().grains->snapshot();
+  double below = 0, above = 0, lower = 0, upper = 0;
+  for (std::size_t g = 0; g < s.position.size(); ++g) {
+    const double z = s.position[g].z, speed = static_cast<double>(s.velocity[g].x);
+    if (z > 0 && z < kNear * d) below += speed, ++lower;
+    if (z < height && z > height - kNear * d) above += speed, ++upper;
+  }
+  return above / std::max(1.0, upper) - below / std::max(1.0, lower);
 }
 
 double columnMean(const Table& run, const std::string& name, std::size_t from, std::size_t to) {
@@ -125,34 +194,28 @@ Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int
                 const std::filesystem::path& folder, const base::Exec& exec) {
   const double d = soil.grains.diameter();
   const BedSize size{cell.length * d, cell.width * d, cell.depth * d};
-  // A tooth is at the same place in every period, so that the plates look alike at both boundaries.
-  const double period = kPitch * d, way = cell.strain * 1.5 * size.depth;
-  const double behind = period * std::ceil((way + kBeyond * d) / period);
-  support::writeTextFile(folder / "lower.obj", toothedPlate(-period, size.length + period, size.width, d, true),
-                         "--out");
-  support::writeTextFile(folder / "upper.obj", toothedPlate(-behind, size.length + period, size.width, d, false),
-                         "--out");
-  const std::string lower = plateSection("lower", d, 0, "");
-  const BedGrains poured = pourBed(soil, size, lower, seed, folder, exec);
+  writePlates(cell, size, d, folder);
+  Layer layer;
+  layer.grains = pourBed(soil, size, plateSection("lower", d, 0, ""), seed, folder, exec);
   double top = 0;
-  for (const BedGrain& g : poured) top = std::max(top, g.position.z + g.radius);
+  for (const BedGrain& g : layer.grains) {
+    top = std::max(top, g.position.z + g.radius);
+    layer.mass += base::sphereMass(soil.grains.density, g.radius);
+  }
+  layer.upper = top + 0.01 * d;
+  if (cell.pressesIn) pressIn(soil, size, stress, seed, folder, exec, layer);
   const std::string bed = fmt::format("bed_{:g}_{}.txt", stress, seed);
-  writeBed(folder / bed, poured);
+  writeBed(folder / bed, layer.grains);
 
   const double unit = d * std::sqrt(soil.grains.density / stress); // [s]
   const double rate = cell.inertialNumber / unit, start = kPressed * unit;
   const double duration = start + cell.strain / rate, area = size.length * size.width;
-  double mass = 0;
-  for (const BedGrain& g : poured) mass += soil.grains.density * 4 * base::kPi / 3 * g.radius * g.radius * g.radius;
   // Of the height that the sample will have about; the strain is taken of the true one.
-  const double height = top - 0.5 * d;
-  const std::string text =
-      soil.scene(duration, seed, soil.grains.friction, {0, 0, 0}, size.run()) + lower +
-      plateSection("upper", d, top + 0.01 * d,
-                   fmt::format("free = \"z\"\nmass = {:.17g}\nload = {:.17g}\nload_ramp = {:.17g}\nvelocity = "
-                               "[{:.17g}, 0, 0]\nstart = {:.17g}\n",
-                               kPlateMass * mass, -stress * area, kRamp * unit, rate * height, start)) +
-      fmt::format("[[grains]]\nform = \"file\"\nfile = \"{}\"\nmaterial = \"grain\"\n", bed);
+  const double height = cell.pressesIn ? layer.upper : top - 0.5 * d, drawn = rate * height;
+  const std::string text = soil.scene(duration, seed, soil.grains.friction, {0, 0, 0}, size.run()) +
+                           plateSections(d, layer, stress * area, cell.pressesIn ? 0 : kRamp * unit,
+                                         fmt::format("velocity = [{:.17g}, 0, 0]\nstart = {:.17g}\n", drawn, start)) +
+                           grainsSection(bed);
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "shear.toml")), exec,
                                     [](double, double) {});
   std::filesystem::remove(folder / bed);
@@ -175,10 +238,10 @@ Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int
     const double low = kOffPlates * d, high = plates.height - kOffPlates * d;
     const CoreStress core = cell.core ? coreStress(*simulation.ground().grains, size, low, high) : CoreStress{};
     const double porosity = 1 - solidFraction(grainsOf(simulation, size), size, low, high);
-    table.rows.push_back({rate * height * std::max(0.0, simulation.time() - start) / consolidated, plates.shear,
-                          plates.normal, plates.height / d, core.xx, core.zz, -core.xz, -core.zx, porosity,
-                          core.coordination,
-                          rate * height / plates.height * d * std::sqrt(soil.grains.density / stress)});
+    table.rows.push_back({drawn * std::max(0.0, simulation.time() - start) / consolidated, plates.shear, plates.normal,
+                          plates.height / d, core.xx, core.zz, -core.xz, -core.zx, porosity, core.coordination,
+                          drawn / plates.height * unit,
+                          row == 0 ? 0 : shearedSpeed(simulation, d, plates.height) / drawn});
   }
   simulation.checkEnergy();
   return table;

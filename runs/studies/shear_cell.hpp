@@ -15,12 +15,17 @@ struct ShearCell {
   int rows = 200;                            ///< of a table
   /// Whether the stress of the core is measured, which takes linear springs without cohesion; else its columns are 0.
   bool core = true;
+  double tooth = 0.7;     ///< [d] height of the plates' teeth, which stand 2 d apart
+  double tip = 0;         ///< [d] breadth of their tips
+  bool pressesIn = false; ///< the upper plate before grains stick: for soils that do
 };
 
-/// Columns of a run's table; compression is positive, and shear that the upper plate's way makes.
-inline const std::vector<std::string> kShearColumns = {
-    "strain [-]",   "shear stress [Pa]", "normal stress [Pa]", "height [d]",       "core xx [Pa]",       "core zz [Pa]",
-    "core xz [Pa]", "core zx [Pa]",      "porosity [-]",       "coordination [-]", "inertial number [-]"};
+/// Columns of a run's table; compression is positive, and shear that the upper plate's way makes. `sheared`: how much
+/// of its speed the grains at its tips have over those at the lower one's; what is missing slides along the teeth.
+inline const std::vector<std::string> kShearColumns = {"strain [-]",       "shear stress [Pa]",   "normal stress [Pa]",
+                                                       "height [d]",       "core xx [Pa]",        "core zz [Pa]",
+                                                       "core xz [Pa]",     "core zx [Pa]",        "porosity [-]",
+                                                       "coordination [-]", "inertial number [-]", "sheared [-]"};
 
 /// Prepares a sample and shears it under `stress` [Pa]. Meshes of the plates are written into `folder`.
 Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int64_t seed,

@@ -107,7 +107,7 @@ TEST(ShearAngleFit, PeakAndResidualOfARun) {
   run.names = kShearColumns;
   for (int k = 0; k <= 100; ++k) {
     const double ratio = k < 40 ? 0.01 * k : k < 50 ? 0.45 : 0.3;
-    run.rows.push_back({0.004 * k, 1000 * ratio, 1000, 10, 1200, 1000, 1000 * ratio, 1000 * ratio, 0.4, 5, 5e-4});
+    run.rows.push_back({0.004 * k, 1000 * ratio, 1000, 10, 1200, 1000, 1000 * ratio, 1000 * ratio, 0.4, 5, 5e-4, 1});
   }
   const ShearStrength s = shearStrength(run);
   EXPECT_NEAR(s.residual, 0.3, 1e-12);
