@@ -44,13 +44,11 @@ private:
   std::optional<base::Exec> exec_;
 };
 
-std::string preparationName(const TestPlan& plan) { return plan.options.coarse ? "coarse_preparation" : "preparation"; }
-
 /// Finds the preparation where no call has done so, and takes it. `part`: of this call, since parts that begin together
 /// all look for it.
 void prepare(TestPlan& plan, studies::Pieces& pieces, Device& device, int jobs, std::string part) {
   if (!plan.soil.porosity) return;
-  const std::string name = preparationName(plan);
+  const std::string name = plan.preparationName();
   std::replace(part.begin(), part.end(), '/', '_');
   if (!pieces.has(name)) {
     support::Progress progress("preparing");

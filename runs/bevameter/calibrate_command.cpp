@@ -26,7 +26,7 @@ constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin wit
 constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
 constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
 constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
-constexpr double kBeds = 0.75; // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
+constexpr double kBeds = 0.75;          // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
 
 /// Time is up before all tests of a trial are there.
 struct Unfinished {
@@ -62,10 +62,24 @@ private:
     studies::StudyPlace place = command_.place;
     place.folder = folder_ / name;
     studies::Pieces pieces("soil " + soil_.name + ", " + name, place, pieceOptions, plan.recipe());
+    takeOver(plan, pieces);
     if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) throw Unfinished{missing};
     results = resultsOf(plan, pieces);
     if (look) look(plan, pieces);
+    done_.emplace_back(soil_.keys, pieces);
     return plan;
+  }
+
+  /// Tests that former trials have done of the very same soil.
+  void takeOver(const TestPlan& plan, studies::Pieces& pieces) const {
+    for (const auto& trial : done_) {
+      if (trial.first != soil_.keys) continue;
+      const auto take = [&](const std::string& name) {
+        if (!pieces.has(name) && trial.second.has(name)) pieces.keep(name, trial.second.read(name));
+      };
+      take(plan.preparationName());
+      for (const PlannedTest& test : plan.tests) take(test.name);
+    }
   }
 
   /// Friction and rolling friction for phi, cohesion for c, both from each trial.
@@ -216,6 +230,7 @@ private:
   CalibrationTargets targets_;
   std::filesystem::path folder_;
   TestedSoil soil_;
+  std::vector<std::pair<decltype(TestedSoil::keys), studies::Pieces>> done_; ///< the soil of each trial that is whole
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

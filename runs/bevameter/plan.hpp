@@ -64,6 +64,7 @@ struct TestPlan {
   /// All that the tests depend on.
   nlohmann::ordered_json recipe() const;
   std::string care() const { return options.coarse ? "coarse" : "full"; }
+  std::string preparationName() const { return options.coarse ? "coarse_preparation" : "preparation"; }
 };
 /// Throws InputError where a bed cannot be.
 TestPlan planOf(const TestedSoil& soil, const PlanOptions& options);

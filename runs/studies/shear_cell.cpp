@@ -17,13 +17,14 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kPitch = 2;                // [d] from tooth to tooth
-constexpr double kBack = 2;                 // [d] thickness of the plates behind their teeth
-constexpr double kBeyond = 2;               // [d] by which plates reach beyond the boundaries, at least
-constexpr double kRounded = 0.25;           // [d] radius of the spheres that a plate's mesh is cut into
-constexpr double kRamp = 30, kPressed = 70; // [d sqrt(density / stress)] the load comes on, and shearing begins
-constexpr double kPlateMass = 0.25;         // of the sample's
-constexpr double kOffPlates = 2;            // [d] of the core from the plates' tips
+constexpr double kPitch = 2;                   // [d] from tooth to tooth
+constexpr double kBack = 2;                    // [d] thickness of the plates behind their teeth
+constexpr double kBeyond = 2;                  // [d] by which plates reach beyond the boundaries, at least
+constexpr double kRounded = 0.25;              // [d] radius of the spheres that a plate's mesh is cut into
+constexpr double kRamp = 30, kPressed = 70;    // [d sqrt(density / stress)] the load comes on, and shearing begins
+constexpr double kPlateMass = 0.25;            // of the sample's
+constexpr auto kEntry = "max_overlap = 0.5\n"; // as between grains, for soft ones that enter pressed
+constexpr double kOffPlates = 2;               // [d] of the core from the plates' tips
 
 /// A plate as OBJ: teeth along x with their tips at z = 0 and the body behind them, below (`up`) or above.
 std::string toothedPlate(double from, double to, double width, double d, const ShearCell& cell, bool up) {
@@ -212,7 +213,8 @@ Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int
   const double duration = start + cell.strain / rate, area = size.length * size.width;
   // Of the height that the sample will have about; the strain is taken of the true one.
   const double height = cell.pressesIn ? layer.upper : top - 0.5 * d, drawn = rate * height;
-  const std::string text = soil.scene(duration, seed, soil.grains.friction, {0, 0, 0}, size.run()) +
+  const std::string run = size.run() + (cell.pressesIn ? kEntry : "");
+  const std::string text = soil.scene(duration, seed, soil.grains.friction, {0, 0, 0}, run) +
                            plateSections(d, layer, stress * area, cell.pressesIn ? 0 : kRamp * unit,
                                          fmt::format("velocity = [{:.17g}, 0, 0]\nstart = {:.17g}\n", drawn, start)) +
                            grainsSection(bed);
