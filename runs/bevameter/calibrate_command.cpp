@@ -24,6 +24,7 @@ using support::Estimate;
 
 constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin with
 constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
+constexpr double kSame = 1e-9;          // of a stiffness
 constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
 constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
 constexpr double kBeds = 0.75;          // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
@@ -40,7 +41,9 @@ public:
 
   void run() {
     seekStrength();
-    seekStiffness();
+    // Stiff grains have a little more friction: whether phi and c are still there is looked at once more, and costs
+    // nothing where they are, for the tests at the end are the same.
+    if (seekStiffness()) seekStrength();
     finish();
   }
 
@@ -96,11 +99,11 @@ private:
     if (seeksC) cohesion = {c->second, targets_.cohesionTolerance, slope};
     StrengthSearch search(angle, cohesion, start);
     bool goesOn = true;
-    for (int trial = 1; goesOn; ++trial) {
+    while (goesOn) {
       setStrength(search.at(), mu);
       SoilResults r;
       tested(
-          fmt::format("shear_{}", trial), [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
+          fmt::format("shear_{}", ++shearTrials_), [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
       const Estimate foundAngle = r.measured.at(Quantity::frictionAngle),
                      foundCohesion = r.measured.at(Quantity::cohesion);
       fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa\n",
@@ -133,9 +136,10 @@ private:
     return 2 * (1 - soil_.poisson * soil_.poisson) * 0.75 * p * d * d / (std::sqrt(0.25 * d * overlap) * overlap);
   }
 
-  /// Stiffness for the pressure of the small plate at the sinkage where it is to carry the track's.
-  void seekStiffness() {
-    if (!targets_.wantsSinkage()) return;
+  /// Stiffness for the pressure of the small plate at the sinkage where it is to carry the track's. Whether it is
+  /// another one than before.
+  bool seekStiffness() {
+    if (!targets_.wantsSinkage()) return false;
     const double start = numberOf(soil_, springKey(), 0), least = std::min(start, softest());
     double stiffness = start;
     std::vector<Trial> trials;
@@ -156,7 +160,9 @@ private:
       if (!next) break;
       setNumber(soil_, springKey(), stiffness = base::exp(*next));
     }
-    setNumber(soil_, springKey(), base::exp(nearestTrial(trials, wanted).x));
+    const double found = base::exp(nearestTrial(trials, wanted).x);
+    if (trials.size() > 1) setNumber(soil_, springKey(), found);
+    return trials.size() > 1 && std::fabs(found / start - 1) > kSame;
   }
 
   /// Mean pressure of a plate where it is to carry the track's [Pa]: a curve that ends before carries what it did then.
@@ -230,6 +236,7 @@ private:
   CalibrationTargets targets_;
   std::filesystem::path folder_;
   TestedSoil soil_;
+  int shearTrials_ = 0;
   std::vector<std::pair<decltype(TestedSoil::keys), studies::Pieces>> done_; ///< the soil of each trial that is whole
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

@@ -116,6 +116,15 @@ void addShear(SoilResults& r, const std::vector<std::vector<ShearCurve>>& tests)
   r.peakCohesion = e[3], r.peakAngle = e[4], r.hump = e[5], r.misfit = e[6];
 }
 
+/// How much of the way went into the soil, and did not slide along the teeth.
+void addSlip(SoilResults& r, const std::vector<Table>& runs) {
+  r.sheared = 0, r.leastSheared = INFINITY;
+  for (const Table& run : runs) {
+    const double share = studies::shearStrength(run).sheared;
+    r.sheared += share / static_cast<double>(runs.size()), r.leastSheared = std::min(r.leastSheared, share);
+  }
+}
+
 void addRepose(SoilResults& r, const TestPlan& plan, const std::vector<Table>& runs) {
   std::vector<double> starts, repose;
   for (const Table& run : runs) {
@@ -193,8 +202,10 @@ SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces) {
     r.costs.push_back(costsOf("repose", tilted));
     addRepose(r, plan, tilted);
   }
-  if (const std::vector<Table> sheared = runsOf(plan, pieces, TestKind::shear); !sheared.empty())
+  if (const std::vector<Table> sheared = runsOf(plan, pieces, TestKind::shear); !sheared.empty()) {
     r.costs.push_back(costsOf("shear", sheared));
+    addSlip(r, sheared);
+  }
   return r;
 }
 

@@ -24,6 +24,7 @@ struct SoilResults {
   std::map<Quantity, support::Estimate> measured; ///< in unitOf(); none where tests are missing
   support::Estimate peakAngle, peakCohesion;      ///< of the curves' peaks [deg], [kPa]
   support::Estimate hump, misfit;                 ///< peak over residual strength; see ShearFit [-]
+  double sheared = 0, leastSheared = 0;           ///< share of the plates' way, of all shear tests, of the worst [-]
   support::Estimate sinkage;                      ///< under the track, by Bekker's form with what was measured [mm]
   std::array<support::Estimate, 2> k, ownN;       ///< of each breadth [kN/m^(n+2)], [-]
   std::array<support::Estimate, 2> goodness;      ///< Wong's [-]

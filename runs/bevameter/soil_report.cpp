@@ -66,6 +66,17 @@ std::string row(const std::string& name, const Estimate& e, const std::string& u
 
 bool isPlate(TestKind kind) { return kind != TestKind::shear && kind != TestKind::repose; }
 
+/// A layer that slides along the teeth tells what these hold, not what it bears itself.
+std::string slipText(const SoilResults& r) {
+  constexpr double kSlides = 0.7;
+  return fmt::format("  sheared within the soil: {:.0f} % of the plates' way, {:.0f} % in the worst test{}\n",
+                     100 * r.sheared, 100 * r.leastSheared,
+                     r.leastSheared < kSlides
+                         ? "; where it slides along the teeth, c and phi are those of the teeth: take larger grains or "
+                           "less pull"
+                         : "");
+}
+
 std::string pad() { return std::string(43, ' '); }
 
 } // namespace
@@ -120,7 +131,8 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     text += fmt::format("  shear, {} seeds, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
                         "misfit of 1 - exp(-j/K) {}\n",
                         r.shearTests, plan.cell.depth * d, studies::valueText(r.peakAngle),
-                        studies::valueText(r.peakCohesion), studies::valueText(r.hump), studies::valueText(r.misfit));
+                        studies::valueText(r.peakCohesion), studies::valueText(r.hump), studies::valueText(r.misfit)) +
+            slipText(r);
   if (r.reposeTests > 0)
     text += fmt::format("  repose, {} seeds: a bed that is tilted begins to flow at {} deg\n", r.reposeTests,
                         studies::valueText(r.stability));
@@ -215,7 +227,9 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
                      {"peak_phi", estimateJson(r.peakAngle, "deg")},
                      {"peak_c", estimateJson(r.peakCohesion, "kPa")},
                      {"peak_over_residual", estimateJson(r.hump, "-")},
-                     {"janosi_misfit", estimateJson(r.misfit, "-")}};
+                     {"janosi_misfit", estimateJson(r.misfit, "-")},
+                     {"sheared_share", r.sheared},
+                     {"least_sheared_share", r.leastSheared}};
   if (r.reposeTests > 0) json["flow_begins_at"] = estimateJson(r.stability, "deg");
   for (const TestCosts& c : r.costs)
     json["tests"].push_back({{"name", c.name},

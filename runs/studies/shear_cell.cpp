@@ -268,6 +268,7 @@ ShearStrength shearStrength(const Table& run) {
   s.porosityBefore = run.rows.front()[run.column("porosity [-]")];
   s.porosityAfter = columnMean(run, "porosity [-]", half, n);
   s.inertialNumber = columnMean(run, "inertial number [-]", half, n);
+  s.sheared = columnMean(run, "sheared [-]", half, n);
   return s;
 }
 

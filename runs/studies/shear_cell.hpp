@@ -39,6 +39,7 @@ struct ShearStrength {
   double mohrCoulomb = 0;        ///< residual angle of the core, sin = (s1 - s3) / (s1 + s3) in the plane [rad]
   double porosityBefore = 0, porosityAfter = 0;
   double inertialNumber = 0;
+  double sheared = 0; ///< of the plates' way [-], mean over the second half
 };
 ShearStrength shearStrength(const Table& run);
 

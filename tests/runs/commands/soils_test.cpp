@@ -48,7 +48,7 @@ TEST_F(SoilsOfUser, AreListedBesideTheOthers) {
 TEST_F(SoilsOfUser, OneIsToldWithItsSources) {
   const Outcome one = call("soils lete_sand");
   EXPECT_EQ(one.code, 0) << one.errors;
-  EXPECT_NE(one.out.find("LETE sand, uncalibrated"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("LETE sand, calibrated"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("Wong 2008"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("nothing measured yet"), std::string::npos) << one.out;
   const Outcome none = call("soils lete_snad");

@@ -141,6 +141,27 @@ TEST_F(SoilSample, StressFromContactsIsThatOnThePlates) {
   EXPECT_LT(s.porosityBefore, 0.46);
 }
 
+/// Grains of 10 mm that pull with 0.47 N: a strength of 0.75 w / r = 4.5 kPa (Rumpf 1962) beside the load of 1 kPa.
+TEST_F(SoilSample, ALayerThatSticksIsShearedItself) {
+  ShearCell cell;
+  cell.length = 6, cell.width = 5, cell.depth = 7, cell.inertialNumber = 2e-2, cell.strain = 0.12, cell.rows = 20;
+  cell.core = false, cell.tooth = 1.2, cell.tip = 0.4;
+  const double stress = 1000, w = 30; // [Pa], [J/m2]
+  Soil soil = softSoil();
+  soil.preparationLaw = "stiffness = 1e4\nrestitution = 0.3\n";
+  soil.grains.law = soil.preparationLaw + fmt::format("cohesion = {}\n", w);
+  const auto sheared = [&](bool pressesIn) {
+    cell.pressesIn = pressesIn;
+    return shearStrength(shearCell(soil, cell, stress, 1, folder_, base::cpuExec(1)));
+  };
+  const ShearStrength in = sheared(true), upon = sheared(false);
+  std::printf("pressed in: tau/sigma %.2f, sheared %.2f; upon: %.2f, %.2f\n", in.residual, in.sheared, upon.residual,
+              upon.sheared);
+  EXPECT_GT(in.sheared, 0.7) << "of the way";
+  EXPECT_LT(upon.sheared, 0.5) << "it slides along the teeth";
+  EXPECT_GT(in.residual, 1.5 * upon.residual) << "what was measured there is the teeth's strength";
+}
+
 TEST_F(SoilSample, LessPreparationFrictionMakesADenserBed) {
   Soil rough = softSoil(), smooth = softSoil();
   smooth.preparationFriction = 0;
