@@ -80,6 +80,33 @@ LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::Stat
   return worst;
 }
 
+UnguidedWheel unguidedWheel(const Assembly& vehicle, int track, const multibody::State& state, double lift) {
+  const Track& t = vehicle.tracks[at(track)];
+  const VehicleSpec& spec = vehicle.spec;
+  // Of the shoe that faces a wheel; neighbours overlap or leave a gap where the track is folded.
+  const double facing = 0.6 * spec.shoe.pitch;
+  const Vec3d up = base::rotate(vehiclePose(vehicle, state).orientation, {0, 0, 1});
+  const auto seen = [&](int body, double radius, double side) { // by shoes that look up: 1, down: -1
+    UnguidedWheel nearest{-1, std::numeric_limits<double>::infinity(), 0};
+    for (const int shoe : t.shoes) {
+      const Vec3d axle_S = state.pose[at(shoe)].toBody(state.pose[at(body)].position);
+      const double gap = axle_S.z - spec.shoe.plateTop - radius;
+      if (std::fabs(axle_S.x) > facing || axle_S.z < 0 || !(gap < nearest.gap)) continue;
+      if (side * base::dot(up, base::rotate(state.pose[at(shoe)].orientation, {0, 0, 1})) <= 0) continue;
+      nearest = {body, gap, std::fabs(axle_S.y)};
+    }
+    return nearest;
+  };
+  const auto off = [&](const UnguidedWheel& w) {
+    return w.body >= 0 && w.gap > lift && w.beside > 0.5 * spec.shoe.hornHeight;
+  };
+  for (const int wheel : t.wheels)
+    if (const UnguidedWheel w = seen(wheel, spec.roadWheel.radius, 1); off(w)) return w;
+  for (const int roller : t.rollers)
+    if (const UnguidedWheel w = seen(roller, spec.roller.radius, -1); off(w)) return w;
+  return {};
+}
+
 int outsideLoop(const Assembly& vehicle, int track, const multibody::State& state) {
   const Track& t = vehicle.tracks[at(track)];
   const base::Pose pose_W = vehiclePose(vehicle, state);
@@ -99,12 +126,17 @@ std::string thrownTrack(const Assembly& vehicle, int track, const multibody::Sta
   const Track& t = vehicle.tracks[at(track)];
   const char* side = sideName(t.side);
   const double horn = vehicle.spec.shoe.hornHeight;
-  if (const SidewaysShoe s = mostSideways(vehicle, track, state); !(s.shift <= horn))
+  const SidewaysShoe s = mostSideways(vehicle, track, state);
+  if (!(s.shift <= horn))
     return fmt::format("{} track thrown: {} is {:.0f} mm beside its wheels, more than a horn's height of {:.0f} mm; {}",
                        side, nameOf(vehicle, t.shoes[at(s.shoe)]), 1e3 * s.shift, 1e3 * horn, remedy(vehicle));
-  if (const LiftedWheel w = mostLifted(vehicle, track, state); !(w.gap <= lift))
-    return fmt::format("{} track thrown: {} is {:.0f} mm off its plates, more than {:.0f} mm; {}", side,
-                       nameOf(vehicle, t.wheels[at(w.wheel)]), 1e3 * w.gap, 1e3 * lift, remedy(vehicle));
+  // Wheels are looked at where a shoe is beside them at all, which is next to never.
+  const UnguidedWheel w = s.shift > 0.5 * horn ? unguidedWheel(vehicle, track, state, lift) : UnguidedWheel{};
+  if (w.body >= 0)
+    return fmt::format("{} track thrown: {} is {:.0f} mm off its plates, more than {:.0f} mm, and {:.0f} mm beside "
+                       "their horns, more than half of their height of {:.0f} mm; {}",
+                       side, nameOf(vehicle, w.body), 1e3 * w.gap, 1e3 * lift, 1e3 * w.beside, 1e3 * horn,
+                       remedy(vehicle));
   if (const int body = outsideLoop(vehicle, track, state); body >= 0)
     return fmt::format("{} track thrown: it no longer runs around {}; {}", side, nameOf(vehicle, body),
                        remedy(vehicle));

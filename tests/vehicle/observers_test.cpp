@@ -190,10 +190,12 @@ TEST_F(Observers, AtTheStart_WheelsTouchTheirPlates) {
   EXPECT_NEAR(vehicle::sidewaysShift(v, 0, state), 0, 1e-15);
 }
 
-TEST_F(Observers, WheelLiftedMoreThanAHorn_IsAThrownTrackOnlyWhenStanding) {
+TEST_F(Observers, WheelLiftedMoreThanAHorn_IsAThrownTrackOnlyBesideItsHornsAndStanding) {
   const Observer observer(v);
   state.pose[left.wheels[2]].position.z += 0.077;
   EXPECT_NEAR(vehicle::wheelLift(v, 0, state), 0.077, 1e-14);
+  EXPECT_EQ(observer.alarm(state, standing()), "") << "in its plane";
+  for (const int shoe : left.shoes) state.pose[shoe].position.y += 0.04;
   EXPECT_NE(observer.alarm(state, standing()).find("left track thrown"), std::string::npos);
   // A suspended lower run sags so far by itself.
   EXPECT_EQ(observer.alarm(state, {}), "");
@@ -203,6 +205,7 @@ TEST_F(Observers, WheelLiftedMoreThanAHorn_IsAThrownTrackOnlyWhenStanding) {
 
 TEST_F(Observers, AWheelThatRollsOverAStone_IsNoThrownTrack) {
   state.pose[left.wheels[2]].position.z += 0.067; // the largest grain of 27 mm +- 25 %
+  for (const int shoe : left.shoes) state.pose[shoe].position.y += 0.04;
   EXPECT_NE(Observer(v).alarm(state, standing()), "");
   const Observer onStones(v, {.stone = 0.0675});
   EXPECT_EQ(onStones.alarm(state, standing()), "");

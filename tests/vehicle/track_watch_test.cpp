@@ -37,14 +37,44 @@ TEST_F(TrackWatch, AShoeBesideItsWheelsIsNamedWithItsDistance) {
             "smaller time_step");
 }
 
-TEST_F(TrackWatch, AWheelOffItsPlatesIsNamedWithItsGap) {
-  move(v.tracks[0].wheels[3], {0, 0, 0.077});
-  EXPECT_EQ(mostLifted(v, 0, state).wheel, 3);
+// Steps of 0.51 and 0.67 m: four wheels hung free over a strand that had lost 0.08 mm of its plane.
+TEST_F(TrackWatch, ATrackThatHangsOffItsWheelsInItsPlaneIsGuided) {
+  const Track& left = v.tracks[0];
+  for (const int i : {1, 2, 3, 4}) move(left.wheels[static_cast<std::size_t>(i)], {0, 0, 0.062});
+  for (const int shoe : left.shoes) move(shoe, {0, 0.0001, 0});
+  EXPECT_NEAR(mostLifted(v, 0, state).gap, 0.062, 1e-12);
+  EXPECT_EQ(unguidedWheel(v, 0, state, lift).body, -1);
+  EXPECT_EQ(thrownTrack(v, 0, state, lift), "");
+  for (const int i : {1, 2, 3, 4}) move(left.wheels[static_cast<std::size_t>(i)], {0, 0, 0.1});
+  EXPECT_EQ(thrownTrack(v, 0, state, lift), "") << "however far";
+}
+
+TEST_F(TrackWatch, HornsThatAreOutOfAWheelAndBesideItAreNamedWithBoth) {
+  const Track& left = v.tracks[0];
+  move(left.wheels[3], {0, 0, 0.077});
+  for (const int shoe : left.shoes) move(shoe, {0, -0.029, 0});
+  EXPECT_EQ(thrownTrack(v, 0, state, lift), "") << "over the gap between the discs";
+  for (const int shoe : left.shoes) move(shoe, {0, -0.003, 0});
   const std::string thrown = thrownTrack(v, 0, state, lift);
-  EXPECT_EQ(thrown.rfind("left track thrown: left road wheel 3 is 77 mm off its plates, more than 60 mm; tighten", 0),
+  EXPECT_EQ(thrown.rfind("left track thrown: left road wheel 3 is 77 mm off its plates, more than 60 mm, and 32 mm "
+                         "beside their horns, more than half of their height of 60 mm; tighten",
+                         0),
             0u)
       << thrown;
   EXPECT_EQ(thrownTrack(v, 0, state, 0.1), "") << "may hang so far";
+  move(left.wheels[3], {0, 0, -0.077});
+  EXPECT_EQ(thrownTrack(v, 0, state, lift), "") << "its horns are where discs push them back";
+}
+
+TEST_F(TrackWatch, RollersGuideToo) {
+  const Track& left = v.tracks[0];
+  move(left.rollers[1], {0, 0, -0.07});
+  EXPECT_EQ(thrownTrack(v, 0, state, lift), "");
+  for (const int shoe : left.shoes) move(shoe, {0, 0.031, 0});
+  const UnguidedWheel off = unguidedWheel(v, 0, state, lift);
+  EXPECT_EQ(off.body, left.rollers[1]);
+  EXPECT_NEAR(off.beside, 0.031, 1e-12);
+  EXPECT_GT(off.gap, lift);
 }
 
 TEST_F(TrackWatch, ALoopThatHasLeftWhatItWasWrappedOnIsSeen) {
