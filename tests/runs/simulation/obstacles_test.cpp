@@ -5,6 +5,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/kept_spheres.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,8 +30,9 @@ scene::Scene sceneWith(const std::string& more, double ground = 0, const std::st
       GROUSER_SOURCE_DIR "/tests/scenes/obstacles.toml");
 }
 
-Simulation begin(const scene::Scene& scene, int threads = 2) {
-  return Simulation(setup::simulationSetup(scene), testExec(threads), [](double, double) {});
+Simulation begin(const scene::Scene& scene, int threads = 1) {
+  return Simulation(
+      setup::simulationSetup(scene), testExec(threads), [](double, double) {}, {}, nullptr, keptSpheres());
 }
 
 void advance(Simulation& simulation, std::int64_t to) {
@@ -122,7 +124,7 @@ TEST(OneAnswer, OnObstacles) {
   EXPECT_EQ(two.stateHash(), kObstaclesHash);
   Simulation one = begin(scene, 1);
   advance(one, 4001);
-  Simulation resumed(setup::simulationSetup(scene), testExec(2), one.save());
+  Simulation resumed(setup::simulationSetup(scene), testExec(2), one.save(), {}, keptSpheres());
   EXPECT_EQ(resumed.stateHash(), one.stateHash());
   advance(one, kObstaclesSteps), advance(resumed, kObstaclesSteps);
   EXPECT_EQ(one.stateHash(), kObstaclesHash) << "threads";

@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/kept_spheres.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,8 +30,9 @@ scene::Scene sceneWith(const std::string& hitch, double speed = 2, double step =
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
 }
 
-Simulation begin(const scene::Scene& scene, int threads = 2) {
-  return Simulation(setup::simulationSetup(scene), testExec(threads), [](double, double) {});
+Simulation begin(const scene::Scene& scene, int threads = 1) {
+  return Simulation(
+      setup::simulationSetup(scene), testExec(threads), [](double, double) {}, {}, nullptr, keptSpheres());
 }
 
 void advance(Simulation& simulation, double until) {
@@ -128,7 +130,7 @@ TEST(OneAnswer, OfATowingVehicle) {
     const scene::Scene scene = sceneWith(hitch);
     Simulation one = begin(scene, 1), two = begin(scene, 2);
     advance(one, 0.7);
-    Simulation resumed(setup::simulationSetup(scene), testExec(2), one.save());
+    Simulation resumed(setup::simulationSetup(scene), testExec(2), one.save(), {}, keptSpheres());
     EXPECT_EQ(resumed.stateHash(), one.stateHash());
     for (Simulation* s : {&one, &two, &resumed}) advance(*s, 1);
     EXPECT_EQ(two.stateHash(), one.stateHash()) << "threads: " << hitch;
