@@ -3,7 +3,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
-#include "tests/runs/kept_spheres.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ scene::Scene standing(double x, double y) {
 
 Simulation begin(const scene::Scene& scene) {
   return Simulation(
-      setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, keptSpheres());
+      setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
 
 void advance(Simulation& simulation, double until) {

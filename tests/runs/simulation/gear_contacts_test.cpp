@@ -5,7 +5,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
-#include "tests/runs/kept_spheres.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST(GearContacts, AGrainIsAStoneOnceAndPinchedWhereAShoeTouchesItToo) {
 TEST(GearContacts, OnABedAreThePairsInTouch) {
   Simulation simulation(
       setup::simulationSetup(setup::loadScene(testScene("coupled.toml"))), testExec(), [](double, double) {}, {},
-      nullptr, keptSpheres());
+      sharedBeds(), sharedSpheres());
   while (simulation.steps() < 1500) simulation.step();
   const GearContacts c = simulation.vehicle()->contacts().gearContacts();
   const std::int64_t patches = simulation.ledger().partContacts;

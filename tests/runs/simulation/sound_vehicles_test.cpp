@@ -4,7 +4,7 @@
 #include "base/math.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
-#include "tests/runs/kept_spheres.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ protected:
       const scene::Scene scene =
           setup::loadScene(fmt::format("{}/tests/scenes/{}.toml", GROUSER_SOURCE_DIR, GetParam().base), sets);
       Simulation simulation(
-          setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, nullptr, keptSpheres());
+          setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, sharedBeds(), sharedSpheres());
       EnergyGuard watch;
       while (simulation.steps() < GetParam().steps) {
         simulation.step();
@@ -99,7 +99,7 @@ TEST(JudgedVehicle, PartsThatTurnTooFarAStepEndTheRun) {
   EXPECT_NEAR(setup.vehicle->largestTurn, 2 * base::kPi / 20, 1e-15);
   setup.vehicle->largestTurn = 2 * base::kPi / 1e5;
   Simulation simulation(
-      setup, base::cpuExec(1), [](double, double) {}, {}, nullptr, keptSpheres());
+      setup, base::cpuExec(1), [](double, double) {}, {}, sharedBeds(), sharedSpheres());
   try {
     while (simulation.steps() < 100) simulation.step();
     FAIL() << "goes on";
