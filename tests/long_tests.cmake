@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Read by ctest after all tests are known. It starts the longest ones first (COST: about what they take [s], until it
-# has measured them itself), so that none is left alone at the end, and gives two cores to those of several ranks or
-# threads: where other tests take their cores they wait for each other many times as long.
+# Read by ctest once the tests of grouser_tests are known. It starts the longest ones first (COST: about what they take
+# [s], until it has measured them itself), so that none is left alone at the end, and gives two cores to those of
+# several ranks or threads: where other tests take their cores they wait for each other many times as long.
 foreach(test
     "GranularBed.ShoesSinkWhileTheyCarryAndArePickedUp 60"
-    "python.docs 50"
     "OneAnswer.OfATowingVehicle 20"
     "SoilCommandTest.PartsMayBeginTogether 40"
     "SoilCommandTest.MeasuresInSlicesAndWritesItsTables 40"
     "LedgerOfAVehicle.OnItsBedBalancesInMomenta 35"
     "GranularBed.CarriesTheWholeWeightAtRest 35"
     "BedPreparation.PorosityWantedIsReachedWithTheSameFrictionForEverySeed 30"
-    "Grains/StudyCommand.WritesItsTablesAndKeepsThem/plates 30"
-    "python.report 26"
     "OneAnswer.OnObstacles 25"
     "MechanismRun.NoShippedMechanismIsWarnedOf 25"
-    "ranks.8 24"
     "Documents.ScenesCanBePlanned 23"
     "BedPreparation.GrainsStickOnlyOnceTheyLie 22"
     "FullDisk.LimitToTheSizeOfAnyFileLosesNothing 20"
@@ -27,9 +23,7 @@ foreach(test
     "OnRanks.PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRank 15"
     "OnRanks.VehicleDrivesAcrossBordersWithTheBitsOfOneRank 15"
     "Towing.ASledPullsWithItsFriction 15"
-    "AtRest.TheGradeThatItHoldsIsItsFriction 15"
-    "python.package 15" "python.files 12" "python.examples 10" "ranks.4 10" "ranks.3 8" "ranks.2 6" "ranks.1 6"
-    "install 6")
+    "AtRest.TheGradeThatItHoldsIsItsFriction 15")
   string(REPLACE " " ";" test "${test}")
   list(GET test 0 name)
   list(GET test 1 seconds)
