@@ -6,6 +6,7 @@
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/program_fixture.hpp"
+#include "tests/runs/shared_cache.hpp"
 #include "tests/vehicle/spec_variant.hpp"
 
 #include <gtest/gtest.h>
@@ -81,13 +82,13 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
 
 TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
   test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
-  const test::Outcome up = call("plan scene.toml --set run.gravity=[0,0,9.81]");
+  const test::Outcome up = call("plan scene.toml --no-probe --set run.gravity=[0,0,9.81]");
   EXPECT_EQ(up.code, 2);
   EXPECT_NE(up.errors.find("--set: run.gravity = [0, 0, 9.81] [m/s2] does not pull the vehicle to the ground"),
             std::string::npos)
       << up.errors;
-  EXPECT_EQ(call("plan scene.toml --set run.gravity=[-1.7,0,-9.6]").code, 0) << "a slope";
-  EXPECT_EQ(call("plan scene.toml --set run.gravity=[0,0,0]").code, 0);
+  EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[-1.7,0,-9.6]").code, 0) << "a slope";
+  EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[0,0,0]").code, 0);
 }
 
 TEST_F(VehicleFaults, PlanSaysWhichMaterialsDoNothing) {
@@ -113,7 +114,7 @@ TEST_P(SoundVehicle, RunsWithoutABlow) {
   const SpecVariant variant(GetParam().changes);
   simulation::Simulation simulation(
       setup::simulationSetup(setup::parseScene(rigidScene(variant.path()), GROUSER_SOURCE_DIR "/tests/scenes/x.toml")),
-      testExec(), [](double, double) {});
+      testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
   double fastest = 0;
   while (simulation.steps() < 200) {
     simulation.step();
@@ -156,7 +157,7 @@ std::string slopeScene(const std::string& map) {
 TEST_F(VehicleFaults, SinkageOnASideSlopeIsThatOfTheFrames) {
   putSlope(folder_ / "slope.png");
   test::put(folder_ / "scene.toml", slopeScene("slope.png"));
-  const test::Outcome run = call("run scene.toml --out out");
+  const test::Outcome run = call("run scene.toml --out out", withSharedCache());
   ASSERT_EQ(run.code, 0) << run.errors;
   // Poses are written in double precision, so all that differs is rounding: 1e-9 m of the iteration.
   const test::Outcome check = shell("/usr/bin/python3 '" GROUSER_SOURCE_DIR "/runs/plots/check_sinkage.py' out 1e-8");
@@ -190,7 +191,8 @@ TEST_F(VehicleFaults, AVehicleThatNeverRestsIsSaid) {
             rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml", "duration = 0.5\n"));
   const test::Outcome o =
       call("run scene.toml --out out --set driver.rest_speed=1e-9 --set driver.rest_time_limit=0.05 "
-           "--set driver.tension_ramp=0.02 --set driver.weight_ramp=0.03");
+           "--set driver.tension_ramp=0.02 --set driver.weight_ramp=0.03",
+           withSharedCache());
   EXPECT_NE(o.code, 0);
   EXPECT_NE(o.errors.find("has not come to rest within driver.rest_time_limit = 0.05 s"), std::string::npos)
       << o.errors;
@@ -201,11 +203,11 @@ TEST_F(VehicleFaults, ARunThatIsResumedBeforeItRestsDrivesOffAtTheSameStep) {
   test::put(folder_ / "scene.toml",
             rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml", "duration = 0.9\n"));
   const std::string keys = " --hash --set driver.tension_ramp=0.05 --set driver.weight_ramp=0.1 ";
-  const test::Outcome whole = call("run scene.toml --out whole" + keys);
+  const test::Outcome whole = call("run scene.toml --out whole" + keys, withSharedCache());
   ASSERT_EQ(whole.code, 0) << whole.errors;
   EXPECT_TRUE(std::regex_search(whole.out, std::regex("drive     from 0\\.[1-7]"))) << whole.out;
-  ASSERT_EQ(call("run scene.toml --out parts --steps 1500" + keys).code, 0);
-  const test::Outcome rest = call("run scene.toml --out parts --resume parts/checkpoint.h5" + keys);
+  ASSERT_EQ(call("run scene.toml --out parts --steps 1500" + keys, withSharedCache()).code, 0);
+  const test::Outcome rest = call("run scene.toml --out parts --resume parts/checkpoint.h5" + keys, withSharedCache());
   EXPECT_EQ(rest.hash(), whole.hash()) << rest.errors;
   EXPECT_TRUE(whole.hasHash());
 }

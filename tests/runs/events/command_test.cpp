@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser events` as a user calls it: one event for half a second, its tables, and what a second call leaves out.
 #include "tests/runs/program_fixture.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,7 @@ using EventsProgram = ProgramTest;
 TEST_F(EventsProgram, WritesItsTablesAndGoesOn) {
   const std::string words = "events --only acceleration --set run.duration=0.7 --set driver.drive_start=0.46 "
                             "--set vehicle.sphere_radius=0.04 --set output.picture=false --threads 1 --out out";
-  const Outcome first = call(words);
+  const Outcome first = call(words, withSharedCache());
   ASSERT_EQ(first.code, 0) << first.errors;
   EXPECT_NE(first.out.find("no-go"), std::string::npos) << first.out; // it has no time for 5 m
   const auto json = nlohmann::json::parse(contents(folder_ / "out" / "events.json"));

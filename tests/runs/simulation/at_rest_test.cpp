@@ -3,6 +3,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,8 @@ scene::Scene standing(double x, double y) {
 }
 
 Simulation begin(const scene::Scene& scene) {
-  return Simulation(setup::simulationSetup(scene), testExec(2), [](double, double) {});
+  return Simulation(
+      setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
 
 void advance(Simulation& simulation, double until) {

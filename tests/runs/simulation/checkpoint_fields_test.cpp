@@ -7,6 +7,7 @@
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -166,12 +167,13 @@ void expectSame(const SimulationState& is, const SimulationState& was) {
 
 /// Runs a scene, restores another simulation from what the first has saved, and saves that again.
 void expectRestored(const scene::Scene& scene, std::int64_t steps) {
-  Simulation straight(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+  Simulation straight(
+      setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, nullptr, sharedSpheres());
   while (straight.steps() < steps / 2) straight.step();
   straight.restartMeans();
   while (straight.steps() < steps) straight.step();
   const SimulationState saved = straight.save();
-  const Simulation resumed(setup::simulationSetup(scene), base::cpuExec(1), saved);
+  const Simulation resumed(setup::simulationSetup(scene), base::cpuExec(1), saved, {}, sharedSpheres());
   expectSame(resumed.save(), saved);
 }
 
@@ -187,7 +189,8 @@ TEST(RestoredSimulation, SumsOfTheRowAndOfTheAlarmAreKeptApart) {
       setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
                        {"vehicle.sphere_radius=0.04", "vehicle.clearance=1e-6", "driver.tension_ramp=0.002",
                         "driver.weight_ramp=0.002", "driver.drive_ramp=0.002"});
-  Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(
+      setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, nullptr, sharedSpheres());
   while (simulation.steps() < 20) simulation.step();
   const VehicleState first = *simulation.save().vehicle;
   simulation.restartMeans(); // a row is written; the track is judged each 50 steps

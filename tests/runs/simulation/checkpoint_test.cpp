@@ -11,6 +11,7 @@
 #include "runs/support/sealed_file.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/shared_cache.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <gtest/gtest.h>
@@ -93,7 +94,8 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   const std::vector<std::string> ramps = {"driver.tension_ramp=0.01", "driver.weight_ramp=0.01",
                                           "driver.drive_ramp=0.02", "driver.drive_start=0.02"};
   overrides.insert(overrides.end(), ramps.begin(), ramps.end());
-  Simulation straight(setup::simulationSetup(setup::loadScene(file, ramps)), base::cpuExec(1), quiet);
+  Simulation straight(setup::simulationSetup(setup::loadScene(file, ramps)), base::cpuExec(1), quiet, {}, sharedBeds(),
+                      sharedSpheres());
   while (straight.steps() < stop - 37) straight.step();
   straight.restartMeans(); // a row was written: its means go on from here
   while (straight.steps() < stop) straight.step();
@@ -107,7 +109,7 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   const Checkpoint read = readCheckpoint(path);
   EXPECT_NO_THROW(checkSameScene(read, path, setup::provenanceOf(again)));
   EXPECT_EQ(read.state.hash(), straight.stateHash());
-  Simulation resumed(setup::simulationSetup(again), exec, read.state);
+  Simulation resumed(setup::simulationSetup(again), exec, read.state, {}, sharedSpheres());
   EXPECT_EQ(resumed.steps(), stop);
   EXPECT_EQ(resumed.stateHash(), straight.stateHash());
   EXPECT_EQ(rowOf(resumed), rowOf(straight)) << "before the first step";

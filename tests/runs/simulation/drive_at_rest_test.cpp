@@ -3,6 +3,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "runs/simulation/vehicle_rig.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ double drivesOff(int rowEvery, const std::vector<std::string>& more = {}) {
   overrides.insert(overrides.end(), more.begin(), more.end());
   Simulation s(
       setup::simulationSetup(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", overrides)),
-      base::cpuExec(1), [](double, double) {});
+      base::cpuExec(1), [](double, double) {}, {}, nullptr, sharedSpheres());
   while (!s.vehicle()->driveStart()) {
     s.step();
     if (rowEvery > 0 && s.steps() % rowEvery == 0) s.restartMeans();

@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "runs/simulation/vehicle_rig.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,15 +47,15 @@ std::vector<std::string> both() {
 
 TEST(DriverModes, CourseByEnginesOnABedIsOneAnswerOnAnyThreadsAndResumed) {
   const scene::Scene scene = freed("coupled.toml", both());
-  Simulation one(setup::simulationSetup(scene), base::cpuExec(1), quiet);
-  Simulation two(setup::simulationSetup(scene), base::cpuExec(2), quiet);
+  Simulation one(setup::simulationSetup(scene), base::cpuExec(1), quiet, {}, sharedBeds(), sharedSpheres());
+  Simulation two(setup::simulationSetup(scene), base::cpuExec(2), quiet, {}, sharedBeds(), sharedSpheres());
   while (one.steps() < 700) one.step(), two.step();
   EXPECT_EQ(one.stateHash(), two.stateHash());
   const auto saved = one.save();
   ASSERT_TRUE(saved.vehicle);
   ASSERT_EQ(saved.vehicle->driver.size(), 3u);
   for (const double value : saved.vehicle->driver) EXPECT_NE(value, 0) << "there is something to carry over";
-  Simulation resumed(setup::simulationSetup(scene), base::cpuExec(1), saved);
+  Simulation resumed(setup::simulationSetup(scene), base::cpuExec(1), saved, {}, sharedSpheres());
   while (resumed.steps() < 1000) resumed.step(), one.step();
   EXPECT_EQ(resumed.stateHash(), one.stateHash());
   EXPECT_GT(one.vehicle()->observe().velocity.x, 0.02);
@@ -62,7 +63,8 @@ TEST(DriverModes, CourseByEnginesOnABedIsOneAnswerOnAnyThreadsAndResumed) {
 
 TEST(DriverModes, TorquesBeginWithTheDriveAndAreThoseThatAreGiven) {
   std::vector<std::string> overrides = {"driver.drive=torque", "driver.left_torque=3000", "driver.right_torque=1000"};
-  Simulation s(setup::simulationSetup(freed("rigid.toml", overrides)), base::cpuExec(1), quiet);
+  Simulation s(setup::simulationSetup(freed("rigid.toml", overrides)), base::cpuExec(1), quiet, {}, sharedBeds(),
+               sharedSpheres());
   while (s.time() < 0.0195) s.step();
   EXPECT_NEAR(s.vehicle()->observe().tracks[0].sprocketSpeed, 0, 1e-9) << "held until then";
   while (s.time() < 0.1) s.step();

@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,8 @@ scene::Scene sceneWith(const std::string& more, const std::string& vehicle = {},
 }
 
 Simulation begin(const scene::Scene& scene) {
-  return Simulation(setup::simulationSetup(scene), testExec(2), [](double, double) {});
+  return Simulation(
+      setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
 
 /// What has ended it within so many steps.
@@ -48,8 +50,12 @@ TEST(Flow, EndsAfterADistance) {
   EXPECT_LT(way(simulation), 0.1 + 50 * 1e-4 * 1.2) << "a look every 50 steps, at 4 rad/s on 0.245 m";
   EXPECT_EQ(simulation.steps() % 50, 0);
   // A run that goes on from its end is over at once; one that is asked for more goes on.
-  EXPECT_FALSE(Simulation(setup::simulationSetup(scene), testExec(2), simulation.save()).vehicle()->ended().empty());
-  Simulation farther(setup::simulationSetup(sceneWith("[stop]\ndistance = 0.2\n")), testExec(2), simulation.save());
+  EXPECT_FALSE(Simulation(setup::simulationSetup(scene), testExec(), simulation.save(), {}, sharedSpheres())
+                   .vehicle()
+                   ->ended()
+                   .empty());
+  Simulation farther(setup::simulationSetup(sceneWith("[stop]\ndistance = 0.2\n")), testExec(), simulation.save(), {},
+                     sharedSpheres());
   EXPECT_TRUE(farther.vehicle()->ended().empty());
 }
 

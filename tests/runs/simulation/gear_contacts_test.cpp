@@ -5,6 +5,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,8 +35,9 @@ TEST(GearContacts, AGrainIsAStoneOnceAndPinchedWhereAShoeTouchesItToo) {
 }
 
 TEST(GearContacts, OnABedAreThePairsInTouch) {
-  Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("coupled.toml"))), testExec(2),
-                        [](double, double) {});
+  Simulation simulation(
+      setup::simulationSetup(setup::loadScene(testScene("coupled.toml"))), testExec(), [](double, double) {}, {},
+      sharedBeds(), sharedSpheres());
   while (simulation.steps() < 1500) simulation.step();
   const GearContacts c = simulation.vehicle()->contacts().gearContacts();
   const std::int64_t patches = simulation.ledger().partContacts;

@@ -6,6 +6,7 @@
 #include "runs/setup/placement.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "tests/runs/shared_cache.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,8 @@ TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
 TEST(Placement, DrivingOffTheTerrainStopsTheRun) {
   const scene::Scene scene =
       rigid({"driver.sprocket_speed=20", "vehicle.position=[4.8, 0]", "vehicle.sphere_radius=0.02"});
-  Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+  Simulation simulation(
+      setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, nullptr, sharedSpheres());
   EXPECT_THROW(while (simulation.time() < 1.0) simulation.step(), base::SimulationError);
 }
 

@@ -3,6 +3,7 @@
 #include "runs/commands/plan.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,8 @@ scene::Scene rigid() {
 }
 
 std::unique_ptr<Simulation> made(const scene::Scene& scene, int steps = 3) {
-  auto s = std::make_unique<Simulation>(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+  auto s = std::make_unique<Simulation>(
+      setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, base::Comm{}, nullptr, sharedSpheres());
   while (s->steps() < steps) s->step();
   return s;
 }

@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +44,9 @@ inline scene::Scene sceneOf(const std::string& things, double duration, double s
 }
 
 inline std::unique_ptr<Simulation> made(const scene::Scene& scene) {
-  return std::make_unique<Simulation>(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+  return std::make_unique<Simulation>(
+      setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, base::Comm{}, sharedBeds(),
+      sharedSpheres());
 }
 
 /// The ledger at the end.

@@ -4,6 +4,7 @@
 #include "runs/simulation/mechanism.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "runs/simulation/vehicle_rig.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,8 +84,9 @@ TEST(MechanismLedger, GoesOnFromACheckpointWithTheSameBitsAndIsNotHashed) {
 }
 
 TEST(MechanismLedger, OfAVehiclesBodiesClosesToRounding) {
-  Simulation simulation(setupOf("tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.02"}), base::cpuExec(1),
-                        [](double, double) {});
+  Simulation simulation(
+      setupOf("tests/scenes/rigid.toml", {"vehicle.sphere_radius=0.02"}), base::cpuExec(1), [](double, double) {}, {},
+      nullptr, sharedSpheres());
   while (simulation.time() < 0.03) simulation.step();
   const multibody::Balance l = simulation.vehicle()->bodiesBalance();
   EXPECT_GT(l.turnover, 1);

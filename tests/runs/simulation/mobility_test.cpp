@@ -4,6 +4,7 @@
 
 #include "runs/setup/load_scene.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +23,9 @@ void quiet(double, double) {}
 
 /// `together`: steps that are asked for at once, which a GPU is given ahead; 0: each by itself.
 std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {},
-                        std::int64_t together = 0) {
-  Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("coupled.toml"), overrides)), exec, quiet);
+                        std::int64_t together = 0, BedCache* beds = nullptr, SphereCache* spheres = nullptr) {
+  Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("coupled.toml"), overrides)), exec, quiet, {},
+                        beds, spheres);
   while (simulation.steps() < 2000) {
     if (together == 0)
       simulation.step();
@@ -37,7 +39,7 @@ std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& 
 TEST(OneAnswer, CoupledSceneOnOneThread) { EXPECT_EQ(coupledHash(base::cpuExec(1)), kCoupledHash); }
 
 TEST(OneAnswer, CoupledSceneOnTwoThreadsWithOtherRebuilds) {
-  EXPECT_EQ(coupledHash(base::cpuExec(2), {"run.skin=0.6"}), kCoupledHash);
+  EXPECT_EQ(coupledHash(base::cpuExec(2), {"run.skin=0.6"}, 0, nullptr, sharedSpheres()), kCoupledHash);
 }
 
 TEST(OneAnswer, CoupledSceneOnCuda) {
@@ -54,10 +56,13 @@ TEST(OneAnswer, CoupledSceneOnCudaLaunchedAhead) {
   EXPECT_EQ(coupledHash(base::cudaExec(), {"run.skin=0.8"}, 2), kCoupledHash);
 }
 
-TEST(OneAnswer, CoupledSceneInBatchesOfSteps) { EXPECT_EQ(coupledHash(base::cpuExec(2), {}, 100), kCoupledHash); }
+TEST(OneAnswer, CoupledSceneInBatchesOfSteps) {
+  EXPECT_EQ(coupledHash(base::cpuExec(2), {}, 100, sharedBeds(), sharedSpheres()), kCoupledHash);
+}
 
 TEST(OneAnswer, AnotherSeedIsAnotherState) {
-  EXPECT_NE(coupledHash(base::cpuExec(1), {"run.seed=8"}), kCoupledHash) << "the hash must see the state";
+  EXPECT_NE(coupledHash(base::cpuExec(1), {"run.seed=8"}, 0, nullptr, sharedSpheres()), kCoupledHash)
+      << "the hash must see the state";
 }
 
 /// What happened to one shoe.
@@ -142,9 +147,11 @@ std::size_t fourShoes(const Drive& d, double from) {
 }
 
 TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
-  Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("rigid.toml"))), testExec(), quiet);
+  Simulation simulation(
+      setup::simulationSetup(setup::loadScene(testScene("rigid.toml"), {"vehicle.sphere_radius=0.03"})), testExec(),
+      quiet, {}, nullptr, sharedSpheres());
   const double omega = 2, begin = 0.5;
-  const Drive d = drive(simulation, 4.0);
+  const Drive d = drive(simulation, 3.0);
   const vehicle::VehicleSpec& spec = simulation.vehicle()->assembly().spec;
 
   // Static overlap: the ground carries the weight on grousers as an elastic foundation, a fraction of a millimetre.
@@ -173,10 +180,10 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
 }
 
 TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
-  Simulation simulation(
-      setup::simulationSetup(setup::loadScene(
-          testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2", "terrain.size=[4.7,2.6]"})),
-      testExec(), quiet);
+  Simulation simulation(setup::simulationSetup(setup::loadScene(
+                            testScene("coupled.toml"), {"driver.drive_start=0.5", "driver.weight_ramp=0.2",
+                                                        "terrain.size=[4.7,2.6]", "vehicle.sphere_radius=0.03"})),
+                        testExec(), quiet, {}, sharedBeds(), sharedSpheres());
   const double begin = 0.5;
   const Drive d = drive(simulation, 2.6);
   const Line line = slopeOnGround(d, fourShoes(d, begin), begin);
@@ -186,13 +193,13 @@ TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
 }
 
 TEST(GranularBed, CarriesTheWholeWeightAtRest) {
-  Simulation simulation(
-      setup::simulationSetup(setup::loadScene(
-          testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3", "driver.drive_start=0.4"})),
-      testExec(), quiet);
-  while (simulation.time() < 1.0) simulation.step();
+  Simulation simulation(setup::simulationSetup(setup::loadScene(
+                            testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3",
+                                                        "driver.drive_start=0.4", "vehicle.sphere_radius=0.03"})),
+                        testExec(), quiet, {}, sharedBeds(), sharedSpheres());
+  while (simulation.time() < 0.7) simulation.step();
   simulation.restartMeans();
-  while (simulation.time() < 2.0) simulation.step();
+  while (simulation.time() < 1.2) simulation.step();
   const double weight = simulation.vehicle()->assembly().mass * 9.81;
   const double force = simulation.vehicle()->meanGroundForce().z;
   std::printf("rest: ground force / weight = %.5f\n", force / weight);

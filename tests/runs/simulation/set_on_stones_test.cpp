@@ -4,6 +4,7 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/simulation/grains_under_shoes.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,8 @@ std::unique_ptr<Simulation> onStones(int seed, const std::vector<std::string>& m
                         "settle_kinetic_energy = 0.05\ncache = false\n"
                         "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n",
                         "stones.toml", overrides);
-  return std::make_unique<Simulation>(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+  return std::make_unique<Simulation>(
+      setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, base::Comm{}, nullptr, sharedSpheres());
 }
 
 /// Deepest that a grain reaches into the box about pad and grousers of a shoe that looks down [m]; negative: how far
@@ -72,7 +74,7 @@ TEST(SetOnStones, AResumedVehicleStoodWhereItWasSetDown) {
     const std::unique_ptr<Simulation> straight = onStones(seed, {"vehicle.chassis=\"fixed\""});
     if (straight->save().vehicle->lift == 0) continue;
     for (int i = 0; i < 20; ++i) straight->step();
-    Simulation resumed(straight->setup(), base::cpuExec(1), straight->save());
+    Simulation resumed(straight->setup(), base::cpuExec(1), straight->save(), {}, sharedSpheres());
     EXPECT_EQ(resumed.save().vehicle->lift, straight->save().vehicle->lift);
     for (int i = 0; i < 20; ++i) straight->step(), resumed.step();
     EXPECT_EQ(resumed.stateHash(), straight->stateHash());

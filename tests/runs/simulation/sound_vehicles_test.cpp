@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,8 @@ protected:
     try {
       const scene::Scene scene =
           setup::loadScene(fmt::format("{}/tests/scenes/{}.toml", GROUSER_SOURCE_DIR, GetParam().base), sets);
-      Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+      Simulation simulation(
+          setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, sharedBeds(), sharedSpheres());
       EnergyGuard watch;
       while (simulation.steps() < GetParam().steps) {
         simulation.step();
@@ -96,7 +98,8 @@ TEST(JudgedVehicle, PartsThatTurnTooFarAStepEndTheRun) {
   setup::SimulationSetup setup = setup::simulationSetup(scene);
   EXPECT_NEAR(setup.vehicle->largestTurn, 2 * base::kPi / 20, 1e-15);
   setup.vehicle->largestTurn = 2 * base::kPi / 1e5;
-  Simulation simulation(setup, base::cpuExec(1), [](double, double) {});
+  Simulation simulation(
+      setup, base::cpuExec(1), [](double, double) {}, {}, sharedBeds(), sharedSpheres());
   try {
     while (simulation.steps() < 100) simulation.step();
     FAIL() << "goes on";
