@@ -50,7 +50,8 @@ TEST_F(SoilsOfUser, OneIsToldWithItsSources) {
   EXPECT_EQ(one.code, 0) << one.errors;
   EXPECT_NE(one.out.find("LETE sand, calibrated"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("Wong 2008"), std::string::npos) << one.out;
-  EXPECT_NE(one.out.find("nothing measured yet"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("reached by its contact parameters"), std::string::npos) << one.out;
+  EXPECT_NE(call("soils dry_sand").out.find("nothing measured yet"), std::string::npos);
   const Outcome none = call("soils lete_snad");
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.error().find("did you mean \"lete_sand\"?"), std::string::npos) << none.errors;

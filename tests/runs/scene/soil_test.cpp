@@ -349,7 +349,7 @@ TEST(SoilScenes, AreLoadedAndOfTheSizeTheySay) {
   EXPECT_GE(*full.terrain->depth, 0.5);
   EXPECT_LE(*full.terrain->grainRadius, 0.007);
   EXPECT_LT(setup::plannedGrains(full), 3'000'000);
-  EXPECT_EQ(full.terrain->porosity, 0.38) << "the soil's";
+  EXPECT_EQ(full.terrain->porosity, 0.42) << "the soil's";
   const Scene coarse = setup::loadScene(scenes / "soil_coarse.toml");
   EXPECT_EQ(coarse.material("lete_sand").young, full.material("lete_sand").young);
   EXPECT_LT(setup::plannedGrains(coarse), 20'000);
