@@ -106,9 +106,10 @@ private:
           fmt::format("shear_{}", ++shearTrials_), [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
       const Estimate foundAngle = r.measured.at(Quantity::frictionAngle),
                      foundCohesion = r.measured.at(Quantity::cohesion);
-      fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa\n",
+      fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa; K {} mm\n",
                  soil_.friction, numberOf(soil_, "rolling_friction", 0), pullKey(), search.at().pull,
-                 studies::valueText(foundAngle), studies::valueText(foundCohesion));
+                 studies::valueText(foundAngle), studies::valueText(foundCohesion),
+                 studies::valueText(r.measured.at(Quantity::shearModulus)));
       goesOn = search.tried(foundAngle.value, foundCohesion.value);
     }
     setStrength(search.nearest(), mu);

@@ -46,7 +46,8 @@ double plateCost(const studies::Soil& soil, const PlateSinkage& plate) {
 
 double shearCost(const studies::Soil& soil, const studies::ShearCell& cell, double load) {
   const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / load);
-  return cell.length * cell.width * cell.depth * (2 * kFall + unit * (kPressed + cell.strain / cell.inertialNumber));
+  return cell.length * cell.width * cell.depth *
+         (2 * kFall + unit * ((cell.pressesIn ? 2 : 1) * kPressed + cell.strain / cell.inertialNumber));
 }
 
 double reposeCost(const studies::Soil& soil, const ReposeTest& test) {
