@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 /// Elementary functions that give the same bits on every processor: built from + - * / and sqrt only, in a fixed order.
 /// The C library's versions differ between processors (they pick fused multiply-add paths at run time).
@@ -12,6 +13,8 @@
 namespace grouser::base {
 
 inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(); ///< no number: of what was not measured
 
 namespace detail {
 

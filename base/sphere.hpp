@@ -3,6 +3,8 @@
 
 #include "base/math.hpp"
 
+#include <algorithm>
+
 namespace grouser::base {
 
 /// Mass of a sphere [kg]. The last bits of a bed's state follow from this order of factors.
@@ -10,5 +12,10 @@ constexpr double sphereMass(double density, double radius) {
   return density * (4.0 / 3.0) * kPi * radius * radius * radius;
 }
 constexpr double sphereVolume(double radius) { return sphereMass(1, radius); } ///< [m3]
+/// Volume of a sphere of radius r about height z that lies below height h [m3].
+constexpr double sphereVolumeBelow(double h, double z, double r) {
+  const double cap = std::clamp(h - (z - r), 0.0, 2 * r);
+  return kPi * cap * cap * (3 * r - cap) / 3;
+}
 
 } // namespace grouser::base

@@ -8,7 +8,7 @@ target_include_directories(grouser_flags INTERFACE
 # No fused multiply-add unless written, no fast-math, no -march=native: one scene, one answer. x86-64-v2 (SSE4.2, every
 # processor since 2009) has no fused multiply-add and rounds in one instruction.
 target_compile_options(grouser_flags INTERFACE
-  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Werror>>
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wredundant-decls;-Wzero-as-null-pointer-constant;-Werror>>
   $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-march=x86-64-v2>
   # SIMD numbers (base/simd.hpp) are passed between inlined functions only, so it does not matter how calls pass them.
   $<$<COMPILE_LANGUAGE:CXX>:-Wno-psabi>)

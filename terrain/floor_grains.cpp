@@ -10,8 +10,8 @@ namespace grouser::terrain {
 
 namespace {
 
-constexpr std::uint64_t kPlace = base::purpose("terrain.floor_grains.place");
-constexpr std::uint64_t kRadius = base::purpose("terrain.floor_grains.radius");
+constexpr std::uint64_t kFloorPlace = base::purpose("terrain.floor_grains.place");
+constexpr std::uint64_t kFloorRadius = base::purpose("terrain.floor_grains.radius");
 constexpr double kPitch = 2.0; // in mean radii
 constexpr double kShift = 0.3; // to each side, of the pitch
 constexpr double kSunk = 0.5;  // of the radius, at most
@@ -43,9 +43,9 @@ std::vector<Seed> layFloorGrains(const HeightField& floor, const Rectangle& wall
   for (std::int64_t j = 0; j < y.count; ++j)
     for (std::int64_t i = 0; i < x.count; ++i) {
       const auto id = static_cast<std::uint64_t>(grains.size());
-      const auto number = [&](std::uint64_t k) { return base::uniform(o.seed, kPlace, id, k); };
+      const auto number = [&](std::uint64_t k) { return base::uniform(o.seed, kFloorPlace, id, k); };
       const double radius =
-          o.scale * o.radii.draw([&](std::uint64_t k) { return base::uniform(o.seed, kRadius, id, k); });
+          o.scale * o.radii.draw([&](std::uint64_t k) { return base::uniform(o.seed, kFloorRadius, id, k); });
       base::Vec3d c{x.start + x.pitch * (static_cast<double>(i) + kShift * (2 * number(0) - 1)),
                     y.start + y.pitch * (static_cast<double>(j) + kShift * (2 * number(1) - 1)), 0};
       c.z = floor.height(c.x, c.y) - kSunk * radius * number(2);

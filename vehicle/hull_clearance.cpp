@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +19,7 @@ namespace {
 using base::TriangleMesh;
 using Polygon = std::vector<PlanePoint>; ///< convex
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFits = 1e-3; ///< overlap that is none [m]
+constexpr double kTouching = 1e-3; ///< overlap that is none [m]
 
 /// Something of a track, as it stands in the track's plane, and how far it goes to both sides of it.
 struct TrackPart {
@@ -86,7 +84,7 @@ Polygon slice(const std::array<Vec3d, 3>& triangle, double from, double to) {
 
 /// Least of both shapes' shifts along their edges' normals that parts them [m]; negative where they are apart.
 double overlapOf(const Polygon& a, const Polygon& b) {
-  double least = kInfinity;
+  double least = base::kInfinity;
   for (const Polygon* shape : {&a, &b})
     for (std::size_t i = 0; i < shape->size(); ++i) {
       const PlanePoint p = (*shape)[i], q = (*shape)[(i + 1) % shape->size()];
@@ -94,7 +92,7 @@ double overlapOf(const Polygon& a, const Polygon& b) {
       if (!(length > 1e-12)) continue;
       const double nx = (q.z - p.z) / length, nz = (p.x - q.x) / length;
       const auto range = [&](const Polygon& points) {
-        double low = kInfinity, high = -kInfinity;
+        double low = base::kInfinity, high = -base::kInfinity;
         for (const PlanePoint& c : points)
           low = std::min(low, nx * c.x + nz * c.z), high = std::max(high, nx * c.x + nz * c.z);
         return std::pair{low, high};
@@ -108,7 +106,7 @@ double overlapOf(const Polygon& a, const Polygon& b) {
 
 /// How deep a polygon reaches into a disc [m]; negative where it does not.
 double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
-  double nearest = kInfinity;
+  double nearest = base::kInfinity;
   bool inside = polygon.size() > 2;
   double turn = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -126,18 +124,18 @@ double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
 /// How deep a part of the track at `offset` stands in the hull [m], by the shorter way out, in the track's plane or
 /// across; infinite where it is inside, negative where clear.
 double depthOf(const spheredecomp::MeshQuery& query, const TrackPart& part, double offset) {
-  if (query.inside({part.centre.x, offset, part.centre.z})) return kInfinity;
+  if (query.inside({part.centre.x, offset, part.centre.z})) return base::kInfinity;
   const TriangleMesh& hull = query.mesh();
   const double from = offset - part.halfWidth, to = offset + part.halfWidth;
-  double deepest = -kInfinity, low = kInfinity, high = -kInfinity;
+  double deepest = -base::kInfinity, low = base::kInfinity, high = -base::kInfinity;
   for (std::size_t t = 0; t + 2 < hull.indices.size(); t += 3) {
     const std::array<Vec3d, 3> triangle{hull.vertices[hull.indices[t]], hull.vertices[hull.indices[t + 1]],
                                         hull.vertices[hull.indices[t + 2]]};
-    const Polygon seen = slice(triangle, from + kFits, to - kFits);
+    const Polygon seen = slice(triangle, from + kTouching, to - kTouching);
     if (seen.size() < 2) continue;
     const double depth = part.radius > 0 ? depthInDisc(seen, part.centre, part.radius) : overlapOf(seen, part.corners);
     deepest = std::max(deepest, depth);
-    if (depth <= kFits) continue;
+    if (depth <= kTouching) continue;
     for (const Vec3d& v : triangle) low = std::min(low, v.y), high = std::max(high, v.y);
   }
   return std::min({deepest, high - from, to - low});
@@ -151,7 +149,7 @@ struct Clash {
 std::optional<Clash> clashAt(const spheredecomp::MeshQuery& hull, const std::vector<TrackPart>& parts, double offset) {
   for (const double side : {1.0, -1.0})
     for (const TrackPart& part : parts)
-      if (const double depth = depthOf(hull, part, side * offset); depth > kFits)
+      if (const double depth = depthOf(hull, part, side * offset); depth > kTouching)
         return Clash{(side > 0 ? "left " : "right ") + part.name, depth};
   return {};
 }

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace grouser::vehicle {
 namespace {
@@ -15,13 +14,12 @@ namespace {
 using base::TriangleMesh;
 
 constexpr double kFits = 1e-3; // [m] difference of mesh and spec that is no fault
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double radiusAt(const Vec3d& p) { return std::sqrt(p.x * p.x + p.z * p.z); }
 
 /// The largest of `measure` over the vertices that `counts` admits; -infinity without any.
 template <class Counts, class Measure> double most(const TriangleMesh& mesh, Counts counts, Measure measure) {
-  double largest = -kInfinity;
+  double largest = -base::kInfinity;
   for (const Vec3d& v : mesh.vertices)
     if (counts(v)) largest = std::max(largest, measure(v));
   return largest;

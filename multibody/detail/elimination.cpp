@@ -3,6 +3,7 @@
 
 #include "multibody/detail/constraint.hpp"
 #include "multibody/detail/index.hpp"
+#include "multibody/detail/vector6.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +13,6 @@ namespace grouser::multibody::detail {
 namespace {
 
 /// What the world contributes to a solution.
-constexpr Vector6 kStill{};
 
 /// One number of a lane.
 double& in(Lanes& lanes, int lane) { return reinterpret_cast<double*>(&lanes)[lane]; }

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t kWidth = kLanes;
 
-constexpr Vector6 kStill{};
-
 /// Turn of a step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
 /// Newton's method within the iteration; below, the iteration itself converges. The second where it shall be exact, as
 /// in RATTLE.

@@ -25,7 +25,7 @@ constexpr double kNearTolerance = 1e2, kAcceptable = 1e3;
 /// Of an iteration, new gap over the one before. Newton's method with the matrix of the start takes a gap down by
 /// h |w|, some 1e-2 in a step that is worth taking: above a fifth something else than curvature is at work, and help
 /// costs less than going on. Round-off does not even halve it.
-constexpr double kSlowConvergence = 0.2, kStalled = 0.5;
+constexpr double kSlowIteration = 0.2, kStalled = 0.5;
 
 } // namespace
 
@@ -80,7 +80,7 @@ void RattleStep::iterate(const Part& part, const State& state, double h, Positio
   const bool atRoundOff =
       std::min(solve.best, solve.gap) <= kNearTolerance * solve.tolerance && solve.gap > kStalled * solve.before;
   solve.done = !solve.follow && (solve.gap <= solve.tolerance || atRoundOff);
-  solve.slow = solve.since > 1 && !(solve.gap <= kSlowConvergence * solve.before);
+  solve.slow = solve.since > 1 && !(solve.gap <= kSlowIteration * solve.before);
   solve.best = std::min(solve.best, solve.gap);
   solve.before = solve.gap;
 }

@@ -23,7 +23,7 @@ constexpr double kLeastInverseCompliance = 1e-3, kComplianceChange = 0.05;
 /// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
 /// Newton's method within the iteration, to round-off: what a tolerance would leave has the same sign in each step, and
 /// would turn the body by its share of the tolerance over the step's square. Below, two iterations leave less.
-constexpr double kFastSpin = 1e-7;
+constexpr double kFreeSpin = 1e-7;
 
 } // namespace
 
@@ -202,7 +202,7 @@ void RattleStep::applyCorrection(const Part& part, double h) {
     if (relinearised_[at(part.index)]) continue;
     // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
     const Mat3d& I = system_.inertia(node);
-    if (std::fabs(h) * norm(V.w) * inertiaSpread_[at(node)] > kFastSpin) {
+    if (std::fabs(h) * norm(V.w) * inertiaSpread_[at(node)] > kFreeSpin) {
       V.w = angularVelocityOf(I, I * V.w + gyro_[at(node)], V.w, h);
       gyro_[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
     }

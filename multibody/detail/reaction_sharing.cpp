@@ -31,7 +31,7 @@ namespace {
 /// epsilon over the largest diagonal entry of a joint.
 constexpr double kRegularisation = 1e-10;
 /// The iteration ends at round-off of b, where it no longer halves what is left, or here.
-constexpr double kRoundOff = 1e-15;
+constexpr double kSharingRoundOff = 1e-15;
 constexpr int kMostIterations = 40;
 
 /// Sets of constraints that lie on common loops.
@@ -217,7 +217,7 @@ void ReactionSharing::solveGroup(Group& group) {
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const double now = left.lpNorm<Eigen::Infinity>();
-    if (now <= kRoundOff * size || !(now < 0.5 * before)) break;
+    if (now <= kSharingRoundOff * size || !(now < 0.5 * before)) break;
     before = now;
     group.y += group.factor.solve(left);
     left = group.b;

@@ -6,6 +6,8 @@
 
 namespace grouser::multibody::detail {
 
+inline constexpr Vector6 kStill{}; ///< of what does not move
+
 /// A node's six numbers as (linear, angular) and back.
 inline base::Vec3d linear(const Vector6& x) { return {x[0], x[1], x[2]}; }
 inline base::Vec3d angular(const Vector6& x) { return {x[3], x[4], x[5]}; }

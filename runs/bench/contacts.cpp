@@ -27,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kSpheresSeed = 1;
 constexpr double kPairsPerSphere = 3; ///< of many spheres
 constexpr double kLinearFrom = 1e6;   ///< contacts above which the growth is fitted
 const std::vector<double> kOnCpu = {3e4, 1e5, 3e5, 1e6, 3e6, 1e7};
@@ -66,7 +66,7 @@ Point measure(std::int64_t spheres, const ContactsBench& bench, const base::Exec
   const base::Comm comm = bench.ranks ? bench.ranks->comm() : base::Comm();
   Point point;
   point.spheres = spheres;
-  const base::Array<base::Position> positions = ContactSpheres::make(exec, spheres, kSeed);
+  const base::Array<base::Position> positions = ContactSpheres::make(exec, spheres, kSpheresSeed);
   PairSearch searcher(exec, ContactSpheres::kDiameter);
   PairSearchOptions options;
   options.store = !bench.countOnly, options.atATime = bench.atATime;

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const Vec3d kGravity{0, 0, -9.81};
+const Vec3d kGravityVector{0, 0, -9.81};
 constexpr double kTensionRamp = 0.05, kWeightRamp = 0.1, kDriveRamp = 0.2; // [s]
 constexpr double kGoal = 20;                                               // [us] a step of the vehicle's graph
 constexpr double kLoose = 1e-8, kTight = 1e-13;                            // [m, rad] tolerances of the gaps
@@ -85,7 +85,7 @@ void timeParts(const multibody::Model& model, const multibody::State& state, con
   f.rest = quick - f.linearise.least() - few * f.iteration;
 }
 
-Json jsonOf(const BatchTimes& times) {
+Json summaryOf(const BatchTimes& times) {
   return {{"median", times.median()}, {"min", times.least()}, {"max", times.most()}, {"steps_a_batch", times.steps}};
 }
 
@@ -110,9 +110,9 @@ Json report(const VehicleGraphFigures& f) {
           {"iterations_mean", f.iterations},
           {"iterations_most", f.mostIterations},
           {"largest_gap", f.positionError},
-          {"microseconds_a_step", jsonOf(f.step)},
-          {"microseconds_linearise_and_factor", jsonOf(f.linearise)},
-          {"microseconds_a_solution", jsonOf(f.solve)},
+          {"microseconds_a_step", summaryOf(f.step)},
+          {"microseconds_linearise_and_factor", summaryOf(f.linearise)},
+          {"microseconds_a_solution", summaryOf(f.solve)},
           {"microseconds_an_iteration", f.iteration},
           {"microseconds_rest", f.rest}};
 }
@@ -134,7 +134,7 @@ VehicleGraphFigures benchVehicleGraph(const MultibodyBench& bench) {
 
   // The guide is no part of what is timed.
   const auto step = [&] {
-    vehicle::applyControls(assembly, driver.at(state.time), kGravity, loads);
+    vehicle::applyControls(assembly, driver.at(state.time), kGravityVector, loads);
     guide.apply(state, loads);
     return microsecondsOf([&] { solver.step(state, loads, bench.timeStep); });
   };
@@ -202,7 +202,7 @@ void benchMultibodyCommand(const MultibodyBench& bench) {
                               {"bodies", f.bodies},
                               {"multiplications", f.multiplications},
                               {"iterations_mean", f.iterations},
-                              {"microseconds_a_step", jsonOf(f.step)}});
+                              {"microseconds_a_step", summaryOf(f.step)}});
     if (ratio > 0) json["growth"].back()["times_the_one_before"] = ratio;
     before = f.step.least();
   }

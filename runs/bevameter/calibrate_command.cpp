@@ -24,7 +24,7 @@ using support::Estimate;
 
 constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin with
 constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
-constexpr double kSame = 1e-9;          // of a stiffness
+constexpr double kSameStiffness = 1e-9; // of a stiffness
 constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
 constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
 constexpr double kBeds = 0.75;          // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
@@ -163,7 +163,7 @@ private:
     }
     const double found = base::exp(nearestTrial(trials, wanted).x);
     if (trials.size() > 1) setNumber(soil_, springKey(), found);
-    return trials.size() > 1 && std::fabs(found / start - 1) > kSame;
+    return trials.size() > 1 && std::fabs(found / start - 1) > kSameStiffness;
   }
 
   /// Mean pressure of a plate where it is to carry the track's [Pa]: a curve that ends before carries what it did then.

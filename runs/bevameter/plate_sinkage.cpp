@@ -24,7 +24,6 @@ using studies::BedGrains;
 using studies::Soil;
 using studies::Table;
 
-constexpr double kGravity = 9.81;
 constexpr double kExpectedAngle = 24 * base::kPi / 180, kExpectedSolid = 0.59; // for the speed only
 constexpr double kSlow = 0.1;                      // [m/s] for the step of Hertz' contacts, unless a plate is faster
 constexpr int kRows = 1200;                        // of the loading, if it goes to the greatest sinkage
@@ -42,7 +41,7 @@ public:
         double bottom, std::int64_t seed, const std::filesystem::path& folder, const base::Exec& exec)
       : exec_(exec), area_(test.strip.area(soil)), surface_(surface), bottom_(bottom), speed_(test.speed(soil)) {
     const std::string text =
-        soil.scene(1, seed, soil.grains.friction, {0, 0, -kGravity},
+        soil.scene(1, seed, soil.grains.friction, {0, 0, -studies::kGravity},
                    preparation.size.run() +
                        fmt::format("impact_speed = {:.17g}\n", std::max({kSlow, 2 * speed_, soil.impactSpeed}))) +
         studies::floorSections(soil, preparation, seed) + studies::plateSection(soil, test.strip, bottom, speed_) +
@@ -143,8 +142,9 @@ double slopeOf(const Table& run, double phase, double most) {
 
 double PlateSinkage::speed(const Soil& soil) const {
   const double b = strip.breadth * soil.grains.diameter();
-  const double bears = studies::bearingPressure(
-      strip.shape, kExpectedAngle, kExpectedSolid * soil.grains.density * kGravity, b, 0.5 * strip.sinkage * b);
+  const double bears =
+      studies::bearingPressure(strip.shape, kExpectedAngle, kExpectedSolid * soil.grains.density * studies::kGravity, b,
+                               0.5 * strip.sinkage * b);
   return strip.inertialNumber * strip.breadth * std::sqrt(std::min(pace, bears) / soil.grains.density);
 }
 

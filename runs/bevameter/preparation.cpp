@@ -13,19 +13,19 @@ namespace grouser::bevameter {
 
 namespace {
 
-constexpr double kFirst = 0.2; // friction that is tried first
-constexpr std::size_t kMostTrials = 14;
+constexpr double kFirstFriction = 0.2; // friction that is tried first
+constexpr std::size_t kMostBeds = 14;
 constexpr double kWider = 4; // by which the search goes on to where it has no bound yet
 constexpr double kTolerance = 0.002, kCoarseTolerance = 0.004;
-constexpr double kWidth = 12, kCoarseWidth = 8; // [d] of the small bed
+constexpr double kBedWidth = 12, kCoarseBedWidth = 8; // [d] of the small bed
 constexpr double kLifts = 2, kCoarseLifts = 1;
-constexpr double kMiddle = 0.1; // a trial stays so far off the ends of its interval
+constexpr double kInside = 0.1; // a trial stays so far off the ends of its interval
 
 double porosityWith(const TestPlan& plan, double friction, const std::filesystem::path& folder, const base::Exec& exec,
                     const std::function<void(const std::string&)>& tell) {
   studies::Soil soil = plan.grains;
   soil.preparationFriction = friction;
-  const double d = soil.grains.diameter(), width = (plan.options.coarse ? kCoarseWidth : kWidth) * d;
+  const double d = soil.grains.diameter(), width = (plan.options.coarse ? kCoarseBedWidth : kBedWidth) * d;
   studies::BedPreparation bed;
   bed.size = {width, width, (plan.options.coarse ? kCoarseLifts : kLifts) * plan.small.lift * d};
   bed.lift = plan.small.lift * d;
@@ -37,8 +37,8 @@ double porosityWith(const TestPlan& plan, double friction, const std::filesystem
 } // namespace
 
 double nextFriction(const std::vector<std::vector<double>>& trials, double porosity, double tolerance) {
-  if (trials.empty()) return kFirst;
-  if (trials.size() >= kMostTrials) return 0;
+  if (trials.empty()) return kFirstFriction;
+  if (trials.size() >= kMostBeds) return 0;
   // The densest trial that is too loose, and the loosest that is too dense: porosity rises with friction.
   const std::vector<double>*loose = nullptr, *dense = nullptr;
   for (const std::vector<double>& t : trials) {
@@ -46,12 +46,12 @@ double nextFriction(const std::vector<std::vector<double>>& trials, double poros
     const std::vector<double>*& side = t[1] > porosity ? loose : dense;
     if (!side || (t[1] > porosity ? t[0] < (*side)[0] : t[0] > (*side)[0])) side = &t;
   }
-  if (!loose) return (*dense)[0] >= kMostFriction ? 0 : std::min(kMostFriction, kWider * (*dense)[0]);
-  if (!dense) return (*loose)[0] <= kLeastFriction ? 0 : std::max(kLeastFriction, (*loose)[0] / kWider);
+  if (!loose) return (*dense)[0] >= kMostSettlingFriction ? 0 : std::min(kMostSettlingFriction, kWider * (*dense)[0]);
+  if (!dense) return (*loose)[0] <= kLeastSettlingFriction ? 0 : std::max(kLeastSettlingFriction, (*loose)[0] / kWider);
   const double low = base::log((*dense)[0]), high = base::log((*loose)[0]);
   if (high - low < 0.01) return 0; // a step of the packing lies in between
   const double share = (porosity - (*dense)[1]) / ((*loose)[1] - (*dense)[1]);
-  return base::exp(low + (high - low) * std::clamp(share, kMiddle, 1 - kMiddle));
+  return base::exp(low + (high - low) * std::clamp(share, kInside, 1 - kInside));
 }
 
 const std::vector<double>& nearestTrial(const std::vector<std::vector<double>>& trials, double porosity) {

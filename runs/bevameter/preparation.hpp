@@ -12,9 +12,10 @@ namespace grouser::bevameter {
 inline const std::vector<std::string> kPreparationColumns = {"preparation friction [-]", "porosity [-]"};
 
 /// Next friction to try for a porosity, between trials so far (as rows of kPreparationColumns); 0 where one of them is
-/// within `tolerance`, or the porosity is out of reach. Frictions lie in [kLeastFriction, kMostFriction].
+/// within `tolerance`, or the porosity is out of reach. Frictions lie in [kLeastSettlingFriction,
+/// kMostSettlingFriction].
 double nextFriction(const std::vector<std::vector<double>>& trials, double porosity, double tolerance);
-inline constexpr double kLeastFriction = 0.005, kMostFriction = 2;
+inline constexpr double kLeastSettlingFriction = 0.005, kMostSettlingFriction = 2;
 
 /// The row of the trials whose porosity is nearest.
 const std::vector<double>& nearestTrial(const std::vector<std::vector<double>>& trials, double porosity);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/bevameter/pressure_sinkage.hpp"
 
+#include "base/math.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace grouser::bevameter {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Weighted sums over the points of a test: x = ln z, y = ln p, weight p^2.
 struct Sums {
@@ -69,7 +68,7 @@ double goodnessOf(const PlateTests& plate, const std::vector<int>& times, double
         squares += timesOf(times, c) * difference * difference, sum += timesOf(times, c) * p;
         points += timesOf(times, c);
       }
-  return points > 2 ? 1 - std::sqrt(squares / (points - 2)) / (sum / points) : kNone;
+  return points > 2 ? 1 - std::sqrt(squares / (points - 2)) / (sum / points) : base::kNaN;
 }
 
 // Of the greatest pressure: where straight lines begin, how far they go, and from one to the next.
@@ -97,7 +96,10 @@ std::size_t firstWith(const SinkageCurve& curve, double pressure) {
   return i;
 }
 
-BekkerFit nothing() { return {kNone, kNone, kNone, {kNone, kNone}, {kNone, kNone}, {kNone, kNone}}; }
+BekkerFit nothing() {
+  return {
+      base::kNaN, base::kNaN, base::kNaN, {base::kNaN, base::kNaN}, {base::kNaN, base::kNaN}, {base::kNaN, base::kNaN}};
+}
 
 } // namespace
 
@@ -125,7 +127,7 @@ BeddedCurve correctedForBedding(const SinkageCurve& measured, double room) {
 }
 
 double BekkerFit::sinkageAt(double pressure, double breadth) const {
-  return kAt(breadth) > 0 ? std::pow(pressure / kAt(breadth), 1 / n) : kNone;
+  return kAt(breadth) > 0 ? std::pow(pressure / kAt(breadth), 1 / n) : base::kNaN;
 }
 
 BekkerFit fitBekker(const std::array<PlateTests, 2>& plates, const std::vector<std::vector<int>>& counts,

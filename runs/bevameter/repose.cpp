@@ -9,14 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 namespace grouser::bevameter {
 
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kLift = 12;    // [d] as the plates' beds
 constexpr double kImpact = 0.5; // [m/s] of grains that flow, for the step of Hertz' contacts
 
@@ -26,7 +24,7 @@ public:
   Slope(const studies::Soil& soil, const studies::BedPreparation& bed, std::int64_t seed,
         const std::filesystem::path& folder, const base::Exec& exec)
       : exec_(exec) {
-    const std::string text = soil.scene(1, seed, soil.grains.friction, {0, 0, -kGravity},
+    const std::string text = soil.scene(1, seed, soil.grains.friction, {0, 0, -studies::kGravity},
                                         bed.size.run() + fmt::format("impact_speed = {}\n", kImpact)) +
                              studies::floorSections(soil, bed, seed) +
                              "[[grains]]\nform = \"file\"\nfile = \"bed.txt\"\nmaterial = \"grain\"\n";
@@ -39,7 +37,7 @@ public:
   /// Holds a tilt [deg] for `time` [s]; returns the root mean square speed at its end [m/s].
   double hold(double tilt, double time) {
     const double angle = tilt * base::kPi / 180;
-    const base::Vec3d gravity{kGravity * base::sin(angle), 0, -kGravity * base::cos(angle)};
+    const base::Vec3d gravity{studies::kGravity * base::sin(angle), 0, -studies::kGravity * base::cos(angle)};
     simulation::SimulationState state = simulation_->save();
     setup_.gravity = gravity;
     setup_.ground.grains->model.gravity = gravity;
@@ -83,7 +81,7 @@ studies::Table tiltBed(const studies::Soil& soil, const ReposeTest& test, std::i
   const double off = studies::PlateTest::kOffEnds * d;
   const double porosity = 1 - studies::solidFraction(prepared.grains, bed.size, off, surface - off);
   Slope slope(soil, bed, seed, folder, exec);
-  const double time = test.stage * std::sqrt(d / kGravity), unit = std::sqrt(kGravity * d);
+  const double time = test.stage * std::sqrt(d / studies::kGravity), unit = std::sqrt(studies::kGravity * d);
   studies::Table table;
   table.names = kReposeColumns;
   bool flowing = false;
@@ -98,8 +96,7 @@ studies::Table tiltBed(const studies::Soil& soil, const ReposeTest& test, std::i
 }
 
 ReposeAngles reposeAngles(const studies::Table& run, const ReposeTest& test) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  ReposeAngles angles{kNone, kNone};
+  ReposeAngles angles{base::kNaN, base::kNaN};
   for (const std::vector<double>& row : run.rows) {
     if (std::isnan(angles.starts) && row[1] > test.flows) angles.starts = row[0];
     if (!std::isnan(angles.starts) && row[1] < test.rests) angles.repose = row[0];

@@ -11,7 +11,6 @@ namespace grouser::bevameter {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kTrials = 60;                      // of the search for K: its bracket shrinks to 3e-13
 constexpr double kNarrowest = 1e-4, kWidest = 3; // of the longest way: where K is looked for
 
@@ -89,7 +88,7 @@ CurveStrength strengthOf(const ShearCurve& curve) {
 }
 
 ShearFit fitShear(const std::vector<std::vector<ShearCurve>>& tests, const std::vector<int>& counts) {
-  ShearFit fit{kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+  ShearFit fit{base::kNaN, base::kNaN, base::kNaN, base::kNaN, base::kNaN, base::kNaN, base::kNaN};
   Line residual, peak;
   std::vector<Normalised> curves;
   double humps = 0, all = 0;

@@ -11,15 +11,9 @@ namespace grouser::events {
 
 namespace {
 
-constexpr double kGravity = 9.81, kDegrees = 180 / base::kPi;
+constexpr double kDegrees = 180 / base::kPi;
 constexpr const char* kPullColumn = "hitch.pull [N]";
 constexpr double kDriverHertz = 30; // of the low-pass before peaks of acceleration are read
-
-double greatest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double v : values) most = std::max(most, std::fabs(v));
-  return most;
-}
 
 /// Mean of a column over the second half of the time behind `from` [s]; NaN where there is none.
 double lateMean(const sweeps::RunSeries& series, const std::string& column, double from) {

@@ -15,7 +15,6 @@ namespace grouser::events {
 
 namespace {
 
-constexpr double kGravity = 9.81;        // m/s2
 constexpr double kWay = 5;               // m, that is to be driven at half the commanded speed or more
 constexpr double kEnd = 0.3;             // m, between the vehicle and the end of the terrain
 constexpr double kRunUp = 3;             // m, before those on a slope: near the limit it takes long to come up to speed

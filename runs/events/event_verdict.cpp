@@ -13,17 +13,17 @@
 
 namespace grouser::events {
 
+double greatest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::fabs(v));
+  return most;
+}
+
 namespace {
 
 const std::vector<double>& columnOf(const sweeps::RunSeries& series, const std::string& name) {
   if (const std::vector<double>* values = series.of(name)) return *values;
   throw base::InputError(fmt::format("timeseries.csv has no column {}: it is of another version; use --force", name));
-}
-
-double greatest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double v : values) most = std::max(most, std::fabs(v));
-  return most;
 }
 
 /// Mean rate over the last `stretch` before `end` is reached, and when that is.

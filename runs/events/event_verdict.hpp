@@ -51,4 +51,7 @@ FailureVerdict judgeFailure(const std::string& message);
 /// Time at which a growing quantity first reaches `level`, straight between rows; NaN where it does not [s].
 double timeAt(const std::vector<double>& time, const std::vector<double>& value, double level);
 
+/// The greatest magnitude of some values; 0 of none.
+double greatest(const std::vector<double>& values);
+
 } // namespace grouser::events

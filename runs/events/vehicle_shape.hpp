@@ -8,6 +8,8 @@
 /// What a vehicle can pass by its shape alone: for the sizes of obstacles, and to compare with what runs have shown.
 namespace grouser::events {
 
+inline constexpr double kGravity = 9.81; ///< of the events' scenes [m/s2]
+
 /// A point in the side view: x forward from the sprockets' axle, z up from level ground [m].
 struct SidePoint {
   double x = 0, z = 0;

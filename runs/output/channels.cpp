@@ -9,9 +9,7 @@
 
 namespace grouser::output {
 
-namespace {
-const std::vector<std::string> kAxes = {"x", "y", "z"};
-} // namespace
+namespace {} // namespace
 
 std::vector<Channel> terrainChannels() {
   return {

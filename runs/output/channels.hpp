@@ -9,6 +9,8 @@
 /// The quantities of a time series: one list for who writes results.h5 and who reads it.
 namespace grouser::output {
 
+inline const std::vector<std::string> kAxes = {"x", "y", "z"}; ///< columns of a vector
+
 /// One number a shoe, in the order of the wrap; `side` is "left" or "right".
 inline std::string shoeSinkage(const std::string& side) { return "vehicle/" + side + "/sinkage"; }
 

@@ -15,8 +15,6 @@ using multibody::JointType;
 
 namespace {
 
-const std::vector<std::string> kAxes = {"x", "y", "z"};
-
 bool isKept(const std::vector<std::string>& record, const std::string& name) {
   return record.empty() || std::find(record.begin(), record.end(), name) != record.end();
 }

@@ -18,7 +18,7 @@ using detail::View;
 
 namespace {
 
-constexpr int kSamples = 2; ///< a pixel, each way
+constexpr int kSubpixels = 2; ///< a pixel, each way
 constexpr int kShadowPixels = 2048;
 constexpr int kOcclusionTaps = 16;
 constexpr float kNear = 0.002f; ///< nearest depth seen, of the distance to what the camera looks at
@@ -55,8 +55,8 @@ Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& fac
                                {0, 0, 1});
   v.perspective = false, v.width = v.height = kShadowPixels;
   Vec3f low{1e30f, 1e30f, 0}, high = -low;
-  for (int row = 0; row < seen.view.height; row += kSamples)
-    for (int column = 0; column < seen.view.width; column += kSamples) {
+  for (int row = 0; row < seen.view.height; row += kSubpixels)
+    for (int column = 0; column < seen.view.width; column += kSubpixels) {
       const std::size_t i = seen.index(column, row);
       if (seen.object[i] < 0) continue;
       const Vec3f p = v.toCamera(seen.view.toWorld(seen.view.at(column, row, seen.depth[i])));
@@ -213,7 +213,7 @@ Image render(const RenderScene& scene, const Camera& camera, int width, int heig
   View view = detail::viewTowards(camera.eye, camera.target, camera.up);
   view.halfHeight = static_cast<float>(base::tan(0.5 * camera.fieldOfView * base::kPi / 180));
   view.near = kNear * static_cast<float>(norm(camera.target - camera.eye));
-  view.width = kSamples * width, view.height = kSamples * height;
+  view.width = kSubpixels * width, view.height = kSubpixels * height;
   Surfaces seen(view);
   detail::rasterise(scene.spheres, facets, seen);
   const Surfaces sun = sunView(scene, facets, ball, seen);
@@ -233,9 +233,9 @@ Image render(const RenderScene& scene, const Camera& camera, int width, int heig
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column) {
       Colour sum;
-      for (int k = 0; k < kSamples * kSamples; ++k)
-        sum += sample(kSamples * column + k % kSamples, kSamples * row + k / kSamples);
-      const std::array<std::uint8_t, 3> rgb = toSrgb(sum * (1.0f / (kSamples * kSamples)));
+      for (int k = 0; k < kSubpixels * kSubpixels; ++k)
+        sum += sample(kSubpixels * column + k % kSubpixels, kSubpixels * row + k / kSubpixels);
+      const std::array<std::uint8_t, 3> rgb = toSrgb(sum * (1.0f / (kSubpixels * kSubpixels)));
       std::copy(rgb.begin(), rgb.end(), image.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(row) * width + column));
     }
   return image;

@@ -29,7 +29,7 @@ Motion motionOf(const multibody::Model& model, int body) {
   return {b.pose, b.v_WB, b.w_WB};
 }
 
-std::string text(const Vec3d& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
+std::string shortText(const Vec3d& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
 
 /// The part of `v` that is perpendicular to the unit vector `z`.
 Vec3d beside(const Vec3d& v, const Vec3d& z) { return v - dot(v, z) * z; }
@@ -82,12 +82,12 @@ void checkStartVelocity(const multibody::Model& model, int index) {
     throw support::SectionFault(
         "", fmt::format("(\"{}\") holds {} together at {} m, where they start with velocities {} and {} "
                         "m/s; change velocity or spin of one so that {} m/s between them vanishes",
-                        joint.name, bodies(), text(p), text(A.at(p)), text(B.at(p)), text(slip)));
+                        joint.name, bodies(), shortText(p), shortText(A.at(p)), shortText(B.at(p)), shortText(slip)));
   if (norm(turn) > kStartRate * spin)
     throw support::SectionFault(
         "", fmt::format("(\"{}\") holds {}, which start with spins {} and {} rad/s; change one so that {} "
                         "rad/s between them vanishes",
-                        joint.name, bodies(), text(A.w), text(B.w), text(turn)));
+                        joint.name, bodies(), shortText(A.w), shortText(B.w), shortText(turn)));
 }
 
 } // namespace grouser::setup

@@ -15,9 +15,9 @@ namespace grouser::setup {
 
 namespace {
 
-constexpr std::uint64_t kPurpose = base::purpose("source.place");
-constexpr int kTries = 2000;    // of finding a free place for one grain
-constexpr double kRoom = 2.002; // [radii] between centres that enter together
+constexpr std::uint64_t kSourcePurpose = base::purpose("source.place");
+constexpr int kSourceTries = 2000; // of finding a free place for one grain
+constexpr double kRoom = 2.002;    // [radii] between centres that enter together
 
 } // namespace
 
@@ -60,14 +60,14 @@ std::vector<terrain::GrainSpec> Sources::batch(const SourceSetup& s, std::int64_
   for (std::int64_t k = 0; k < count; ++k) {
     const auto id = static_cast<std::uint64_t>(number * s.number + k);
     for (int attempt = 0;; ++attempt) {
-      if (attempt == kTries)
+      if (attempt == kSourceTries)
         throw base::InputError(
             fmt::format("{}: {} grains of radius {:g} m do not find room beside each other in its box; enlarge it "
                         "(low, high) or lower number",
                         s.place, s.number, s.radius));
       base::Vec3d place;
       for (int a = 0; a < 3; ++a) {
-        const double u = base::uniform(s.seed, kPurpose, id,
+        const double u = base::uniform(s.seed, kSourcePurpose, id,
                                        3 * static_cast<std::uint64_t>(attempt) + static_cast<std::uint64_t>(a));
         place[a] = s.low[a] + u * (s.high[a] - s.low[a]);
       }
@@ -96,7 +96,7 @@ Sources sourcesOf(const scene::Scene& scene, double timeStep) {
     source.first = std::llround(s.start / timeStep);
     const std::int64_t batches = (s.total + s.number - 1) / s.number;
     source.last = source.first + (batches - 1) * source.every;
-    source.seed = base::hash(static_cast<std::uint64_t>(scene.run.seed), kPurpose, static_cast<std::uint64_t>(k));
+    source.seed = base::hash(static_cast<std::uint64_t>(scene.run.seed), kSourcePurpose, static_cast<std::uint64_t>(k));
     sources.push_back(std::move(source));
   }
   return {std::move(sources), periodicBoundaries(scene)};

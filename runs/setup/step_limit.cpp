@@ -29,7 +29,7 @@ using base::Vec3d;
 namespace {
 
 /// The longest step that run.time_step takes [s].
-constexpr double kLongestStep = 0.1;
+constexpr double kLongestOfAll = 0.1;
 
 /// Keeps the smaller limit: of the mode x'' + damping x' + stiffness x = 0 [1/s, 1/s2].
 void consider(StepLimit& limit, double stiffness, double damping, const std::string& what,
@@ -266,7 +266,7 @@ double chooseTimeStep(const scene::Scene& scene) {
     automatic = std::min(automatic, coarser * kRayleighShare * rayleighTimeOf(scene.material(material), radius));
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
   // What may be given is what is chosen: soft contacts ask for no more.
-  automatic = std::min({automatic, kLongestStep, scene.run.duration});
+  automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
   checkTimeScales(scene, *scene.run.timeStep);
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),

@@ -22,7 +22,7 @@ constexpr double kPressed = 0.01;
 
 constexpr double kNone = -1e300;
 
-std::string at(const Vec3d& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
+std::string pointOf(const Vec3d& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
 
 /// A grain of this rank's rows.
 struct Row {
@@ -109,11 +109,11 @@ Deepest deepestIn(const setup::SurfaceSetup& surface, const std::vector<Row>& ro
 void requireRoomInBed(const setup::SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
   const Deepest d = deepestIn(surface, rows, comm);
   if (!(d.share > kPressed)) return;
-  throw base::InputError(
-      fmt::format("{}: {} would stand {:.3g} m deep in grain {} of the settled bed, of radius {:g} m at {}, more than "
-                  "{:g} of that; give above_bed [m], which puts it on the settled bed, move it, or set placed = "
-                  "\"before\", with which the bed is laid around it",
-                  surface.place, surface.name, d.depth, d.grain.id, d.grain.radius, at(d.grain.position), kPressed));
+  throw base::InputError(fmt::format(
+      "{}: {} would stand {:.3g} m deep in grain {} of the settled bed, of radius {:g} m at {}, more than "
+      "{:g} of that; give above_bed [m], which puts it on the settled bed, move it, or set placed = "
+      "\"before\", with which the bed is laid around it",
+      surface.place, surface.name, d.depth, d.grain.id, d.grain.radius, pointOf(d.grain.position), kPressed));
 }
 
 /// What Grains::add() does not see: meshes, and walls where the height was not known before.
@@ -123,7 +123,7 @@ void requireRoomFor(const setup::PlacedGrains& section, const setup::GroundSetup
     if (depth > all.model.maxEntryOverlap * g.radius)
       throw base::InputError(fmt::format("{}: a grain of radius {:g} m {} would stand {:.3g} m deep in {}, more than "
                                          "{:g} of its radius (run.max_overlap); move it",
-                                         section.place, g.radius, at(g.position), depth, what,
+                                         section.place, g.radius, pointOf(g.position), depth, what,
                                          all.model.maxEntryOverlap));
   };
   for (const terrain::GrainSpec& g : section.grains) {
@@ -286,8 +286,8 @@ void putGrains(Ground& ground, const setup::GroundSetup& scene) {
       throw base::InputError(fmt::format(
           "{}: its grain {} would stand {:.3g} m deep in {}, more than {:g} of the radius (run.max_overlap); give "
           "above_bed [m], which puts it on the settled bed, or move it",
-          p.place, at(p.grains[o.entering].position), o.overlap,
-          o.grain ? fmt::format("grain {} {}", *o.grain, at(o.position)) : namesOfShapes(scene)[o.surface],
+          p.place, pointOf(p.grains[o.entering].position), o.overlap,
+          o.grain ? fmt::format("grain {} {}", *o.grain, pointOf(o.position)) : namesOfShapes(scene)[o.surface],
           grains.model().maxEntryOverlap));
     });
     grains.add(p.grains);

@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto kKind = support::KeptFiles::Kind::spheres;
+constexpr auto kSpheres = support::KeptFiles::Kind::spheres;
 constexpr const char* kSetFile = "kept sphere set";
 constexpr int kSetFileVersion = 1;
-constexpr auto kLook = std::chrono::milliseconds(20); // between two looks at another program's lock
-constexpr double kPatience = 120;                     // [s], after which one cuts beside the other
+constexpr auto kSpheresLook = std::chrono::milliseconds(20); // between two looks at another program's lock
+constexpr double kPatience = 120;                            // [s], after which one cuts beside the other
 
 /// What a set has beside its spheres and its name.
 struct Figures {
@@ -103,14 +103,14 @@ std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
 base::SphereSet SphereCache::cut(const PartCut& part) {
   support::Stopwatch clock;
   const std::string origin = spheredecomp::cutOrigin(*part.mesh, part.options);
-  const fs::path file = files_.fileOf(kKind, origin);
+  const fs::path file = files_.fileOf(kSpheres, origin);
   std::optional<base::SphereSet> set = find(file, origin);
   support::FileLock lock;
   const bool usable = set || files_.writable();
   if (!set && usable) {
     // Of several programs that want one set the first cuts it.
     while (!lock.take(support::KeptFiles::lockOf(file)) && clock.seconds() < kPatience)
-      std::this_thread::sleep_for(kLook);
+      std::this_thread::sleep_for(kSpheresLook);
     set = find(file, origin);
   }
   if (set) {

@@ -10,6 +10,8 @@
 /// What the studies of grains have in common.
 namespace grouser::studies {
 
+inline constexpr double kGravity = 9.81; ///< of all studies of grains [m/s2]
+
 /// Where a study writes, and how much it does.
 struct StudyPlace {
   std::string folder; ///< empty: out/study_NAME

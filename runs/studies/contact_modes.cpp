@@ -15,7 +15,7 @@ using base::Vec3d;
 namespace {
 
 constexpr int kIterations = 4000;
-constexpr double kInertia = 0.4; ///< 2/5: moment of a sphere over m R^2
+constexpr double kSphereInertia = 0.4; ///< 2/5: moment of a sphere over m R^2
 
 /// Displacement, and turn times radius.
 struct Motion {
@@ -54,8 +54,8 @@ double highestFrequency(const ContactNetwork& network) {
     double elastic = 0, inertia = 0, size = 0;
     for (std::size_t i = 0; i < u.size(); ++i) {
       elastic += dot(u[i].move, f[i].move) + dot(u[i].turn, f[i].turn);
-      inertia += dot(u[i].move, u[i].move) + kInertia * dot(u[i].turn, u[i].turn);
-      u[i] = {f[i].move, f[i].turn * (1 / kInertia)};
+      inertia += dot(u[i].move, u[i].move) + kSphereInertia * dot(u[i].turn, u[i].turn);
+      u[i] = {f[i].move, f[i].turn * (1 / kSphereInertia)};
       size = std::max({size, norm(u[i].move), norm(u[i].turn)});
     }
     if (size == 0) return 0;

@@ -35,7 +35,7 @@ StudyBox bedOf(const DriftStudy& study) {
   return box;
 }
 
-void advance(Grains& grains, std::int64_t steps) {
+void advanceBy(Grains& grains, std::int64_t steps) {
   for (std::int64_t i = 0; i < steps; ++i) {
     grains.refreshNeighbours();
     grains.step();
@@ -85,7 +85,7 @@ Drift runPair(const std::string& scene, const std::string& pair, const StudyBox&
   std::vector<double> time, logRms;
   bool small = true;
   for (std::int64_t k = 0; k < samples; ++k) {
-    advance(a, kSampleEvery), advance(b, kSampleEvery);
+    advanceBy(a, kSampleEvery), advanceBy(b, kSampleEvery);
     const DriftSample s = compare(a, b);
     drift.samples.push_back(s);
     small = small && s.rms < high;
@@ -152,7 +152,7 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
       progress((run + 0.5 * p) / study.runs, "dropped bed");
       Grains grains = fill(box, exec);
       for (std::size_t k = 0; k < kMacroTimes; ++k) {
-        advance(grains, each);
+        advanceBy(grains, each);
         found[p][k].push_back(macroOf(grains));
         stopStudyIfAsked();
       }

@@ -19,11 +19,11 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kRadius = 0.01, kStiffness = 1e5; // [m], [N/m]
-constexpr int kLayers = 6, kTile = 12;             // grains on a side of the tile
-constexpr double kSpacing = 2.1;                   // [radii]
-constexpr std::int64_t kCompared = 300;            // steps, after which states are compared
-constexpr std::int64_t kOutputEvery = 100;         // steps
+constexpr double kFeatureRadius = 0.01, kFeatureStiffness = 1e5; // [m], [N/m]
+constexpr int kLayers = 6, kTile = 12;                           // grains on a side of the tile
+constexpr double kFeatureSpacing = 2.1;                          // [radii]
+constexpr std::int64_t kCompared = 300;                          // steps, after which states are compared
+constexpr std::int64_t kOutputEvery = 100;                       // steps
 
 /// Values of `section` among lines "section: key = value".
 std::string keysOf(const std::string& keys, const std::string& section) {
@@ -93,19 +93,19 @@ double bytesOf(const terrain::Grains& grains) {
 } // namespace
 
 std::string featureScene(int grains, const std::string& keys) {
-  const double cell = kSpacing * kRadius;
+  const double cell = kFeatureSpacing * kFeatureRadius;
   const int side = std::max(kTile, static_cast<int>(std::lround(std::sqrt(grains / double(kLayers)) / kTile)) * kTile);
   std::string material = "restitution = 0.3\n" + keysOf(keys, "material"), terrain = keysOf(keys, "terrain");
   if (material.find("\nfriction") == std::string::npos) material += "friction = 0.5\n";
-  if (material.find("young") == std::string::npos) material += fmt::format("stiffness = {:g}\n", kStiffness);
+  if (material.find("young") == std::string::npos) material += fmt::format("stiffness = {:g}\n", kFeatureStiffness);
   if (terrain.find("arrangement") == std::string::npos)
-    terrain += fmt::format("arrangement = \"lattice\"\nlayers = {}\nspacing = {:g}\n", kLayers, kSpacing);
+    terrain += fmt::format("arrangement = \"lattice\"\nlayers = {}\nspacing = {:g}\n", kLayers, kFeatureSpacing);
   return fmt::format("version = 1\n[run]\nduration = 10\nperiodic = [true, true]\n{}[material.soil]\n{}[terrain]\n"
                      "heightmap = \"heightmaps/flat.png\"\nsize = [{:.17g}, {:.17g}]\nheight_range = [0, 0]\n"
                      "material = \"soil\"\ngrain_radius = {:g}\ntile = [{:.17g}, {:.17g}]\nsettle_time_limit = 20\n"
                      "settle_kinetic_energy = 1e-3\ncache = false\n{}",
-                     keysOf(keys, "run"), material, side * cell, side * cell, kRadius, kTile * cell, kTile * cell,
-                     terrain);
+                     keysOf(keys, "run"), material, side * cell, side * cell, kFeatureRadius, kTile * cell,
+                     kTile * cell, terrain);
 }
 
 const std::vector<Feature>& features() {
@@ -175,7 +175,7 @@ Table measureOutput(const FeaturesCommand& c, const base::Exec& exec, const std:
     frame.step = grains.steps(), frame.time = static_cast<double>(grains.steps());
     for (const base::Vec3d& p : at.position)
       frame.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    frame.radii.assign(at.position.size(), static_cast<float>(kRadius));
+    frame.radii.assign(at.position.size(), static_cast<float>(kFeatureRadius));
     frame.velocities = at.velocity, frame.ids = at.id;
     frame.contactForces = at.contactForce, frame.withContactForces = true;
     frames.add(frame);

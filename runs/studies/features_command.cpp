@@ -24,14 +24,14 @@ namespace {
 
 constexpr const char* kVehicle = "vehicle";
 constexpr const char* kOutput = "output";
-constexpr const char* kRanks = "ranks";
+constexpr const char* kRanksName = "ranks";
 constexpr double kReady = 0.05; // of the vehicle's run, with its weight on and its drive begun [s]
 
 std::vector<std::string> allNames() {
   std::vector<std::string> names;
   for (const Feature& f : features())
     if (!f.neutral) names.push_back(f.name);
-  names.insert(names.end(), {kVehicle, kOutput, kRanks});
+  names.insert(names.end(), {kVehicle, kOutput, kRanksName});
   for (const Feature& f : features())
     if (f.neutral) names.push_back(f.name);
   return names;
@@ -40,7 +40,7 @@ std::vector<std::string> allNames() {
 std::string whatOf(const std::string& name) {
   if (name == kVehicle) return "[vehicle] that drives; times and bytes of the whole, not of a grain";
   if (name == kOutput) return "a row and a frame every 100 steps";
-  if (name == kRanks) return "two ranks of a thread each, one rank of two threads without";
+  if (name == kRanksName) return "two ranks of a thread each, one rank of two threads without";
   return std::find_if(features().begin(), features().end(), [&](const Feature& f) { return f.name == name; })->what;
 }
 
@@ -64,7 +64,7 @@ Table measured(const FeaturesCommand& c, const std::string& name, const base::Ex
                const std::filesystem::path& folder) {
   if (name == kVehicle) return measureVehicle(c, exec);
   if (name == kOutput) return measureOutput(c, exec, folder);
-  if (name == kRanks) return measureRanks(c, folder);
+  if (name == kRanksName) return measureRanks(c, folder);
   for (const Feature& f : features())
     if (f.name == name) return measureFeature(c, f, exec);
   throw std::logic_error(name + " is no feature");

@@ -20,22 +20,22 @@ using terrain::Grains;
 
 namespace {
 
-constexpr double kRadius = 0.005, kDensity = 2600;          // [m], [kg/m3]
-constexpr double kStiffness = 1e5, kEffectiveModulus = 1e9; // [N/m], [Pa]
-constexpr double kSpacing = 4 * kRadius;                    // between collisions side by side [m]
+constexpr double kBallRadius = 0.005, kBallDensity = 2600;      // [m], [kg/m3]
+constexpr double kBallStiffness = 1e5, kEffectiveModulus = 1e9; // [N/m], [Pa]
+constexpr double kPairSpacing = 4 * kBallRadius;                // between collisions side by side [m]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double mass() { return base::sphereMass(kDensity, kRadius); }
+double mass() { return base::sphereMass(kBallDensity, kBallRadius); }
 double effectiveMass(const ImpactCase& c) { return c.binary ? 0.5 * mass() : mass(); }
-double effectiveRadius(const ImpactCase& c) { return c.binary ? 0.5 * kRadius : kRadius; }
-double omega0(const ImpactCase& c) { return std::sqrt(kStiffness / effectiveMass(c)); }
+double effectiveRadius(const ImpactCase& c) { return c.binary ? 0.5 * kBallRadius : kBallRadius; }
+double omega0(const ImpactCase& c) { return std::sqrt(kBallStiffness / effectiveMass(c)); }
 
 contact::ContactLaw lawOf(const ImpactCase& c) {
   contact::ContactLaw law;
   law.attraction = !c.isClamped();
   law.hertz = !c.isLinear();
   if (c.isLinear()) {
-    law.stiffness = kStiffness, law.damping = 2 * c.damping * omega0(c);
+    law.stiffness = kBallStiffness, law.damping = 2 * c.damping * omega0(c);
   } else {
     law.stiffness = 4.0 / 3 * kEffectiveModulus;
     law.rootDamping = 2 * c.damping * std::sqrt(2 * kEffectiveModulus);
@@ -72,17 +72,18 @@ public:
                                           const StepsBefore& stepsBefore)
       : binary_(c.binary), count_(static_cast<std::size_t>(count)) {
     terrain::GrainModel model;
-    model.radius = kRadius, model.mass = mass(), model.timeStep = timeStep;
+    model.radius = kBallRadius, model.mass = mass(), model.timeStep = timeStep;
     model.law = lawOf(c), model.skin = 0.5, model.maxOverlap = 1, model.precision = precision;
     std::vector<terrain::GrainSpec> start;
     const auto side = static_cast<int>(std::ceil(std::sqrt(count)));
     for (int i = 0; i < count; ++i) {
-      const double gap = stepsBefore(i) * timeStep * c.speed, a = (i % side) * kSpacing, b = (i / side) * kSpacing;
+      const double gap = stepsBefore(i) * timeStep * c.speed, a = (i % side) * kPairSpacing,
+                   b = (i / side) * kPairSpacing;
       if (binary_) {
-        start.push_back({{a, b, kRadius + 0.5 * gap}, {0, 0, -0.5 * c.speed}, {}});
-        start.push_back({{a, b, -kRadius - 0.5 * gap}, {0, 0, 0.5 * c.speed}, {}});
+        start.push_back({{a, b, kBallRadius + 0.5 * gap}, {0, 0, -0.5 * c.speed}, {}});
+        start.push_back({{a, b, -kBallRadius - 0.5 * gap}, {0, 0, 0.5 * c.speed}, {}});
       } else {
-        start.push_back({{a, b, kRadius + gap}, {0, 0, -c.speed}, {}});
+        start.push_back({{a, b, kBallRadius + gap}, {0, 0, -c.speed}, {}});
       }
     }
     terrain::Boundaries boundaries;
@@ -107,7 +108,7 @@ public:
       velocity_[id] = static_cast<double>(grains_->view().motion[slot].velocity.z);
     }
     for (std::size_t i = 0; i < count_; ++i) {
-      gap[i] = binary_ ? height_[2 * i] - height_[2 * i + 1] - 2 * kRadius : height_[i] - kRadius;
+      gap[i] = binary_ ? height_[2 * i] - height_[2 * i + 1] - 2 * kBallRadius : height_[i] - kBallRadius;
       speed[i] = binary_ ? velocity_[2 * i + 1] - velocity_[2 * i] : -velocity_[i];
     }
   }

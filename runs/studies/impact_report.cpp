@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/impact_report.hpp"
 
+#include "base/math.hpp"
 #include "contact/restitution.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace grouser::studies {
 
@@ -162,10 +162,9 @@ std::string closedFormTable(const std::vector<ImpactSeries>& all, std::size_t po
 }
 
 std::vector<ConvergenceRow> convergenceRows(int phases) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<ConvergenceRow> rows = {{5, 0.113, {}, {}},    {10, 0.044, {}, {}},   {15, 0.027, {}, {}},
                                       {20, 0.020, {}, {}},   {30, 0.0126, {}, {}},  {50, 0.0074, {}, {}},
-                                      {100, 0.0036, {}, {}}, {200, 0.0018, {}, {}}, {500, kNone, {}, {}}};
+                                      {100, 0.0036, {}, {}}, {200, 0.0018, {}, {}}, {500, base::kNaN, {}, {}}};
   for (ConvergenceRow& row : rows) {
     ImpactCase c;
     c.damping = 0.2;

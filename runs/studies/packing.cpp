@@ -2,6 +2,7 @@
 #include "runs/studies/packing.hpp"
 
 #include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -18,15 +19,9 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kRest = 1e-7;               // kinetic energy a grain over m g d that counts as rest [-]
+constexpr double kRestEnergy = 1e-7;         // kinetic energy a grain over m g d that counts as rest [-]
 constexpr double kPatience = 4.0;            // [s]
 constexpr double kOffFloor = 4, kOffTop = 3; // [d] left out: the floor puts layers into order, the top is loose
-
-/// Volume of a sphere of radius r about height z that lies below height h.
-double volumeBelow(double h, double z, double r) {
-  const double cap = std::clamp(h - (z - r), 0.0, 2 * r);
-  return base::kPi * cap * cap * (3 * r - cap) / 3;
-}
 
 /// Volume that two spheres share whose centres are `overlap` nearer than two radii: counted twice in their sum.
 double sharedVolume(double overlap, double r) {
@@ -48,7 +43,7 @@ Packing pourPacking(const SampleGrains& material, int grains, double width, std:
           side, seed, material.toml("grain"), height, grains, material.radius),
       base::cpuExec(1));
   Packing packing;
-  packing.rest = bringToRest(sample, kRest, kPatience);
+  packing.rest = bringToRest(sample, kRestEnergy, kPatience);
 
   const terrain::GrainState state = sample.grains().state();
   std::vector<double> z;
@@ -65,7 +60,7 @@ Packing pourPacking(const SampleGrains& material, int grains, double width, std:
   std::vector<std::vector<std::size_t>> touching(state.rows());
   const base::Period& period = sample.grains().system().constants.period;
   for (std::size_t g = 0; g < state.rows(); ++g) {
-    volume += volumeBelow(high, z[g], r) - volumeBelow(low, z[g], r);
+    volume += base::sphereVolumeBelow(high, z[g], r) - base::sphereVolumeBelow(low, z[g], r);
     for (const std::size_t end = c + state.contacts[g]; c < end; ++c) {
       const std::size_t other = state.neighbour[c];
       touching[g].push_back(other);

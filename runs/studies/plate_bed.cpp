@@ -5,6 +5,7 @@
 #include "base/sphere.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/studies/common.hpp"
 #include "terrain/random_bed.hpp"
 
 #include <fmt/format.h>
@@ -19,14 +20,13 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kRoughFriction = 2;
-constexpr double kPorosity = 0.4;  // expected of a bed, for the number of its grains
-constexpr double kRest = 1e-4;     // of m g r: a tenth of the energy of a grain that goes along with a plate
-constexpr double kLiftRest = 1e-2; // the next one falls with some thousand times that
-constexpr double kPatience = 6;    // [s]
-constexpr double kFall = 1.5;      // [m/s] of grains onto the bed below them, about
-constexpr int kLatticeLayers = 5;  // as the beds of before had
+constexpr double kPorosity = 0.4;      // expected of a bed, for the number of its grains
+constexpr double kRestOfPlates = 1e-4; // of m g r: a tenth of the energy of a grain that goes along with a plate
+constexpr double kLiftRest = 1e-2;     // the next one falls with some thousand times that
+constexpr double kBedPatience = 6;     // [s]
+constexpr double kFall = 1.5;          // [m/s] of grains onto the bed below them, about
+constexpr int kLatticeLayers = 5;      // as the beds of before had
 constexpr double kLatticeSpacing = 2.02;
 
 /// The soil with grains as large as those at the floor.
@@ -61,7 +61,7 @@ PreparedBed layLattice(const Soil& soil, const BedPreparation& bed, std::int64_t
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "lattice.toml")), exec,
                                     [](double, double) {});
   PreparedBed laid{grainsOf(simulation, bed.size), 0, 0};
-  comeToRest(simulation, kRest * weightTimesRadius(soil, laid.grains), kPatience);
+  comeToRest(simulation, kRestOfPlates * weightTimesRadius(soil, laid.grains), kBedPatience);
   return {grainsOf(simulation, bed.size), simulation.steps(), 0};
 }
 
@@ -114,11 +114,11 @@ PreparedBed rainBed(const Soil& soil, const BedPreparation& bed, std::int64_t se
     simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "rain.toml")), exec,
                                       [](double, double) {});
     const bool last = k + 1 == lifts.size();
-    const double rest = (last ? kRest : kLiftRest) * weightTimesRadius(soil, made.grains);
-    if (!comeToRest(simulation, rest, kPatience))
+    const double rest = (last ? kRestOfPlates : kLiftRest) * weightTimesRadius(soil, made.grains);
+    if (!comeToRest(simulation, rest, kBedPatience))
       throw base::InputError(fmt::format("the bed of seed {} did not come to rest within {:.1f} s; give it less "
                                          "rolling friction or more preparation friction",
-                                         seed, kPatience));
+                                         seed, kBedPatience));
     made.grains = grainsOf(simulation, bed.size);
     made.grains.erase(made.grains.begin(), made.grains.begin() + static_cast<std::ptrdiff_t>(floor.size()));
     made.steps += simulation.steps();

@@ -15,7 +15,6 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kExpectedAngle = 24 * base::kPi / 180, kExpectedSolid = 0.59; // for the speed only
 constexpr double kSlow = 0.1;         // [m/s] for the step of Hertz' contacts, unless a plate is faster
 constexpr double kCoarsest = 2.0 / 7; // of the way between boundaries: the largest grain's diameter

@@ -2,6 +2,7 @@
 #include "runs/studies/plates_report.hpp"
 
 #include "base/math.hpp"
+#include "runs/studies/common.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@ namespace grouser::studies {
 namespace {
 
 constexpr double kEqualBar = 0.05, kBearingBar = 0.25; // [-]
-constexpr double kGravity = 9.81;
 
 double radians(double degrees) { return degrees * base::kPi / 180; }
 

@@ -18,19 +18,19 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kBar = 0.01;                   // [-] of the porosity
-constexpr double kRadius = 0.025;               // [m]
-constexpr double kStiffness = 4e5, kSoft = 1e5; // [N/m] rained grains meet at some m/s; quick ones fall less deep
+constexpr double kPorosityBar = 0.01;                // [-] of the porosity
+constexpr double kGrainRadius = 0.025;               // [m]
+constexpr double kGrainStiffness = 4e5, kSoft = 1e5; // [N/m] rained grains meet at some m/s; quick ones fall less deep
 
 std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
-  const double d = 2 * kRadius;
+  const double d = 2 * kGrainRadius;
   return fmt::format("version = 1\n[run]\nduration = 0.01\nperiodic = [true, true]\nseed = {}\n{}[material.grain]\n"
                      "stiffness = {:g}\nrestitution = 0.3\nfriction = {:.17g}\nrolling_friction = {:.17g}\n[terrain]\n"
                      "heightmap = \"heightmaps/flat.png\"\nsize = [{:.17g}, {:.17g}]\nheight_range = [0, 0]\n"
                      "material = \"grain\"\ngrain_radius = {:.17g}\ndepth = {:.17g}\nporosity = {:.17g}\n"
                      "settle_time_limit = 20\ncache = false\n{}",
-                     seed, c.place.quick ? "time_step = 2e-4\n" : "", c.place.quick ? kSoft : kStiffness, c.friction,
-                     c.rollingFriction, c.width * d, c.width * d, kRadius, c.depth * d, porosity,
+                     seed, c.place.quick ? "time_step = 2e-4\n" : "", c.place.quick ? kSoft : kGrainStiffness,
+                     c.friction, c.rollingFriction, c.width * d, c.width * d, kGrainRadius, c.depth * d, porosity,
                      c.place.quick ? "settle_kinetic_energy = 1e-3\n" : "");
 }
 
@@ -55,7 +55,7 @@ Table prepare(const PreparationCommand& c, double porosity, int seed, const base
 
 nlohmann::ordered_json recipeOf(const PreparationCommand& c) {
   return {{"study", "preparation"},        {"friction", c.friction}, {"rolling_friction", c.rollingFriction},
-          {"radius_m", kRadius},           {"width_d", c.width},     {"depth_d", c.depth},
+          {"radius_m", kGrainRadius},      {"width_d", c.width},     {"depth_d", c.depth},
           {"quick", c.place.quick ? 1 : 0}};
 }
 
@@ -67,7 +67,7 @@ void studyPreparationCommand(const PreparationCommand& c) {
   const auto begin = std::chrono::steady_clock::now();
   fmt::print("          spheres of {:g} mm +- 25 %, friction {:g}, rolling friction {:g}, {:g} d wide between periodic "
              "boundaries, {:g} d deep; {} seeds, +- 95 %\n",
-             2e3 * kRadius, c.friction, c.rollingFriction, c.width, c.depth, c.seeds);
+             2e3 * kGrainRadius, c.friction, c.rollingFriction, c.width, c.depth, c.seeds);
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
   support::Progress progress("preparing");
   const double all = static_cast<double>(c.porosities.size()) * c.seeds;
@@ -88,7 +88,7 @@ void studyPreparationCommand(const PreparationCommand& c) {
                     "[-],half width of coordination,"
                     "rattlers [-],order [-],verdict\n";
   fmt::print("\n  {:>7} {:>6} {:>18} {:>10} {:>16} {:>9} {:>8}  within {:g}\n", "wanted", "seeds", "porosity",
-             "friction", "contacts", "rattlers", "order", kBar);
+             "friction", "contacts", "rattlers", "order", kPorosityBar);
   for (const double porosity : c.porosities) {
     std::vector<double> reached, friction, contacts, rattlers, order;
     for (int seed = 1; seed <= c.seeds; ++seed) {
@@ -107,7 +107,7 @@ void studyPreparationCommand(const PreparationCommand& c) {
       continue;
     }
     const support::Estimate n = interval95(reached), z = interval95(contacts);
-    const std::string verdict = verdictText(judge({n.value - porosity, n.halfWidth}, kBar));
+    const std::string verdict = verdictText(judge({n.value - porosity, n.halfWidth}, kPorosityBar));
     fmt::print("  {:>7.3f} {:>6} {:>18} {:>10.4f} {:>16} {:>9.3f} {:>8.3f}  {}\n", porosity, reached.size(),
                plusMinus(n, 4), meanOf(friction).mean, plusMinus(z, 2), meanOf(rattlers).mean, meanOf(order).mean,
                verdict);

@@ -18,13 +18,15 @@ using base::Vec3d;
 
 namespace {
 
-constexpr std::uint64_t kPurpose = base::purpose("study.random_scenes");
+constexpr std::uint64_t kScenesPurpose = base::purpose("study.random_scenes");
 
 /// Numbers of one scene, one after the other.
 class Draw {
 public:
   Draw(std::uint64_t seed, int number) : seed_(seed), number_(static_cast<std::uint64_t>(number)) {}
-  double in(double low, double high) { return low + (high - low) * base::uniform(seed_, kPurpose, number_, k_++); }
+  double in(double low, double high) {
+    return low + (high - low) * base::uniform(seed_, kScenesPurpose, number_, k_++);
+  }
   double over(double low, double high) { return low * base::exp(in(0, 1) * base::log(high / low)); }
   bool once(double share) { return in(0, 1) < share; }
   int of(int low, int high) { return std::min(high, low + static_cast<int>(in(0, 1) * (high - low + 1))); }

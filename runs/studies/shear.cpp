@@ -23,12 +23,12 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kRest = 0.9;     // [s] the sample falls and is pressed before it is sheared
-constexpr double kLidMass = 0.05; // [kg]
-constexpr double kRow = 0.01;     // [s]
-constexpr double kPlateau = 0.5;  // share of the travel behind which the strength counts as residual
-constexpr double kSpacing = 2.1;  // of the lattice that the sample falls from, in largest radii
-constexpr double kSolid = 0.6;    // solid fraction expected of the sample, for its depth only
+constexpr double kRest = 0.9;           // [s] the sample falls and is pressed before it is sheared
+constexpr double kLidMass = 0.05;       // [kg]
+constexpr double kRow = 0.01;           // [s]
+constexpr double kPlateau = 0.5;        // share of the travel behind which the strength counts as residual
+constexpr double kLatticeSpacing = 2.1; // of the lattice that the sample falls from, in largest radii
+constexpr double kSampleSolid = 0.6;    // solid fraction expected of the sample, for its depth only
 
 /// The boxes of the scene: half of the box at rest, half of it drawn.
 enum class Side { floor, lowerLeft, lowerRight, upperLeft, upperRight, lid };
@@ -51,15 +51,15 @@ namespace {
 std::string shearScene(const SampleGrains& material, const ShearBox& box, double stress, std::int64_t seed) {
   const double d = material.diameter(), l = box.length * d, w = box.width * d, depth = box.depth * d;
   const double wall = box.travel * l + 2 * d; // thick enough to close what it leaves open
-  const double largest = material.radius * (1 + box.spread), cell = kSpacing * largest;
-  const double loose = depth * kSolid * cell * cell * cell / (base::kPi / 6 * d * d * d);
+  const double largest = material.radius * (1 + box.spread), cell = kLatticeSpacing * largest;
+  const double loose = depth * kSampleSolid * cell * cell * cell / (base::kPi / 6 * d * d * d);
   const double top = loose - 0.5 * depth + d;
   std::string text = fmt::format(
       "version = 1\n[run]\nduration = {:.17g}\nseed = {}\nperiodic = [false, true]\ndomain_y = [0, {:.17g}]\n{}"
       "[[grains]]\nform = \"lattice\"\nlow = [{:.17g}, 0, {:.17g}]\nhigh = [{:.17g}, {:.17g}, {:.17g}]\n"
       "radius = {:.17g}\nradius_to = {:.17g}\nspacing = {}\njitter = 1.0\nmaterial = \"grain\"\n",
       kRest + box.travel * l / box.speed, seed, w, material.toml("grain"), -0.5 * l, -0.5 * depth, 0.5 * l, w, top - d,
-      material.radius * (1 - box.spread), largest, kSpacing);
+      material.radius * (1 - box.spread), largest, kLatticeSpacing);
   const auto put = [&](Side side, double x, double z, double sizeX, double sizeZ, const std::string& more) {
     text += fmt::format("[[box]]\nname = \"{}\"\nmaterial = \"grain\"\nposition = [{:.17g}, {:.17g}, {:.17g}]\n"
                         "size = [{:.17g}, {:.17g}, {:.17g}]\n{}",

@@ -20,7 +20,7 @@ namespace {
 constexpr double kBar = 1;         // [deg] half width of the angle's interval
 constexpr double kInertial = 1e-3; // [-] above it the angle depends on the speed
 
-double degrees(double radians) { return radians * 180 / base::kPi; }
+double inDegrees(double radians) { return radians * 180 / base::kPi; }
 
 struct Samples {
   Soil soil;
@@ -101,7 +101,7 @@ std::string stressTable(const Samples& s, const Pieces& pieces, double rolling,
     };
     const support::Estimate peak = over([](const ShearStrength& r) { return r.peak; });
     const support::Estimate residual = over([](const ShearStrength& r) { return r.residual; });
-    const support::Estimate core = over([](const ShearStrength& r) { return degrees(r.mohrCoulomb); });
+    const support::Estimate core = over([](const ShearStrength& r) { return inDegrees(r.mohrCoulomb); });
     const support::Estimate before = over([](const ShearStrength& r) { return r.porosityBefore; });
     const support::Estimate after = over([](const ShearStrength& r) { return r.porosityAfter; });
     const support::Estimate inertial = over([](const ShearStrength& r) { return r.inertialNumber; });
@@ -128,11 +128,11 @@ ShearAngle shearAngle(const std::vector<std::vector<ShearStrength>>& runs) {
       sigma.push_back(r.normal), tau.push_back(r.shear), high.push_back(r.peak * r.normal);
       angle += r.mohrCoulomb / static_cast<double>(seed.size());
     }
-    core.push_back(degrees(angle));
+    core.push_back(inDegrees(angle));
     const support::LineFit line = support::fitLine(sigma, tau), peaks = support::fitLine(sigma, high);
     const bool through = line.points < 2; // one stress only: the line goes through the origin
-    residual.push_back(degrees(std::atan(through ? tau.front() / sigma.front() : line.slope)));
-    peak.push_back(degrees(std::atan(through ? high.front() / sigma.front() : peaks.slope)));
+    residual.push_back(inDegrees(std::atan(through ? tau.front() / sigma.front() : line.slope)));
+    peak.push_back(inDegrees(std::atan(through ? high.front() / sigma.front() : peaks.slope)));
     cohesion.push_back(through ? 0 : line.intercept);
   }
   return {interval95(residual), interval95(peak), interval95(core), interval95(cohesion)};

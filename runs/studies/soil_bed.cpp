@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/random.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/studies/common.hpp"
 #include "runs/support/text_file.hpp"
@@ -19,19 +20,13 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kFloorScatter = 0.15; // of the heights of a rough floor's grains [mean diameters]
-constexpr double kCloud = 0.22;        // solid fraction of the cloud that a bed is poured from
-constexpr double kPoured = 0.59;       // expected of the bed, for the number of grains only
-constexpr double kAgitation = 1e-5;    // of m g r: a bed at rest
-constexpr double kPatience = 6;        // [s] for a bed of 0.25 m; deeper ones take longer as the root of the depth
-constexpr double kLook = 0.02;         // [s] between looks at the agitation
+constexpr double kFloorScatter = 0.15;  // of the heights of a rough floor's grains [mean diameters]
+constexpr double kCloud = 0.22;         // solid fraction of the cloud that a bed is poured from
+constexpr double kPoured = 0.59;        // expected of the bed, for the number of grains only
+constexpr double kAgitation = 1e-5;     // of m g r: a bed at rest
+constexpr double kSettlingPatience = 6; // [s] for a bed of 0.25 m; deeper ones take longer as the root of the depth
+constexpr double kLook = 0.02;          // [s] between looks at the agitation
 constexpr int kCalmLooks = 3;
-
-/// Volume of a sphere of radius r about height z that lies below height h.
-double volumeBelow(double h, double z, double r) {
-  const double cap = std::clamp(h - (z - r), 0.0, 2 * r);
-  return base::kPi * cap * cap * (3 * r - cap) / 3;
-}
 
 /// Within [0, length).
 double wrapped(double x, double length) {
@@ -88,7 +83,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
                   d, size.length, size.width, d + cloud, number, r * (1 - soil.spread), r * (1 + soil.spread));
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "pour.toml")), exec,
                                     [](double, double) {});
-  const double limit = kPatience * std::max(1.0, std::sqrt(size.depth / 0.25));
+  const double limit = kSettlingPatience * std::max(1.0, std::sqrt(size.depth / 0.25));
   const terrain::Grains& grains = *simulation.ground().grains;
   const terrain::GrainModel& model = grains.model();
   const double unit = model.mass * norm(model.gravity) * model.radius * static_cast<double>(grains.count());
@@ -156,7 +151,8 @@ bool comeToRest(simulation::Simulation& simulation, double energy, double limit)
 double solidFraction(const BedGrains& grains, const BedSize& size, double low, double high) {
   double volume = 0;
   for (const BedGrain& g : grains)
-    volume += volumeBelow(high, g.position.z, g.radius) - volumeBelow(low, g.position.z, g.radius);
+    volume +=
+        base::sphereVolumeBelow(high, g.position.z, g.radius) - base::sphereVolumeBelow(low, g.position.z, g.radius);
   return volume / (size.length * size.width * (high - low));
 }
 

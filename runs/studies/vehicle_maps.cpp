@@ -25,7 +25,7 @@ constexpr double kDriveStart = 0.2; // [s]
 constexpr double kHardStart = 0.05; // [s]
 constexpr int kLinePoints = 25;     // of a predicted line
 constexpr const char* kStepAxis = "step [s]";
-constexpr const char* kLongest = "longest step that the program takes";
+constexpr const char* kLongestLine = "longest step that the program takes";
 
 struct Drive {
   double speed = 2;   ///< of the sprockets [rad/s]
@@ -90,7 +90,7 @@ VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::v
     const double longest = longestStep(what, folder);
     for (const double share : shares) map.points.push_back({x, share * longest, what, share * longest});
   }
-  PredictedLine limit{kLongest, {}, {}};
+  PredictedLine limit{kLongestLine, {}, {}};
   const auto [low, high] = std::minmax_element(xs.begin(), xs.end());
   std::vector<double> at;
   if (map.x.logarithmic) at = between(*low, *high, kLinePoints);
@@ -181,7 +181,7 @@ VehicleMap seeds(bool quick, const fs::path& folder) {
   for (int seed = 1; seed <= kSeeds && !quick; ++seed)
     map.points.push_back({seed * 1.0, kStep, onBed(0.05, {}, seed), kStep});
   const double longest = longestStep(onBed(0.05, {}), folder);
-  map.lines = {{kLongest, {1, kSeeds}, {longest, longest}}};
+  map.lines = {{kLongestLine, {1, kSeeds}, {longest, longest}}};
   return map;
 }
 

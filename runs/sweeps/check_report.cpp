@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/check_report.hpp"
 
+#include "base/math.hpp"
 #include "runs/studies/common.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/progress.hpp"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace grouser::sweeps {
@@ -24,14 +24,13 @@ using output::RunStatus;
 
 constexpr double kPercents[] = {10, 5, 1};
 constexpr int kMostTold = 24; // figures in a terminal
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// Of the numbers among them; NaN where there are none.
 double medianOf(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  return values.empty() ? kNone : studies::medianOf(std::move(values));
+  return values.empty() ? base::kNaN : studies::medianOf(std::move(values));
 }
 
 std::string bitsText(SameBits bits) {
@@ -43,7 +42,7 @@ Json errorJson(const AxisError& e, const CheckFigure& f) {
   Json json{{"axis", base::wordOf(e.axis)},
             {"change", numberOf(e.change.value)},
             {"half_width", numberOf(e.change.halfWidth)},
-            {"share_of_value", numberOf(value != 0 ? e.change.value / std::fabs(value) : kNone)},
+            {"share_of_value", numberOf(value != 0 ? e.change.value / std::fabs(value) : base::kNaN)},
             {"seeds", e.seeds},
             {"verdict", studies::verdictText(e.verdict)}};
   if (e.axis == CheckAxis::precision && f.value.halfWidth > 0)
@@ -148,7 +147,7 @@ std::string lineOf(const CheckRecord& record, const CheckResults& results, const
   for (const AxisError& e : f.errors)
     if (e.axis == CheckAxis::step) order = remark(results, f, e);
   const Cheapest c = cheapest(record, results, f, kPercents[2]);
-  const double share = f.value.value != 0 ? 100 * f.bar / std::fabs(f.value.value) : kNone;
+  const double share = f.value.value != 0 ? 100 * f.bar / std::fabs(f.value.value) : base::kNaN;
   return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, studies::valueText({f.value.value, f.bar}),
                      std::isfinite(share) ? fmt::format("{:.2g} %", share) : "", order,
                      c.name.empty() ? "" : "1 %: " + c.name);

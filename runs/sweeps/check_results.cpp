@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/check_results.hpp"
 
+#include "base/math.hpp"
 #include "runs/sweeps/run_manifest.hpp"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace grouser::sweeps {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 using output::RunStatus;
 
@@ -31,11 +30,11 @@ SweepFigures figuresOf(const CheckRuns& runs, const std::vector<SweepOutcome>& o
       const std::string name = series.columns[c] + " at the end";
       const auto [at, isNew] = columnOf.try_emplace(name, figures.columns.size());
       if (isNew) figures.columns.push_back(name);
-      figures.values[r].resize(std::max(figures.values[r].size(), at->second + 1), kNone);
+      figures.values[r].resize(std::max(figures.values[r].size(), at->second + 1), base::kNaN);
       figures.values[r][at->second] = series.values[c].back();
     }
   }
-  for (std::vector<double>& row : figures.values) row.resize(figures.columns.size(), kNone);
+  for (std::vector<double>& row : figures.values) row.resize(figures.columns.size(), base::kNaN);
   return figures;
 }
 
@@ -181,16 +180,16 @@ private:
     const int refinement = cases_.cases[c].refinement;
     if (!cases_.seeded) {
       const std::vector<double> values = refined(refinement);
-      return values.size() < 2 ? kNone : stepError(values).bar;
+      return values.size() < 2 ? base::kNaN : stepError(values).bar;
     }
     const auto fine = stepCase(cases_, 1);
-    if (!fine || changes(0, *fine, std::nullopt).empty()) return kNone;
+    if (!fine || changes(0, *fine, std::nullopt).empty()) return base::kNaN;
     std::size_t seeds = 0;
     const ScatteredStepError base = scatteredAtBase(seeds);
     if (c == 0) return base.bar;
     // What lies between this case and the base is added to the base's error, or taken off.
     const std::vector<double> change = changes(c, 0, std::nullopt);
-    if (change.empty()) return kNone;
+    if (change.empty()) return base::kNaN;
     const support::Estimate apart = studies::interval95(change);
     if (!base.order) return (refinement > 0 ? 1 : 2) * (std::fabs(apart.value) + apart.halfWidth);
     return std::fabs(base.change.value + apart.value) + base.change.halfWidth + apart.halfWidth;

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/check_series.hpp"
 
+#include "base/math.hpp"
 #include "runs/support/csv_cell.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace grouser::sweeps {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A run's series and its seed.
 struct Member {
@@ -44,7 +42,7 @@ bool sameTimes(const RunSeries& a, const RunSeries& b) {
 
 /// Mean and half width; of runs that repeat the one value.
 support::Estimate estimateOf(const std::vector<double>& values, bool seeded) {
-  if (values.empty()) return {kNone, kNone};
+  if (values.empty()) return {base::kNaN, base::kNaN};
   return seeded ? studies::interval95(values) : support::Estimate{values.front(), 0};
 }
 
@@ -53,20 +51,20 @@ using Cell = std::map<int, std::map<std::int64_t, double>>;
 
 double stepBar(const Cell& cell, bool seeded) {
   const auto base = cell.find(0);
-  if (base == cell.end()) return kNone;
+  if (base == cell.end()) return base::kNaN;
   if (!seeded) {
     std::vector<double> values;
     for (int refinement = 0; cell.contains(refinement); ++refinement)
       values.push_back(cell.at(refinement).begin()->second);
-    return values.size() < 2 ? kNone : stepError(values).bar;
+    return values.size() < 2 ? base::kNaN : stepError(values).bar;
   }
   const auto fine = cell.find(1);
-  if (fine == cell.end()) return kNone;
+  if (fine == cell.end()) return base::kNaN;
   std::vector<double> changes;
   for (const auto& [seed, value] : base->second)
     if (const auto other = fine->second.find(seed); other != fine->second.end())
       changes.push_back(other->second - value);
-  return changes.empty() ? kNone : scatteredStepError(changes, {}).bar;
+  return changes.empty() ? base::kNaN : scatteredStepError(changes, {}).bar;
 }
 
 /// One column of the members that have it.

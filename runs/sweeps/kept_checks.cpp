@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "base/math.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/progress.hpp"
@@ -33,9 +34,9 @@ nlohmann::json readJson(const fs::path& path) {
   return nlohmann::json::parse(file, nullptr, false);
 }
 
-double numberOf(const nlohmann::json& json, const char* key) {
+double numberOrInfinity(const nlohmann::json& json, const char* key) {
   const auto at = json.find(key);
-  return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::infinity();
+  return at != json.end() && at->is_number() ? at->get<double>() : base::kInfinity;
 }
 
 /// The check that is kept of a scene of this origin; no object where there is none.
@@ -66,7 +67,7 @@ std::string barsText(const nlohmann::json& kept) {
     if (told > kMost) continue;
     if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
     text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
-                        studies::valueText({f.at("value").get<double>(), numberOf(f, "bar")}));
+                        studies::valueText({f.at("value").get<double>(), numberOrInfinity(f, "bar")}));
   }
   if (more > 0) text += fmt::format("  and {} more\n", more);
   return fmt::format("checked   error bars by {}, of the last check of this scene ({}, commit {})\n{}", parts,

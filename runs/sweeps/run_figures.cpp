@@ -16,7 +16,7 @@ namespace grouser::sweeps {
 
 namespace {
 
-nlohmann::ordered_json numberOf(double value) {
+nlohmann::ordered_json jsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
@@ -32,8 +32,8 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   const scene::Scene& scene = plan.runs.front().scene;
   const SweepFigures found = sweepFigures(plan, {{output::RunStatus::finished, ""}}, whole.parent_path());
   for (std::size_t i = 0; i < found.columns.size(); ++i)
-    json["figures"].push_back({{"name", found.columns[i]}, {"value", numberOf(found.values.front()[i])}});
-  json["steady_from"] = numberOf(steadyFrom(scene, manifest.figure("drive_start_s")));
+    json["figures"].push_back({{"name", found.columns[i]}, {"value", jsonNumber(found.values.front()[i])}});
+  json["steady_from"] = jsonNumber(steadyFrom(scene, manifest.figure("drive_start_s")));
   if (const std::string check = keptCheckText(scene, manifest.text("inputs")); !check.empty())
     json["check"] = nlohmann::ordered_json::parse(check);
   return json;

@@ -28,7 +28,7 @@ std::vector<std::string> cellsOf(std::string_view line) {
   return cells;
 }
 
-double numberOf(const std::string& cell) {
+double numberIn(const std::string& cell) {
   char* end = nullptr;
   const double number = std::strtod(cell.c_str(), &end);
   return end == cell.c_str() ? std::numeric_limits<double>::quiet_NaN() : number;
@@ -47,7 +47,7 @@ Table readTable(const fs::path& path) {
   Table table{cellsOf(line), {}};
   while (std::getline(file, line)) {
     std::vector<double> row;
-    for (const std::string& cell : cellsOf(line)) row.push_back(numberOf(cell));
+    for (const std::string& cell : cellsOf(line)) row.push_back(numberIn(cell));
     if (row.size() != table.head.size())
       throw base::InputError(fmt::format("{}:{}: {} cells stand under {} names; run the scene again", path.string(),
                                          table.rows.size() + 2, row.size(), table.head.size()));

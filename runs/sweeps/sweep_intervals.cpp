@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/sweep_intervals.hpp"
 
+#include "base/math.hpp"
 #include "runs/sweeps/sweep_files.hpp"
 
 #include "runs/studies/estimate.hpp"
@@ -12,15 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 namespace grouser::sweeps {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Of a vehicle; of surfaces the forces are shown.
 constexpr const char* kShown[] = {"sinkage mean [m]", "sinkage max [m]",    "slip [-]",
@@ -62,7 +60,7 @@ void addDifference(const SweepFigures& figures, const std::vector<std::pair<std:
     const double x = figures.values[a][column], y = figures.values[b][column];
     if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y);
   }
-  const support::Estimate none{kNone, kNone};
+  const support::Estimate none{base::kNaN, base::kNaN};
   of.differences.push_back(first.empty() ? none : studies::pairedDifference(first, second));
   of.changes.push_back(first.empty() ? none : studies::pairedChange(first, second));
 }
@@ -110,7 +108,7 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) 
       const std::vector<double> values = valuesOf(figures, members[g].rows, c);
       SeedGroup& group = all.groups[g];
       group.runs = std::max(group.runs, static_cast<int>(values.size()));
-      group.figures.push_back(values.empty() ? support::Estimate{kNone, kNone} : studies::interval95(values));
+      group.figures.push_back(values.empty() ? support::Estimate{base::kNaN, base::kNaN} : studies::interval95(values));
       addDifference(figures, pairs, c, group);
     }
   }

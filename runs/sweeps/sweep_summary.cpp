@@ -2,6 +2,7 @@
 #include "runs/sweeps/sweep_summary.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/support/csv_cell.hpp"
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <optional>
 
 namespace grouser::sweeps {
@@ -25,18 +25,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 /// Mean and largest of the numbers that are there.
 struct Spread {
-  double sum = 0, most = kNone;
+  double sum = 0, most = base::kNaN;
   std::size_t count = 0;
   void add(double v) {
     if (std::isnan(v)) return;
     sum += v, ++count;
     most = std::isnan(most) ? v : std::max(most, v);
   }
-  double mean() const { return count ? sum / static_cast<double>(count) : kNone; }
+  double mean() const { return count ? sum / static_cast<double>(count) : base::kNaN; }
 };
 
 /// The steady rows of a run's series. Without a file everything is NaN.
@@ -79,22 +77,22 @@ public:
   /// From the first steady row to the last, of one number a row.
   double change(const std::string& path) const {
     const std::vector<double> all = rows(path);
-    return all.empty() ? kNone : all.back() - all.front();
+    return all.empty() ? base::kNaN : all.back() - all.front();
   }
   double last(const std::string& path) const {
     const std::vector<double> all = numbers(path);
-    return all.empty() ? kNone : all.back();
+    return all.empty() ? base::kNaN : all.back();
   }
   double last(const std::string& path, std::size_t k) const {
     const std::vector<double> all = numbers(path);
-    return all.size() < 3 ? kNone : all[all.size() - 3 + k];
+    return all.size() < 3 ? base::kNaN : all[all.size() - 3 + k];
   }
   double lastNorm(const std::string& path) const {
     const double x = last(path, 0), y = last(path, 1), z = last(path, 2);
     return std::sqrt(x * x + y * y + z * z);
   }
   double constant(const std::string& path) const {
-    return file_ && file_->has("/" + path) ? file_->numbers("/" + path).front() : kNone;
+    return file_ && file_->has("/" + path) ? file_->numbers("/" + path).front() : base::kNaN;
   }
 
 private:
@@ -153,18 +151,18 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
   const Steady steady(file, from);
   std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
                               {"integration error [J]", steady.last("ledger/integration_error")}};
-  if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", file ? from : kNone});
+  if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", file ? from : base::kNaN});
   addSurfaces(steady, columns.surfaces, figures);
   if (!columns.vehicle) return figures;
   // Both tracks together: what the hull did against what the sprockets asked for.
   const double speed = steady.ofTracks("speed").mean();
   const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
   const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
-  const std::vector<Figure> ofVehicle{{"steady from [s]", file ? from : kNone},
+  const std::vector<Figure> ofVehicle{{"steady from [s]", file ? from : base::kNaN},
                                       {"teeth passed [-]", 0.5 * (steady.change("vehicle/left/teeth_passed") +
                                                                   steady.change("vehicle/right/teeth_passed"))},
                                       {"speed [m/s]", speed},
-                                      {"slip [-]", asked != 0 ? 1 - speed / asked : kNone},
+                                      {"slip [-]", asked != 0 ? 1 - speed / asked : base::kNaN},
                                       {"sinkage mean [m]", sinkage.mean()},
                                       {"sinkage max [m]", sinkage.most},
                                       {"drive torque [N m]", steady.of("vehicle/left/drive_torque").mean() +
@@ -183,12 +181,12 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
 /// Of one run: all NaN where it has not finished.
 std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
                               const Columns& columns) {
-  if (outcome.status != output::RunStatus::finished) return figuresOf(nullptr, kNone, columns);
+  if (outcome.status != output::RunStatus::finished) return figuresOf(nullptr, base::kNaN, columns);
   std::optional<support::Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; fs::exists(results))
     file.emplace(support::Hdf5File::open(results));
   const RunManifest manifest(folder / run.name);
-  const double end = manifest.text("ended_by").empty() ? kNone : manifest.number("simulated_time_s");
+  const double end = manifest.text("ended_by").empty() ? base::kNaN : manifest.number("simulated_time_s");
   const double from = steadyFrom(run.scene, manifest.figure("drive_start_s"), end);
   return figuresOf(file ? &*file : nullptr, from, columns);
 }
@@ -220,13 +218,13 @@ double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
   if (const auto& course = scene.driver.course) ramped = begins + std::fabs(course->speed) / course->acceleration;
   if (const auto& torques = scene.driver.torqueTable) ramped = std::max(ramped, begins + torques->time.back());
   if (scene.driver.table) ramped = std::max(ramped, begins + scene.driver.table->time.back());
-  return ramped < duration ? 0.5 * (ramped + duration) : kNone;
+  return ramped < duration ? 0.5 * (ramped + duration) : base::kNaN;
 }
 
 SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
   const Columns columns(plan);
   SweepFigures all;
-  for (const Figure& f : figuresOf(nullptr, kNone, columns)) all.columns.push_back(f.column);
+  for (const Figure& f : figuresOf(nullptr, base::kNaN, columns)) all.columns.push_back(f.column);
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     all.values.emplace_back();
     for (const Figure& f : figuresOf(plan.runs[i], outcomes[i], folder, columns)) all.values[i].push_back(f.value);

@@ -15,7 +15,7 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kRadius = 0.027, kStiffness = 1e6;
+constexpr double kGrainRadius = 0.027, kGrainStiffness = 1e6;
 
 /// A grain on the device under test.
 struct OneGrain {
@@ -37,11 +37,11 @@ struct Bench {
   base::Array<PartLoad> loads;
 
   explicit Bench(const base::SphereSet& set, double friction = 0) {
-    model.radius = kRadius, model.mass = 0.2, model.timeStep = 1e-4, model.margin = 0.01;
-    model.law.stiffness = kStiffness, model.law.friction = static_cast<float>(friction);
+    model.radius = kGrainRadius, model.mass = 0.2, model.timeStep = 1e-4, model.margin = 0.01;
+    model.law.stiffness = kGrainStiffness, model.law.friction = static_cast<float>(friction);
     model.law.tangentialStiffness = 2e5f;
-    model.scale = base::positionScale(2 * kRadius);
-    model.force = model.torque = base::fixedPointFor(kStiffness * kRadius, 36);
+    model.scale = base::positionScale(2 * kGrainRadius);
+    model.force = model.torque = base::fixedPointFor(kGrainStiffness * kGrainRadius, 36);
     model.energy = base::fixedPointFor(10, 36);
     contacts = std::make_unique<GrainPartContacts>(exec, model, std::vector<const base::SphereSet*>{&set},
                                                    std::vector<GrainPart>{{0, {}, {}}});
@@ -80,10 +80,11 @@ TEST(GrainOnPlate, FeelsThePlaneNotTheBumps) {
   for (const double spacing : {0.004, 0.008, 0.016}) { // the force must not depend on how finely the part is cut
     Bench bench(plate(0.1, 0.008, spacing));
     for (double x = -0.03; x < 0.03; x += 0.0037) {
-      const auto r = bench.touch({x, 0.3 * x, kRadius - overlap}, {}, atRest({}));
+      const auto r = bench.touch({x, 0.3 * x, kGrainRadius - overlap}, {}, atRest({}));
       EXPECT_EQ(r.patches, 1);
-      EXPECT_NEAR(r.onGrain.z, kStiffness * overlap, 1e-4 * kStiffness * overlap) << "float distances of 35 mm, 4e-9 m";
-      EXPECT_NEAR(r.onGrain.x, 0, 1e-4 * kStiffness * overlap);
+      EXPECT_NEAR(r.onGrain.z, kGrainStiffness * overlap, 1e-4 * kGrainStiffness * overlap)
+          << "float distances of 35 mm, 4e-9 m";
+      EXPECT_NEAR(r.onGrain.x, 0, 1e-4 * kGrainStiffness * overlap);
     }
   }
 }
@@ -94,16 +95,16 @@ TEST(GrainOnPlate, TurnedAndMovedPlateGivesTheSameForceInItsFrame) {
   const base::Quat q{base::cos(angle / 2), 0.6 * base::sin(angle / 2), 0.8 * base::sin(angle / 2), 0};
   const PartMotion part = atRest({3, -2, 1}, q);
   const double overlap = 3e-4;
-  const auto r = bench.touch(part.toWorld({0.011, -0.007, kRadius - overlap}), {}, part);
+  const auto r = bench.touch(part.toWorld({0.011, -0.007, kGrainRadius - overlap}), {}, part);
   const Vec3d inPart = transposedTimes(part.rotation, r.onGrain);
-  EXPECT_NEAR(inPart.z, kStiffness * overlap, 1e-3 * kStiffness * overlap);
-  EXPECT_NEAR(inPart.x, 0, 1e-3 * kStiffness * overlap);
+  EXPECT_NEAR(inPart.z, kGrainStiffness * overlap, 1e-3 * kGrainStiffness * overlap);
+  EXPECT_NEAR(inPart.x, 0, 1e-3 * kGrainStiffness * overlap);
 }
 
 TEST(GrainOnPlate, LoadsBalanceToTheLastQuantum) {
   Bench bench(plate(0.1, 0.008, 0.008), 0.5);
   for (int k = 0; k < 20; ++k) {
-    const Vec3d x{0.001 * k, 0.0003 * k, kRadius - 1e-4 * k};
+    const Vec3d x{0.001 * k, 0.0003 * k, kGrainRadius - 1e-4 * k};
     const auto r = bench.touch(x, {0.3, 0.1, -0.2}, atRest({}));
     EXPECT_EQ(r.onGrain + r.onPart, Vec3d{}) << "integers of opposite sign";
     // Torque of both about the world's origin: x cross F + torque on grain + torque on part (about the origin).
@@ -115,10 +116,10 @@ TEST(GrainOnPlate, LoadsBalanceToTheLastQuantum) {
 TEST(GrainInCorner, HasOnePatchOnEachFace) {
   Bench bench(corner(0.1, 0.008, 0.008));
   const double a = 4e-4, b = 2e-4;
-  const auto r = bench.touch({kRadius - a, 0.003, kRadius - b}, {}, atRest({}));
+  const auto r = bench.touch({kGrainRadius - a, 0.003, kGrainRadius - b}, {}, atRest({}));
   EXPECT_EQ(r.patches, 2);
-  EXPECT_NEAR(r.onGrain.x, kStiffness * a, 0.01);
-  EXPECT_NEAR(r.onGrain.z, kStiffness * b, 0.01);
+  EXPECT_NEAR(r.onGrain.x, kGrainStiffness * a, 0.01);
+  EXPECT_NEAR(r.onGrain.z, kGrainStiffness * b, 0.01);
 }
 
 /// What a grain of its own radius and material, which slides, turns and sinks into a corner, gets in some steps and
@@ -135,7 +136,7 @@ Trace traceOf(const base::SphereSet& set, bool manyRadii, double strength) {
   model.law.damping = manyRadii ? 0 : 40, model.law.tangentialDamping = manyRadii ? 0 : 20;
   const base::Exec exec = testExec();
   GrainPartContacts contacts(exec, model, {&set}, {{0, {}, {}}}, {}, {{model.law}, {1e4}, {strength}});
-  const double radius = manyRadii ? 0.7 * kRadius : kRadius;
+  const double radius = manyRadii ? 0.7 * kGrainRadius : kGrainRadius;
   const base::Array<PartMotion> motion(exec, std::vector{atRest({})});
   base::Array<PartLoad> part(exec, 2);
   const base::Array<std::uint32_t> id(exec, 1);
@@ -178,7 +179,7 @@ TEST(GrainPinched, BetweenTwoTeethIsHeldByBoth) {
   GrainPartModel model = Bench(set).model;
   const base::Exec exec = testExec();
   GrainPartContacts contacts(exec, model, {&set}, {{0, {}, {}}, {0, {}, {}}});
-  const double overlap = 3e-4, gap = 2 * (kRadius - overlap);
+  const double overlap = 3e-4, gap = 2 * (kGrainRadius - overlap);
   const PartMotion below = atRest({}), above = atRest({0, 0, gap}, {0, 1, 0, 0}); // turned by half a turn about x
   base::Array<PartMotion> motion(exec, std::vector<PartMotion>{below, above});
   base::Array<PartLoad> loads(exec, 2);
@@ -186,36 +187,36 @@ TEST(GrainPinched, BetweenTwoTeethIsHeldByBoth) {
   contacts.refresh(grain.view(), motion);
   contacts.compute(grain.view(), motion, loads.data());
   const double down = model.force.value(loads.at(0).force.z), up = model.force.value(loads.at(1).force.z);
-  EXPECT_NEAR(down, -kStiffness * overlap, 0.05);
-  EXPECT_NEAR(up, kStiffness * overlap, 0.05);
+  EXPECT_NEAR(down, -kGrainStiffness * overlap, 0.05);
+  EXPECT_NEAR(up, kGrainStiffness * overlap, 0.05);
 }
 
 TEST(GrainOnPlate, WhoseMiddleHasComeThroughASurfaceIsDeeperThanItsRadius) {
   Bench bench(plate(0.1, 0.008, 0.008));
-  EXPECT_LT(bench.touch({0, 0, 1e-4}, {}, atRest({})).deepest, kRadius);
-  EXPECT_GT(bench.touch({0, 0, -1e-4}, {}, atRest({})).deepest, kRadius);
+  EXPECT_LT(bench.touch({0, 0, 1e-4}, {}, atRest({})).deepest, kGrainRadius);
+  EXPECT_GT(bench.touch({0, 0, -1e-4}, {}, atRest({})).deepest, kGrainRadius);
 }
 
 TEST(GrainOnPlate, ThatAStepHasCarriedThroughAThinPlateCountsAsPressedBeyondItsMiddle) {
   // 4 mm thin, as spheres of 2 mm; from 3 mm above the upper face to 3 mm below the lower one.
   Bench bench(plate(0.1, 0.002, 0.004, 0.004));
-  EXPECT_NEAR(bench.touch({0, 0, 0.003}, {}, atRest({})).deepest, kRadius - 0.003, 1e-6);
-  EXPECT_GT(bench.touch({0, 0, -0.007}, {}, atRest({}), false).deepest, kRadius);
+  EXPECT_NEAR(bench.touch({0, 0, 0.003}, {}, atRest({})).deepest, kGrainRadius - 0.003, 1e-6);
+  EXPECT_GT(bench.touch({0, 0, -0.007}, {}, atRest({}), false).deepest, kGrainRadius);
   // From there on it lies on the lower face, as one does that has always been there.
-  EXPECT_NEAR(bench.touch({0, 0, -0.007}, {}, atRest({}), false).deepest, kRadius - 0.003, 1e-6);
+  EXPECT_NEAR(bench.touch({0, 0, -0.007}, {}, atRest({}), false).deepest, kGrainRadius - 0.003, 1e-6);
 }
 
 TEST(GrainOnPlate, BetweenTwoFacesOfOnePartThatBothLetGoDoesNotCountAsCarriedThrough) {
   // First touch is never half a radius deep.
   Bench bench(plate(0.1, 0.002, 0.004, 0.004));
-  EXPECT_NEAR(bench.touch({0, 0, kRadius - 1e-4}, {}, atRest({})).deepest, 1e-4, 1e-6);
-  EXPECT_NEAR(bench.touch({0, 0, -0.004 - kRadius + 1e-4}, {}, atRest({}), false).deepest, 1e-4, 1e-6);
+  EXPECT_NEAR(bench.touch({0, 0, kGrainRadius - 1e-4}, {}, atRest({})).deepest, 1e-4, 1e-6);
+  EXPECT_NEAR(bench.touch({0, 0, -0.004 - kGrainRadius + 1e-4}, {}, atRest({}), false).deepest, 1e-4, 1e-6);
 }
 
 TEST(GrainOnPlate, WhatIsPressedMostSinceTheLastRowIsKeptWithItsGrain) {
   Bench bench(plate(0.1, 0.008, 0.008));
   EXPECT_FALSE(bench.contacts->mostPressed());
-  for (const double share : {0.1, 0.4, 0.3}) bench.touch({0, 0, (1 - share) * kRadius}, {}, atRest({}));
+  for (const double share : {0.1, 0.4, 0.3}) bench.touch({0, 0, (1 - share) * kGrainRadius}, {}, atRest({}));
   const auto most = bench.contacts->mostPressed();
   ASSERT_TRUE(most);
   EXPECT_EQ(most->part, 0);
@@ -233,7 +234,7 @@ TEST(GrainOnPlate, APartThatGrainsDoNotMeetIsNotFelt) {
   const base::SphereSet set = plate(0.1, 0.008, 0.008);
   const Bench bench(set);
   GrainPartContacts contacts(bench.exec, bench.model, {&set}, {{0, {}, {}, false}, {0, {}, {}}});
-  const OneGrain grain(bench.exec, bench.model.scale.fromMetres({0, 0, kRadius - 1e-3}), {});
+  const OneGrain grain(bench.exec, bench.model.scale.fromMetres({0, 0, kGrainRadius - 1e-3}), {});
   const base::Array<PartMotion> motion(bench.exec, std::vector{atRest({}), atRest({})});
   base::Array<PartLoad> loads(bench.exec, 2);
   contacts.refresh(grain.view(), motion);
@@ -250,7 +251,7 @@ TEST(GrainOnPlate, KeepsItsFrictionSpringThroughARefresh) {
     const double overlap = 1e-3, speed = 0.01;
     Bench::Result r{};
     for (int k = 0; k < 50; ++k) { // 50 steps of 1e-4 s at 1 cm/s: 50 um of stretch, 10 N of 500 N limit
-      r = bench.touch({x, 0, kRadius - overlap}, {speed, 0, 0}, atRest({}), k == 0 || refresh);
+      r = bench.touch({x, 0, kGrainRadius - overlap}, {speed, 0, 0}, atRest({}), k == 0 || refresh);
       x += speed * bench.model.timeStep;
     }
     EXPECT_NEAR(r.onGrain.x, -2e5 * 50 * speed * bench.model.timeStep, 1e-3);

@@ -11,11 +11,11 @@
 namespace grouser::multibody::test {
 namespace {
 
-const Mat3d kInertia = Mat3d::diagonal({0.4, 0.7, 0.4});
+const Mat3d kSprocketInertia = Mat3d::diagonal({0.4, 0.7, 0.4});
 
 TEST(MultibodyDrive, TorqueIsInertiaTimesAccelerationPlusLoad) {
   Mechanism p;
-  p.model.addBody(makeBody("sprocket", 22, kInertia, {}));
+  p.model.addBody(makeBody("sprocket", 22, kSprocketInertia, {}));
   p.model.addJointAt("axle", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY), 0.5);
   p.model.addDrive({"motor", 0, 0, true});
   p.start();
@@ -37,7 +37,7 @@ TEST(MultibodyDrive, TorqueIsInertiaTimesAccelerationPlusLoad) {
 TEST(MultibodyDrive, ConstantSpeedAgainstGravityReadsTheWeightsTorque) {
   const double m = 4, l = 0.3, w = 1.5, dt = 1e-4;
   Mechanism p;
-  p.model.addBody(makeBody("arm", m, kInertia, {{l, 0, 0}, {}}, cross(w * kY, Vec3d{l, 0, 0}), w * kY));
+  p.model.addBody(makeBody("arm", m, kSprocketInertia, {{l, 0, 0}, {}}, cross(w * kY, Vec3d{l, 0, 0}), w * kY));
   p.model.addJointAt("axle", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
   p.model.addDrive({"motor", 0, w, true});
   p.start();
@@ -55,7 +55,7 @@ TEST(MultibodyDrive, ConstantSpeedAgainstGravityReadsTheWeightsTorque) {
 
 TEST(MultibodyDrive, SwitchedOffTheAxisIsFree) {
   Mechanism p;
-  p.model.addBody(makeBody("wheel", 5, kInertia, {}, {}, {0, 2, 0}));
+  p.model.addBody(makeBody("wheel", 5, kSprocketInertia, {}, {}, {0, 2, 0}));
   p.model.addJointAt("axle", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
   p.model.addDrive({"motor", 0, 7, false});
   p.start();

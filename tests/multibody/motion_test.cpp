@@ -12,7 +12,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-const Mat3d kInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
+const Mat3d kShaftInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
 
 std::string nameOf(JointType type) {
   static const char* const names[] = {"revolute", "spherical",   "universal", "prismatic",
@@ -27,7 +27,7 @@ class EveryJoint : public ::testing::TestWithParam<std::tuple<JointType, Integra
 /// Two free bodies, tumbling, joined by one joint in general position.
 Mechanism tumblingPair(JointType type) {
   Mechanism m;
-  m.model.addBody(makeBody("A", 2, kInertia, {{0, 0, 0}, {}}, {0.1, -0.2, 0.3}, {0.5, 1.5, -0.7}));
+  m.model.addBody(makeBody("A", 2, kShaftInertia, {{0, 0, 0}, {}}, {0.1, -0.2, 0.3}, {0.5, 1.5, -0.7}));
   m.model.addBody(makeBody("B", 1, Mat3d::diagonal({0.1, 0.15, 0.2}),
                            {{0.8, 0.3, -0.2}, frameWithZ({}, {1, 2, 3}).orientation}, {-0.4, 0.1, 0.2},
                            {-1.1, 0.6, 0.9}));
@@ -96,8 +96,8 @@ TEST(Universal, OutputShaftHasTheSpeedOfHookesJoint) {
   motor.name = "motor", motor.kind = DriveKind::kPosition, motor.law.polynomial = {0, w};
   // Pin on the input along z (in the plane of the shafts), pin on the output along y.
   const double start = base::cos(beta) / (1 - base::sin(beta) * base::sin(beta));
-  m.model.addBody(makeBody("input", 1, kInertia, {{-0.5, 0, 0}, {}}, {}, {w, 0, 0}));
-  m.model.addBody(makeBody("output", 1, kInertia, {0.5 * out, {}}, {}, start * w * out));
+  m.model.addBody(makeBody("input", 1, kShaftInertia, {{-0.5, 0, 0}, {}}, {}, {w, 0, 0}));
+  m.model.addBody(makeBody("output", 1, kShaftInertia, {0.5 * out, {}}, {}, start * w * out));
   m.model.addJointAt("bearing in", JointType::kRevolute, kWorld, 0, frameWithZ({-0.5, 0, 0}, {1, 0, 0}));
   m.model.addJointAt("bearing out", JointType::kRevolute, kWorld, 1, frameWithZ(0.5 * out, out));
   m.model.addJointAt("cross", JointType::kUniversal, 0, 1, frameWithZX({}, {0, 0, 1}, {0, 1, 0}));
@@ -122,7 +122,7 @@ TEST(Universal, OutputShaftHasTheSpeedOfHookesJoint) {
 /// A body on a cylindrical joint along z with springs and dampers on slide and angle.
 Mechanism screwless(double c) {
   Mechanism m;
-  m.model.addBody(makeBody("nut", 2, kInertia, {{0, 0, 0.1}, {base::cos(0.15), 0, 0, base::sin(0.15)}}));
+  m.model.addBody(makeBody("nut", 2, kShaftInertia, {{0, 0, 0.1}, {base::cos(0.15), 0, 0, base::sin(0.15)}}));
   m.model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}, 0.25 * c, 2 * c});
   AxisSpring slide, angle;
   slide.name = "slide", slide.stiffness = 200, slide.axis = JointAxis::kSlide;
@@ -157,7 +157,7 @@ TEST(Cylindrical, SlideAndAngleSwingEachWithItsOwnFrequency) {
 
 TEST(Cylindrical, LimitsHoldOnBothAxes) {
   Mechanism m;
-  m.model.addBody(makeBody("nut", 2, kInertia, {}, {0, 0, 3}, {0, 0, 2}));
+  m.model.addBody(makeBody("nut", 2, kShaftInertia, {}, {0, 0, 3}, {0, 0, 2}));
   m.model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}});
   AxisSpring slide, angle;
   slide.name = "slide", slide.axis = JointAxis::kSlide, slide.upperLimit = 0.2, slide.stopStiffness = 1e7;
@@ -187,8 +187,8 @@ TEST(Cylindrical, LimitsHoldOnBothAxes) {
 
 TEST(Bushing, SixFrequenciesAndLargeRotationsConserveEnergy) {
   Mechanism m;
-  m.model.addBody(makeBody("engine", 2, kInertia, {{0.01, -0.02, 0.03}, frameWithZ({}, {0.4, 0.2, 1}).orientation}, {},
-                           {0.4, -0.3, 0.8}));
+  m.model.addBody(makeBody("engine", 2, kShaftInertia, {{0.01, -0.02, 0.03}, frameWithZ({}, {0.4, 0.2, 1}).orientation},
+                           {}, {0.4, -0.3, 0.8}));
   Bushing b;
   b.name = "mount", b.stiffness = {300, 500, 800}, b.rotationStiffness = {12, 20, 15};
   m.model.addBushing(b);
@@ -215,7 +215,7 @@ TEST(Bushing, SixFrequenciesAndLargeRotationsConserveEnergy) {
 
 TEST(Bushing, StaticDeflectionIsForceOverStiffness) {
   Mechanism m;
-  m.model.addBody(makeBody("engine", 2, kInertia, {}));
+  m.model.addBody(makeBody("engine", 2, kShaftInertia, {}));
   Bushing b;
   b.name = "mount", b.stiffness = {300, 500, 800}, b.damping = {30, 40, 50}, b.rotationStiffness = {12, 20, 15};
   b.rotationDamping = {2, 2, 2};
@@ -241,12 +241,12 @@ Mechanism sliderCrank(const Drive& drive, double crankRate) {
   Mechanism m;
   const double r = 0.1, l = 0.3;
   const double v = crankRate * r;
-  m.model.addBody(makeBody("crank", 1, kInertia, {{0, 0, r}, {}}, {v, 0, 0}, {0, crankRate, 0}));
+  m.model.addBody(makeBody("crank", 1, kShaftInertia, {{0, 0, r}, {}}, {v, 0, 0}, {0, crankRate, 0}));
   const double slope = std::sqrt(l * l - r * r);
   const Vec3d end{slope, 0, 0}, pin{0, 0, r};
   // Crank upright: the rod only slides along x.
   addRod(m.model, "rod", pin, end, {v, 0, 0});
-  m.model.addBody(makeBody("piston", 2, kInertia, {end, {}}, {v, 0, 0}));
+  m.model.addBody(makeBody("piston", 2, kShaftInertia, {end, {}}, {v, 0, 0}));
   m.model.addJointAt("crank pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
   m.model.addJointAt("big end", JointType::kRevolute, 0, 1, frameWithZ(pin, kY));
   m.model.addJointAt("small end", JointType::kSpherical, 1, 2, frameWithZ(end, kY));
@@ -292,7 +292,7 @@ TEST(ImposedMotion, DriveTorqueIsThatOfInverseDynamics) {
   Drive d;
   d.name = "motor", d.kind = DriveKind::kPosition;
   d.law.harmonics = {{0.7, 3, 0}};
-  m.model.addBody(makeBody("wheel", 1, kInertia, {}, {}, {0, 0, d.law.rate(0)}));
+  m.model.addBody(makeBody("wheel", 1, kShaftInertia, {}, {}, {0, 0, d.law.rate(0)}));
   m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
   m.model.addDrive(d);
   m.start();
@@ -309,7 +309,7 @@ TEST(ImposedMotion, SpeedLawLeadsToItsIntegralWithBothIntegrators) {
     d.name = "motor";
     d.law.ramps = {{0, 1, 2}, {0, 5, 5}};
     Mechanism m;
-    m.model.addBody(makeBody("wheel", 1, kInertia, {}));
+    m.model.addBody(makeBody("wheel", 1, kShaftInertia, {}));
     m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
     m.model.addDrive(d);
     m.start();
@@ -327,7 +327,7 @@ TEST(ImposedMotion, ABlowAtTheStartIsInTheLedgerOnce) {
     Mechanism m;
     Drive d;
     d.name = "motor", d.speed = 4;
-    m.model.addBody(makeBody("wheel", 1, kInertia, {}));
+    m.model.addBody(makeBody("wheel", 1, kShaftInertia, {}));
     m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
     m.model.addDrive(d);
     m.start();
@@ -344,7 +344,7 @@ TEST(ImposedMotion, TorqueLawSpinsUpAWheel) {
   Drive d;
   d.name = "motor", d.kind = DriveKind::kForce, d.law.polynomial = {1, 2};
   Mechanism m;
-  m.model.addBody(makeBody("wheel", 1, kInertia, {}));
+  m.model.addBody(makeBody("wheel", 1, kShaftInertia, {}));
   m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
   m.model.addDrive(d);
   m.start();

@@ -70,12 +70,13 @@ TEST(Rattle, RodTensionIsThatOfTheExactMotion) {
 }
 
 TEST(Rattle, FourBarsPassTheirSingularPositionWithTheOrderOfTheScheme) {
-  struct Case {
+  struct FourBars {
     int n;
     double t, x, z;
   };
   // One degree of freedom in closed form: [(N+1)/3 + N] phi'' = g [(N+1)/2 + N] sin(phi).
-  for (const Case& c : {Case{2, 10, .328458111541, .944518538179}, Case{40, 5, -.540190050676, -.841543052464}})
+  for (const FourBars& c :
+       {FourBars{2, 10, .328458111541, .944518538179}, FourBars{40, 5, -.540190050676, -.841543052464}})
     for (const int order : {2, 4}) {
       int singular = 0;
       const double measured =

@@ -13,7 +13,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-const Mat3d kInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
+const Mat3d kRodInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
 
 std::string refusal(const std::function<void()>& f) {
   try {
@@ -38,7 +38,7 @@ TEST(Start, VelocitiesThatBreakAJointAreRefusedByNameOrProjected) {
   for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
     Model model;
     // A rod whose centre moves along its own axis, away from the pin.
-    model.addBody(makeBody("rod", 1, kInertia, {{1, 0, 0}, {}}, {0.5, 0, -1}, {0, 1, 0}));
+    model.addBody(makeBody("rod", 1, kRodInertia, {{1, 0, 0}, {}}, {0.5, 0, -1}, {0, 1, 0}));
     model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
     SolverOptions o;
     o.integrator = integrator;
@@ -71,8 +71,8 @@ TEST(Start, DrivesThatContradictAreRefusedByName) {
   }
   {
     Model model;
-    model.addBody(makeBody("one", 1, kInertia, {}));
-    model.addBody(makeBody("two", 1, kInertia, {}));
+    model.addBody(makeBody("one", 1, kRodInertia, {}));
+    model.addBody(makeBody("two", 1, kRodInertia, {}));
     model.addJointAt("hub 1", JointType::kRevolute, kWorld, 0, {});
     model.addJointAt("hub 2", JointType::kRevolute, kWorld, 1, {});
     Coupling c;
@@ -90,7 +90,7 @@ TEST(Start, DrivesThatContradictAreRefusedByName) {
   }
   {
     Model model;
-    model.addBody(makeBody("door", 1, kInertia, {}));
+    model.addBody(makeBody("door", 1, kRodInertia, {}));
     model.addJointAt("hinge", JointType::kRevolute, kWorld, 0, {});
     model.addJointAt("latch", JointType::kFixed, kWorld, 0, {});
     d.joint = 0, d.speed = 0;
@@ -103,7 +103,7 @@ TEST(Start, DrivenAxesMustStartWhereAndAsFastAsTheirLaws) {
   Drive d;
   d.name = "motor", d.kind = DriveKind::kPosition;
   Model model;
-  model.addBody(makeBody("wheel", 1, kInertia, {}));
+  model.addBody(makeBody("wheel", 1, kRodInertia, {}));
   model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
   Model elsewhere = model, fast = model;
   expectRefused([&] { model.addDrive(d); }, {"drive 'motor'", "law"});
@@ -118,13 +118,13 @@ TEST(Start, DrivenAxesMustStartWhereAndAsFastAsTheirLaws) {
 TEST(Start, FramesThatDoNotMeetAreRefused) {
   {
     Model model;
-    model.addBody(makeBody("link", 1, kInertia, {}));
+    model.addBody(makeBody("link", 1, kRodInertia, {}));
     model.addJoint({"rod", JointType::kDistance, kWorld, 0, {{0, 0, 1}, {}}, {}, 0, 0, 1.01});
     expectSolverRefuses(model, {"joint 'rod'", "distance", "open", "0.01"});
   }
   {
     Model model;
-    model.addBody(makeBody("link", 1, kInertia, {}));
+    model.addBody(makeBody("link", 1, kRodInertia, {}));
     model.addJoint({"rod", JointType::kDistance, kWorld, 0, {{0, 0, 1}, {}}, {{0, 0, 1}, {}}, 0, 0, 1});
     expectSolverRefuses(model, {"joint 'rod'", "open"});
     expectRefused(
@@ -136,13 +136,13 @@ TEST(Start, FramesThatDoNotMeetAreRefused) {
   {
     // Half a turn about x: the dot products of the angle rows vanish, yet z points the other way.
     Model model;
-    model.addBody(makeBody("link", 1, kInertia, {{}, {0, 1, 0, 0}}));
+    model.addBody(makeBody("link", 1, kRodInertia, {{}, {0, 1, 0, 0}}));
     model.addJoint({"weld", JointType::kFixed, kWorld, 0, {}, {}});
     expectSolverRefuses(model, {"joint 'weld'", "opposite"});
   }
   {
     Model model;
-    model.addBody(makeBody("nut", 1, kInertia, {}));
+    model.addBody(makeBody("nut", 1, kRodInertia, {}));
     model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}});
     Coupling c;
     c.name = "thread", c.axis1 = JointAxis::kAngle, c.axis2 = JointAxis::kSlide, c.ratio = 0.01, c.offset = 0.2;
@@ -153,8 +153,8 @@ TEST(Start, FramesThatDoNotMeetAreRefused) {
 
 TEST(Start, AxesMustBeNamedWhereThereAreTwoAndExistWhereTheyAreNamed) {
   Model model;
-  model.addBody(makeBody("nut", 1, kInertia, {}));
-  model.addBody(makeBody("wheel", 1, kInertia, {}));
+  model.addBody(makeBody("nut", 1, kRodInertia, {}));
+  model.addBody(makeBody("wheel", 1, kRodInertia, {}));
   const int bar = model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}});
   const int hub = model.addJoint({"hub", JointType::kRevolute, kWorld, 1, {}, {}});
   AxisSpring s;
@@ -185,7 +185,7 @@ TEST(Start, LawsAreChecked) {
   Drive d;
   d.name = "motor", d.law.table = {{0, 1, 1}, {0, 1, 2}};
   Model model;
-  model.addBody(makeBody("wheel", 1, kInertia, {}));
+  model.addBody(makeBody("wheel", 1, kRodInertia, {}));
   model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
   expectRefused([&] { model.addDrive(d); }, {"drive 'motor'", "table", "increase"});
   d.law.table = {{0, 1}, {0}};
@@ -232,10 +232,10 @@ TEST(SavedStates, ARunResumedGivesTheSameBitsWithEveryKindOfPart) {
   const auto build = [](Model& model) {
     Body bob = makeBody("bob", 1, {}, {{0.5, 0, -1}, {}});
     bob.point = true;
-    model.addBody(makeBody("nut", 1, kInertia, {}));
-    model.addBody(makeBody("frame", 2, kInertia, {{0, 1, 0}, {}}));
+    model.addBody(makeBody("nut", 1, kRodInertia, {}));
+    model.addBody(makeBody("frame", 2, kRodInertia, {{0, 1, 0}, {}}));
     model.addBody(bob);
-    model.addBody(makeBody("wheel", 1, kInertia, {{0, 3, 0}, {}}));
+    model.addBody(makeBody("wheel", 1, kRodInertia, {{0, 3, 0}, {}}));
     model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}, 0.1, 0.2});
     model.addJoint({"rod", JointType::kDistance, 1, 2, {}, {}});
     model.addJointAt("hub", JointType::kRevolute, kWorld, 3, {{0, 3, 0}, {}});

@@ -16,7 +16,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-const Mat3d kInertia = Mat3d::diagonal({0.4, 0.7, 0.5});
+const Mat3d kArmInertia = Mat3d::diagonal({0.4, 0.7, 0.5});
 
 /// A bit of everything: ring, chassis with sprung arms and wheels, slide with stops, drive, point spring.
 Mechanism vehicleLike() {
@@ -27,15 +27,15 @@ Mechanism vehicleLike() {
   const int chassis = m.model.addBody(makeBody("chassis", 100, Mat3d::diagonal({20, 30, 25}), {}));
   for (int i = 0; i < 3; ++i) {
     const std::string n = std::to_string(i);
-    const int arm = m.model.addBody(makeBody("arm " + n, 5, kInertia, {{i + 0.2, 0, -0.1}, {}}));
-    const int wheel = m.model.addBody(makeBody("wheel " + n, 8, kInertia, {{i + 0.4, 0, -0.2}, {}}));
+    const int arm = m.model.addBody(makeBody("arm " + n, 5, kArmInertia, {{i + 0.2, 0, -0.1}, {}}));
+    const int wheel = m.model.addBody(makeBody("wheel " + n, 8, kArmInertia, {{i + 0.4, 0, -0.2}, {}}));
     const int pivot =
         m.model.addJointAt("pivot " + n, JointType::kRevolute, chassis, arm, frameWithZ({1.0 * i, 0, 0}, kY));
     m.model.addJointAt("axle " + n, JointType::kRevolute, arm, wheel, frameWithZ({i + 0.4, 0, -0.2}, kY), 0.1);
     m.model.addAxisSpring({"torsion " + n, pivot, 7700, 300, 0, -60});
   }
   m.model.addDrive({"motor", m.model.jointIndex("axle 0"), 3, true});
-  const int idler = m.model.addBody(makeBody("idler", 8, kInertia, {{3, 0, 0}, {}}));
+  const int idler = m.model.addBody(makeBody("idler", 8, kArmInertia, {{3, 0, 0}, {}}));
   const int slide =
       m.model.addJointAt("slide", JointType::kPrismatic, chassis, idler, frameWithZ({3, 0, 0}, {1, 0, 0}));
   AxisSpring tensioner;
@@ -179,8 +179,8 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
   };
   Model model;
   const auto body = [&](double mass, const Mat3d& I) { model.addBody(makeBody("shoe 3", mass, I, {})); };
-  expectMessage([&] { body(0, kInertia); }, "shoe 3", "mass");
-  expectMessage([&] { body(std::numeric_limits<double>::quiet_NaN(), kInertia); }, "shoe 3", "mass");
+  expectMessage([&] { body(0, kArmInertia); }, "shoe 3", "mass");
+  expectMessage([&] { body(std::numeric_limits<double>::quiet_NaN(), kArmInertia); }, "shoe 3", "mass");
   expectMessage(
       [&] {
         body(1, Mat3d::diagonal({1, -1, 1}));
@@ -190,8 +190,8 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
   expectMessage([&] { body(1, {{{1, 0.6, 0}, {0.6, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "they are 0.4, 1, 1.6");
   expectMessage([&] { body(1, {{{1, 0.1, 0}, {0, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "symmetric");
   body(1, Mat3d::diagonal({1, 1, 2})); // a flat plate is allowed
-  expectMessage([&] { body(1, kInertia); }, "shoe 3", "taken");
-  Body ground = makeBody("ground", 1, kInertia, {});
+  expectMessage([&] { body(1, kArmInertia); }, "shoe 3", "taken");
+  Body ground = makeBody("ground", 1, kArmInertia, {});
   ground.fixed = true;
   model.addBody(ground);
   expectMessage([&] { model.addJointAt("a", JointType::kRevolute, kWorld, 1, {}); }, "joint 'a'", "fixed");
@@ -204,14 +204,14 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
   expectMessage([&] { model.addAxisSpring({"torsion", 9, 1, 0, 0, 0}); }, "torsion", "joint index");
   expectMessage([&] { model.bodyIndex("sho 3"); }, "sho 3", "none");
   Model open;
-  open.addBody(makeBody("link", 1, kInertia, {}));
+  open.addBody(makeBody("link", 1, kArmInertia, {}));
   open.addJoint({"pin", JointType::kRevolute, kWorld, 0, {{0, 0, 0.01}, {}}, {}, 0});
   expectMessage([&] { const Solver solver(open); }, "joint 'pin'", "open");
 }
 
 TEST(MultibodyErrors, AStepTooLongForTheMotionIsRefusedWithTheBodysName) {
   Mechanism m;
-  m.model.addBody(makeBody("rod", 1, kInertia, {{1, 0, 0}, {}}));
+  m.model.addBody(makeBody("rod", 1, kArmInertia, {{1, 0, 0}, {}}));
   m.model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
   m.start();
   m.loads.external[0].force = {0, 0, 1e9};
@@ -228,7 +228,7 @@ TEST(MultibodyState, TolerancesThatAreNotGivenAreTheDocumentedOnes) {
   for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
     const auto stateWith = [&](double tolerance) {
       Mechanism m;
-      m.model.addBody(makeBody("rod", 1, kInertia, {{1, 0, 0}, {}}));
+      m.model.addBody(makeBody("rod", 1, kArmInertia, {{1, 0, 0}, {}}));
       m.model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
       m.start();
       SolverOptions options;
@@ -245,7 +245,7 @@ TEST(MultibodyState, TolerancesThatAreNotGivenAreTheDocumentedOnes) {
 
 TEST(MultibodyErrors, NotANumberIsReportedWithItsPlace) {
   Mechanism m;
-  m.model.addBody(makeBody("free", 1, kInertia, {}));
+  m.model.addBody(makeBody("free", 1, kArmInertia, {}));
   m.start();
   m.loads.external[0].force = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
   Solver solver(m.model);
@@ -258,9 +258,9 @@ TEST(MultibodyErrors, ADriveOutOfReachNamesARowThatStaysOpen) {
   for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
     Mechanism m;
     const Pose elbow{{0, 0.6, 0.8}, {}}, end{{0, 1.2, 0}, {}};
-    m.model.addBody(makeBody("upper", 1, kInertia, {{0, 0.3, 0.4}, {}}));
-    m.model.addBody(makeBody("lower", 1, kInertia, {{0, 0.9, 0.4}, {}}));
-    m.model.addBody(makeBody("slide", 1, kInertia, end));
+    m.model.addBody(makeBody("upper", 1, kArmInertia, {{0, 0.3, 0.4}, {}}));
+    m.model.addBody(makeBody("lower", 1, kArmInertia, {{0, 0.9, 0.4}, {}}));
+    m.model.addBody(makeBody("slide", 1, kArmInertia, end));
     m.model.addJointAt("shoulder", JointType::kSpherical, kWorld, 0, {});
     m.model.addJointAt("elbow", JointType::kSpherical, 0, 1, elbow);
     m.model.addJointAt("wrist", JointType::kSpherical, 1, 2, end);

@@ -16,7 +16,7 @@ namespace {
 
 using base::Vec3d;
 
-struct Kind {
+struct LaneKind {
   bool friction = true, ledger = true, walls = true, loads = false, attraction = false;
   int grains = 391; ///< neither a multiple of a width nor of a block
   double wallFriction = 0.5;
@@ -33,7 +33,7 @@ double die(int grain, int use) {
                        static_cast<std::uint64_t>(use));
 }
 
-GrainModel modelOf(const Kind& kind) {
+GrainModel laneModel(const LaneKind& kind) {
   GrainModel m = ball(4e-5);
   m.gravity = {0.5, -0.2, -9.81};
   m.law.damping = 800, m.law.attraction = kind.attraction;
@@ -53,7 +53,7 @@ GrainModel modelOf(const Kind& kind) {
 }
 
 /// A heap that falls, splashes against the walls and comes to lie in part: contacts begin, stick, slide and end.
-std::vector<GrainSpec> heap(const Kind& kind) {
+std::vector<GrainSpec> heap(const LaneKind& kind) {
   std::vector<GrainSpec> start;
   const int grains = kind.grains;
   const auto sized = [&](GrainSpec& g, int i) {
@@ -108,9 +108,9 @@ void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
 }
 
 /// State and books.
-std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, int steps, double skin = 0.5,
+std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threads, int steps, double skin = 0.5,
                                       bool apart = false) {
-  GrainModel m = modelOf(kind);
+  GrainModel m = laneModel(kind);
   m.mostSimdLanes = lanes, m.skin = skin;
   contact::ContactLaw wall = m.law;
   wall.friction = kind.wallFriction;
@@ -143,24 +143,24 @@ std::vector<std::uint32_t> wordsAfter(const Kind& kind, int lanes, int threads, 
 }
 
 TEST(GrainsLaunchedAhead, StepToTheSameBits) {
-  for (const Kind& kind : {Kind{.loads = true}, Kind{.loads = true, .fixed = true}})
+  for (const LaneKind& kind : {LaneKind{.loads = true}, LaneKind{.loads = true, .fixed = true}})
     EXPECT_EQ(wordsAfter(kind, 1, 2, 150, 0.5, true), wordsAfter(kind, 1, 2, 150));
 }
 
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
-  const Kind kinds[] = {{},
-                        {.ledger = false},
-                        {.friction = false, .wallFriction = 0},
-                        {.friction = false, .ledger = false, .wallFriction = 0},
-                        {.friction = false}, // only walls rub: the scalar kernel must take it
-                        {.walls = false},
-                        {.loads = true},
-                        {.friction = false, .loads = true, .wallFriction = 0},
-                        {.attraction = true},
-                        {.grains = 1},
-                        {.grains = 63},
-                        {.grains = 257}};
-  for (const Kind& kind : kinds) {
+  const LaneKind kinds[] = {{},
+                            {.ledger = false},
+                            {.friction = false, .wallFriction = 0},
+                            {.friction = false, .ledger = false, .wallFriction = 0},
+                            {.friction = false}, // only walls rub: the scalar kernel must take it
+                            {.walls = false},
+                            {.loads = true},
+                            {.friction = false, .loads = true, .wallFriction = 0},
+                            {.attraction = true},
+                            {.grains = 1},
+                            {.grains = 63},
+                            {.grains = 257}};
+  for (const LaneKind& kind : kinds) {
     const auto expected = wordsAfter(kind, 1, 1, kSteps);
     for (const int lanes : {4, 8, 16})
       EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, " << kind.grains << " grains";
@@ -171,16 +171,16 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
 /// All that beds of soil have, each with and without.
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
   for (int bits = 0; bits < 32; ++bits) {
-    const Kind kind{.ledger = bits != 7,
-                    .loads = bits % 3 == 1,
-                    .grains = 257,
-                    .hertz = (bits & 1) != 0,
-                    .rolling = (bits & 2) != 0,
-                    .periodic = (bits & 16) != 0,
-                    .fixed = (bits & 8) != 0,
-                    .surface = bits % 5 == 1,
-                    .smallest = bits & 4 ? 0.6 : 1,
-                    .cohesive = bits & 1 && bits % 7 < 4}; // lanes know that of Hertz' law
+    const LaneKind kind{.ledger = bits != 7,
+                        .loads = bits % 3 == 1,
+                        .grains = 257,
+                        .hertz = (bits & 1) != 0,
+                        .rolling = (bits & 2) != 0,
+                        .periodic = (bits & 16) != 0,
+                        .fixed = (bits & 8) != 0,
+                        .surface = bits % 5 == 1,
+                        .smallest = bits & 4 ? 0.6 : 1,
+                        .cohesive = bits & 1 && bits % 7 < 4}; // lanes know that of Hertz' law
     const auto expected = wordsAfter(kind, 1, 1, kSteps);
     for (const int lanes : {4, 8, 16})
       EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, kind " << bits;
@@ -192,15 +192,15 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
 /// device under test.
 TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
   for (int bits = 0; bits < 12; ++bits) {
-    Kind kind{.hertz = true,
-              .rolling = bits % 6 >= 3 || bits % 3 == 2,
-              .periodic = true,
-              .fixed = true,
-              .surface = bits >= 6,
-              .smallest = 0.6,
-              .cohesive = bits % 3 == 1,
-              .yielding = bits % 3 == 2,
-              .onDevice = true};
+    LaneKind kind{.hertz = true,
+                  .rolling = bits % 6 >= 3 || bits % 3 == 2,
+                  .periodic = true,
+                  .fixed = true,
+                  .surface = bits >= 6,
+                  .smallest = 0.6,
+                  .cohesive = bits % 3 == 1,
+                  .yielding = bits % 3 == 2,
+                  .onDevice = true};
     const auto special = wordsAfter(kind, 1, 2, kSteps);
     kind.special = false;
     EXPECT_TRUE(wordsAfter(kind, 1, 1, kSteps) == special) << "kind " << bits;
@@ -211,7 +211,7 @@ TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
 /// block of contacts holds.
 TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
   for (const double times : {6.0, 12.0}) {
-    GrainModel m = modelOf({.rolling = true, .smallest = 0.5});
+    GrainModel m = laneModel({.rolling = true, .smallest = 0.5});
     const double small = m.radius / times;
     m.skin = 1.5, m.timeStep = times > 6 ? 5e-7 : 1.5e-6, m.smallestRadius = small;
     std::vector<GrainSpec> start{{{0, 0, 0}, {0, 0, -1}, {10, 20, 30}, m.radius}};

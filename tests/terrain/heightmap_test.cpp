@@ -75,10 +75,10 @@ Bytes png(int columns, int rows, int bits, ColourType colour, const std::vector<
   return file;
 }
 
-class HeightmapFile : public testing::Test {
+class HeightmapFile : public ::testing::Test {
 protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     file_ = std::filesystem::temp_directory_path() / (std::string("grouser_") + info->name() + ".png");
   }
   void TearDown() override { std::filesystem::remove(file_); }

@@ -76,7 +76,7 @@ double leastClearance(const HeightField& floor, const Seed& g) {
   return least;
 }
 
-class LayersOnAnyGround : public testing::TestWithParam<std::tuple<HeightField (*)(), FloorShape, double, double>> {};
+class LayersOnAnyGround : public ::testing::TestWithParam<std::tuple<HeightField (*)(), FloorShape, double, double>> {};
 
 TEST_P(LayersOnAnyGround, NoGrainTouchesAnotherTheFloorOrAWall_AndThePlanCountsThem) {
   const auto [ground, floor, jitter, spacing] = GetParam();
@@ -99,9 +99,9 @@ TEST_P(LayersOnAnyGround, NoGrainTouchesAnotherTheFloorOrAWall_AndThePlanCountsT
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LayersOnAnyGround,
-                         testing::Combine(testing::Values(level, steep, hills, cliff, spikes),
-                                          testing::Values(FloorShape::follow, FloorShape::flat),
-                                          testing::Values(0.0, 1.0), testing::Values(2.05, 2.6)));
+                         ::testing::Combine(::testing::Values(level, steep, hills, cliff, spikes),
+                                            ::testing::Values(FloorShape::follow, FloorShape::flat),
+                                            ::testing::Values(0.0, 1.0), ::testing::Values(2.05, 2.6)));
 
 TEST(Layers, WithoutJitterOnLevelGround_AreALatticeOneSpacingApart) {
   LayerOptions o = options();

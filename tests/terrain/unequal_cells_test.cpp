@@ -18,7 +18,7 @@ using base::Vec3d;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr std::uint64_t kTest = base::purpose("terrain.unequal-cells-test");
 /// 16 columns of 0.25 m, 25 rows of 0.05 m; the corner is not the origin.
-constexpr Rectangle kArea{-1.5, 2.25, 3, 4.2};
+constexpr Rectangle kCellsArea{-1.5, 2.25, 3, 4.2};
 constexpr int kColumns = 16, kRows = 25;
 
 double random(int i, int k, double from, double to) {
@@ -29,7 +29,7 @@ double bowl(double x, double y) {
   const double v = y - 3.6;
   return 0.2 + 0.1 * x - 0.3 * v + 0.4 * x * x - 0.25 * x * v + 0.7 * v * v;
 }
-HeightField bowlField() { return HeightField::sample(kArea, kColumns, kRows, bowl); }
+HeightField bowlField() { return HeightField::sample(kCellsArea, kColumns, kRows, bowl); }
 
 TEST(UnequalCells, AQuadraticHasItsOwnHeightsSlopesAndCurvatures) {
   const HeightField field = bowlField();
@@ -57,7 +57,7 @@ TEST(UnequalCells, AStepAcrossIsFeltInItsOwnDirectionOnly) {
     std::vector<double> heights;
     for (int j = 0; j < kRows; ++j)
       for (int i = 0; i < kColumns; ++i) heights.push_back((column ? i == 6 : j == 6) ? 0.1 : 0.0);
-    const HeightField field(kArea, kColumns, kRows, heights);
+    const HeightField field(kCellsArea, kColumns, kRows, heights);
     const double x = column ? -1.5 + 6 * 0.25 : 0.3, y = column ? 3.7 : 3 + 6 * 0.05;
     EXPECT_NEAR(field.height(x, y), 0.1, 10 * kEps);
     EXPECT_NEAR(field.height(x + (column ? 0.5 : 0), y + (column ? 0 : 0.1)), 0, 10 * kEps) << "two nodes on";
@@ -83,7 +83,7 @@ TEST(UnequalCells, ClosestPointIsTheFootOfTheNormal) {
 
 TEST(UnequalCells, ClosestPointOnAPlaneIsExact) {
   const HeightField plane =
-      HeightField::sample(kArea, kColumns, kRows, [](double x, double y) { return 0.3 * x - 1.2 * y + 2; });
+      HeightField::sample(kCellsArea, kColumns, kRows, [](double x, double y) { return 0.3 * x - 1.2 * y + 2; });
   const Vec3d n = base::normalized(Vec3d{-0.3, 1.2, 1.0});
   for (int i = 0; i < 200; ++i) {
     const Vec3d p{random(i, 0, -1.5, 2.25), random(i, 1, 3, 4.2), random(i, 2, -4, 1)};
@@ -99,26 +99,29 @@ TEST(UnequalCells, BoundsOfAQuadraticAreItsOwn) {
   // Along y alone, and along x alone: the net of a quadratic has its slope at the ends and its curvature throughout,
   // but for the outermost cells, where the surface runs out into its tangent.
   const Rectangle inner{-1.2, 1.9, 3.07, 4.12};
-  const HeightField alongY = HeightField::sample(kArea, kColumns, kRows, [](double, double y) { return y * y / 2; });
+  const HeightField alongY =
+      HeightField::sample(kCellsArea, kColumns, kRows, [](double, double y) { return y * y / 2; });
   EXPECT_NEAR(alongY.boundsOver(inner).valleyCurvature, 1, 1e-9);
   EXPECT_NEAR(alongY.boundsOver(inner).slope, 4.15, 1e-12);
-  const HeightField alongX = HeightField::sample(kArea, kColumns, kRows, [](double x, double) { return x * x / 2; });
+  const HeightField alongX =
+      HeightField::sample(kCellsArea, kColumns, kRows, [](double x, double) { return x * x / 2; });
   EXPECT_NEAR(alongX.boundsOver(inner).valleyCurvature, 1, 1e-9);
   EXPECT_NEAR(alongX.boundsOver(inner).slope, 2, 1e-12);
-  const HeightField twist = HeightField::sample(kArea, kColumns, kRows, [](double x, double y) { return 0.5 * x * y; });
+  const HeightField twist =
+      HeightField::sample(kCellsArea, kColumns, kRows, [](double x, double y) { return 0.5 * x * y; });
   EXPECT_NEAR(twist.bounds().valleyCurvature, 0.5, 1e-9);
 }
 
 TEST(UnequalCells, BoundsOverAPartTakeTheCellsOfThatPart) {
   const HeightField field = HeightField::sample(
-      kArea, kColumns, kRows, [](double x, double y) { return (x > 1.1 ? 1 : 0) + (y > 4.05 ? 2 : 0); });
+      kCellsArea, kColumns, kRows, [](double x, double y) { return (x > 1.1 ? 1 : 0) + (y > 4.05 ? 2 : 0); });
   EXPECT_EQ(field.boundsOver({-1, 0.2, 3.2, 3.7}).highest, 0);
   EXPECT_NEAR(field.boundsOver({1.6, 1.9, 3.2, 3.7}).lowest, 1, 1e-12);
   EXPECT_NEAR(field.boundsOver({-1, 0.2, 4.16, 4.19}).highest, 2, 0.2);
 }
 
 TEST(UnequalCells, ClearOfUsesTheSteepestSlope) {
-  const HeightField plane = HeightField::sample(kArea, kColumns, kRows, [](double, double y) { return 2 * y; });
+  const HeightField plane = HeightField::sample(kCellsArea, kColumns, kRows, [](double, double y) { return 2 * y; });
   // A ball of 0.1 m touches a slope of 2 when it is less than 0.1 sqrt(5) above it.
   const double root = std::sqrt(5.0);
   EXPECT_FALSE(plane.view().clearOf({0.3, 3.6, 7.2 + 0.1 * root * (1 - 1e-9)}, 0.1));

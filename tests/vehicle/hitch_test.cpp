@@ -18,7 +18,7 @@ using vehicle::HitchOptions;
 
 namespace {
 
-const Vec3d kGravity{0, 0, -9.81};
+const Vec3d kHitchGravity{0, 0, -9.81};
 
 HitchOptions of(HitchKind kind) {
   HitchOptions o;
@@ -33,7 +33,7 @@ HitchMotion at(double x, double speed, double trackSpeed = 0) { return {{x, 0, 0
 struct Block {
   double mass = 1000, x = 0, speed = 0, time = 0;
   double step(Hitch& hitch, double dt, double thrust = 0, double trackSpeed = 0) {
-    const Vec3d force = hitch.step(at(x, speed, trackSpeed), time, dt, kGravity);
+    const Vec3d force = hitch.step(at(x, speed, trackSpeed), time, dt, kHitchGravity);
     speed += (force.x + thrust) / mass * dt, x += speed * dt, time += dt;
     return force.x;
   }
@@ -57,10 +57,10 @@ TEST(Hitch, ForceActsAgainstTheHeadingFromItsStartOnAndComesOnSmoothly) {
   o.force = 250, o.start = 1, o.ramp = 0.5;
   Hitch hitch(o);
   const HitchMotion aslant{{0, 0, 0}, {0, 0, 0}, 0.6, 0.8, 0};
-  EXPECT_EQ(hitch.step(aslant, -1, 1e-3, kGravity), Vec3d{});
-  EXPECT_EQ(hitch.step(aslant, 0.99, 1e-3, kGravity), Vec3d{});
+  EXPECT_EQ(hitch.step(aslant, -1, 1e-3, kHitchGravity), Vec3d{});
+  EXPECT_EQ(hitch.step(aslant, 0.99, 1e-3, kHitchGravity), Vec3d{});
   EXPECT_FALSE(hitch.holds());
-  const Vec3d half = hitch.step(aslant, 1.25, 1e-3, kGravity), all = hitch.step(aslant, 2, 1e-3, kGravity);
+  const Vec3d half = hitch.step(aslant, 1.25, 1e-3, kHitchGravity), all = hitch.step(aslant, 2, 1e-3, kHitchGravity);
   EXPECT_NEAR(half.x, -0.6 * 125, 1e-12);
   EXPECT_NEAR(half.y, -0.8 * 125, 1e-12);
   EXPECT_NEAR(norm(all), 250, 1e-12);
@@ -71,15 +71,15 @@ TEST(Hitch, RampGrowsAtItsRate) {
   HitchOptions o = of(HitchKind::ramp);
   o.force = 100, o.rate = 40, o.start = 0.5;
   Hitch hitch(o);
-  EXPECT_EQ(hitch.step(at(0, 0), 0.4, 1e-3, kGravity).x, 0);
-  EXPECT_NEAR(hitch.step(at(0, 0), 0.5, 1e-3, kGravity).x, -100, 1e-12);
-  EXPECT_NEAR(hitch.step(at(0, 0), 3, 1e-3, kGravity).x, -200, 1e-12);
+  EXPECT_EQ(hitch.step(at(0, 0), 0.4, 1e-3, kHitchGravity).x, 0);
+  EXPECT_NEAR(hitch.step(at(0, 0), 0.5, 1e-3, kHitchGravity).x, -100, 1e-12);
+  EXPECT_NEAR(hitch.step(at(0, 0), 3, 1e-3, kHitchGravity).x, -200, 1e-12);
 }
 
 TEST(Hitch, SledAtConstantSpeedPullsWithItsFriction) {
   Hitch hitch(of(HitchKind::sled));
   double pull = 0;
-  for (int i = 0; i < 200000; ++i) pull = hitch.step(at(0.5 * 1e-4 * i, 0.5), 1e-4 * i, 1e-4, kGravity).x;
+  for (int i = 0; i < 200000; ++i) pull = hitch.step(at(0.5 * 1e-4 * i, 0.5), 1e-4 * i, 1e-4, kHitchGravity).x;
   EXPECT_NEAR(pull, -0.6 * 400 * 9.81, 1e-6 * 0.6 * 400 * 9.81) << "what the rope's swing has left after 20 s";
   EXPECT_NEAR(hitch.towedSpeed(), 0.5, 1e-9);
   EXPECT_NEAR(hitch.way(), 10, 0.01) << "less by the stretch of the rope, mu m g / k = 2.4 mm";
@@ -89,20 +89,20 @@ TEST(Hitch, SledHoldsUntilItsFrictionIsOvercome) {
   Hitch hitch(of(HitchKind::sled));
   const double limit = 0.6 * 400 * 9.81; // 2354 N: a stretch of 2.354 mm
   double pull = 0;
-  for (int i = 0; i < 1000; ++i) pull = hitch.step(at(0.99 * limit / 1e6, 0), 1e-4 * i, 1e-4, kGravity).x;
+  for (int i = 0; i < 1000; ++i) pull = hitch.step(at(0.99 * limit / 1e6, 0), 1e-4 * i, 1e-4, kHitchGravity).x;
   // It has taken hold where it was: the way counts from there.
   EXPECT_EQ(pull, 0);
-  for (int i = 0; i < 1000; ++i) pull = hitch.step(at(1.98 * limit / 1e6, 0), 0.1 + 1e-4 * i, 1e-4, kGravity).x;
+  for (int i = 0; i < 1000; ++i) pull = hitch.step(at(1.98 * limit / 1e6, 0), 0.1 + 1e-4 * i, 1e-4, kHitchGravity).x;
   EXPECT_NEAR(pull, -0.99 * limit, 1e-9 * limit);
   EXPECT_EQ(hitch.way(), 0);
-  for (int i = 0; i < 1000; ++i) pull = hitch.step(at(2.2 * limit / 1e6, 0), 0.2 + 1e-4 * i, 1e-4, kGravity).x;
+  for (int i = 0; i < 1000; ++i) pull = hitch.step(at(2.2 * limit / 1e6, 0), 0.2 + 1e-4 * i, 1e-4, kHitchGravity).x;
   EXPECT_GT(hitch.way(), 0);
 }
 
 TEST(Hitch, RopeOfASledDoesNotPush) {
   Hitch hitch(of(HitchKind::sled));
-  hitch.step(at(0, 0), 0, 1e-4, kGravity);
-  EXPECT_EQ(hitch.step(at(-0.5, -1), 1, 1e-4, kGravity), Vec3d{});
+  hitch.step(at(0, 0), 0, 1e-4, kHitchGravity);
+  EXPECT_EQ(hitch.step(at(-0.5, -1), 1, 1e-4, kHitchGravity), Vec3d{});
 }
 
 /// Block and sled go as one under a constant thrust: a = (thrust - mu m g) / (M + m), T = mu m g + m a.
@@ -120,10 +120,10 @@ TEST(Hitch, SledAddsItsMass) {
 
 TEST(Hitch, SledFollowsAndPullsTowardsItself) {
   Hitch hitch(of(HitchKind::sled));
-  hitch.step(at(0, 0), 0, 1e-4, kGravity); // the sled stands at (-3, 0)
+  hitch.step(at(0, 0), 0, 1e-4, kHitchGravity); // the sled stands at (-3, 0)
   HitchMotion aside = at(1.2, 0);
   aside.position.y = 1.2; // to (1.2, 1.2): towards it is (-4.2, -1.2)
-  const Vec3d force = hitch.step(aside, 1e-4, 1e-4, kGravity);
+  const Vec3d force = hitch.step(aside, 1e-4, 1e-4, kHitchGravity);
   EXPECT_NEAR(force.y / force.x, 1.2 / 4.2, 1e-12);
   EXPECT_LT(force.x, 0);
 }

@@ -19,12 +19,12 @@ namespace {
 /// better.
 constexpr double kFacet = 1e-4;
 
-vehicle::VehicleSpec spec() {
+vehicle::VehicleSpec meshSpec() {
   return vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
 }
 
 std::vector<Vec3d> vertices(const std::string& mesh) {
-  std::ifstream file(spec().meshFolder + "/" + mesh);
+  std::ifstream file(meshSpec().meshFolder + "/" + mesh);
   std::vector<Vec3d> points;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
@@ -47,7 +47,7 @@ double largestRadius(const std::string& mesh) {
 } // namespace
 
 TEST(Meshes, Shoe_HasTheSpecsHeights) {
-  const vehicle::ShoeSpec shoe = spec().shoe;
+  const vehicle::ShoeSpec shoe = meshSpec().shoe;
   Vec3d low{1, 1, 1}, high{-1, -1, -1};
   for (const Vec3d& p : vertices(shoe.mesh)) low = base::min(low, p), high = base::max(high, p);
   EXPECT_NEAR(low.z, shoe.padBottom - shoe.grouserHeight, kFacet);
@@ -59,14 +59,14 @@ TEST(Meshes, Shoe_HasTheSpecsHeights) {
 }
 
 TEST(Meshes, Wheels_HaveTheSpecsRadii) {
-  const vehicle::VehicleSpec s = spec();
+  const vehicle::VehicleSpec s = meshSpec();
   EXPECT_NEAR(largestRadius(s.roadWheel.mesh), s.roadWheel.radius, kFacet);
   EXPECT_NEAR(largestRadius(s.roller.mesh), s.roller.radius, kFacet);
   EXPECT_NEAR(largestRadius(s.idler.mesh), s.idler.radius, kFacet);
 }
 
 TEST(Meshes, Sprocket_HasItsGapsWhereTheWrapPutsThePins) {
-  const vehicle::VehicleSpec s = spec();
+  const vehicle::VehicleSpec s = meshSpec();
   const double tooth = 2 * base::kPi / s.sprocket.teeth;
   double rim = 0;
   std::vector<double> bottom(s.sprocket.teeth, 1.0);

@@ -53,8 +53,6 @@ protected:
   }
 };
 
-} // namespace
-
 TEST_F(ObserverValues, TensionIsTheForceInThePinAheadOfEachShoe) {
   for (std::size_t track = 0; track < 2; ++track)
     for (std::size_t i = 0; i < 46; ++i) {
@@ -336,3 +334,5 @@ TEST_F(ObserverValues, TableWritesEachQuantityUnderItsOwnName) {
   EXPECT_EQ(at, flat.size());
   for (const auto& [path, values] : expected) ADD_FAILURE() << path << " is no column";
 }
+
+} // namespace

@@ -46,8 +46,6 @@ protected:
   }
 };
 
-} // namespace
-
 TEST_F(Observers, PadHeight_IsTheLowestCornerOfAPitchedShoe) {
   base::Pose pose{{1, 2, 3}, vehicle::planeRotation(0.1)};
   EXPECT_NEAR(vehicle::padHeight(v.spec.shoe, pose), 3 - 0.068 * base::sin(0.1) - 0.040 * base::cos(0.1), 1e-15);
@@ -248,3 +246,5 @@ TEST_F(Observers, Table_HasAsManyNumbersAsItNames) {
     EXPECT_EQ(paths.count("vehicle/left/shear"), forces ? 1u : 0u);
   }
 }
+
+} // namespace

@@ -34,8 +34,6 @@ INSTANTIATE_TEST_SUITE_P(All, ReadyVehicle,
                                          Ready{"robot", 200, 0.62412, {4e6, 5e-5}}),
                          [](const auto& ready) { return std::string(ready.param.name); });
 
-} // namespace
-
 TEST_P(ReadyVehicle, HasItsMassAndLengthAndCloses) {
   const VehicleSpec s = spec();
   EXPECT_NEAR(s.totalMass(), GetParam().mass, 0.01);
@@ -147,3 +145,5 @@ TEST(RigidArms, WheelsKeepTheirPlacesInTheHullUnderAnyLoad) {
   EXPECT_NEAR(hull.position.z, -spec.groundHeight(), 2e-3);
   EXPECT_EQ(ride.observe().alarm, "");
 }
+
+} // namespace

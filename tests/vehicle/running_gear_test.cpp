@@ -58,8 +58,6 @@ KeyChange adviceIn(const std::string& message, const KeyChange& fault) {
   return {m[2], m[3], "[" + values[0] + ", " + values[1] + ", " + values[2] + "]"};
 }
 
-} // namespace
-
 TEST_P(ImpossibleVehicle, IsRefusedByNameAndPlace) {
   const Impossible& p = GetParam();
   const std::string message = refusalOf({p.change});
@@ -170,3 +168,5 @@ TEST(RunningGear, AdviceOfClosure_IsFoundFromFarAway) {
     EXPECT_EQ(refusalOf({{"shoe", "count", count}, advice}), "") << message;
   }
 }
+
+} // namespace

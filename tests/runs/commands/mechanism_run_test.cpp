@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kMechanisms = GROUSER_SOURCE_DIR "/runs/mechanisms/";
-const std::string kBare = " --set output.plots=false --set output.picture=false";
+const std::string kNoPictures = " --set output.plots=false --set output.picture=false";
 
 class MechanismRun : public ProgramTest {
 protected:
@@ -34,7 +34,7 @@ protected:
 };
 
 TEST_F(MechanismRun, WritesPosesReactionsDrivesAndLedger) {
-  const Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.1" + kBare);
+  const Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.1" + kNoPictures);
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_NE(o.out.find("ledger"), std::string::npos);
   for (const char* path :
@@ -56,7 +56,7 @@ TEST_F(MechanismRun, WritesPosesReactionsDrivesAndLedger) {
 }
 
 TEST_F(MechanismRun, ForcesBeforeTheFirstStepAreMissingNotZero) {
-  const Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.02" + kBare);
+  const Outcome o = call("run " + kMechanisms + "slider_crank.toml --out r --set run.duration=0.02" + kNoPictures);
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* path : {"joints/crank pin/force", "joints/crank pin/torque", "joints/cylinder/slide_force_along",
                            "drives/motor/torque", "drives/motor/power"}) {
@@ -69,7 +69,7 @@ TEST_F(MechanismRun, ForcesBeforeTheFirstStepAreMissingNotZero) {
 
 TEST_F(MechanismRun, ResumedRunHasTheBitsOfOneStraightThrough) {
   // A checkpoint between two rows: 0.0125 s, rows each 0.005 s.
-  const std::string scene = kMechanisms + "slider_crank.toml" + kBare +
+  const std::string scene = kMechanisms + "slider_crank.toml" + kNoPictures +
                             " --set run.checkpoint_interval=0 --set run.output_interval=0.005 --hash";
   const Outcome straight = call("run " + scene + " --out straight --set run.duration=0.05");
   ASSERT_EQ(straight.code, 0) << straight.errors;
@@ -83,7 +83,7 @@ TEST_F(MechanismRun, ResumedRunHasTheBitsOfOneStraightThrough) {
 }
 
 TEST_F(MechanismRun, HashDependsOnTheScene) {
-  const std::string scene = "run " + kMechanisms + "pendulum.toml --steps 100 --hash --force --out r" + kBare;
+  const std::string scene = "run " + kMechanisms + "pendulum.toml --steps 100 --hash --force --out r" + kNoPictures;
   const Outcome first = call(scene), weaker = call(scene + " --set run.gravity=[0,-9.8,0]");
   EXPECT_EQ(call(scene).hash(), first.hash());
   EXPECT_TRUE(call(scene + " --set body.0.mass=2").hasHash());
@@ -115,7 +115,7 @@ TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
   // pi / 10 of that, of which rows of 0.01 s take a whole share. Light chains are left with 1 ms.
   for (const auto& [weight, stable] : {std::pair{1.0, 0.02801}, {1e2, 0.00744}, {1e4, 7.627e-4}, {1e6, 7.629e-5}}) {
     std::ofstream(folder_ / "chain.toml") << chainScene(weight, kLean);
-    const Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kBare);
+    const Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kNoPictures);
     ASSERT_EQ(o.code, 0) << weight << ": " << o.errors;
     const double step =
         0.2 / static_cast<double>(
@@ -127,7 +127,7 @@ TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
 
 TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCan) {
   std::ofstream(folder_ / "chain.toml") << chainScene(1e6, kLean);
-  const Outcome o = call("run chain.toml --out r --set run.time_step=2e-4" + kBare);
+  const Outcome o = call("run chain.toml --out r --set run.time_step=2e-4" + kNoPictures);
   EXPECT_EQ(o.code, 3) << o.errors;
   EXPECT_NE(o.errors.find("at 0.0002 s joint 'pin 5' bore so much that only steps below 7.6e-05 s are stable"),
             std::string::npos)
@@ -138,8 +138,8 @@ TEST_F(MechanismRun, PullThatGrowsSlowlyBeyondWhatAStepBearsIsNamedToo) {
   // A winch on a rail pulls the chain's end by 1e6 N/s. A run is at its end a few swings after the step's limit.
   std::ofstream(folder_ / "winch.toml") << chainScene(1, kLean) << winch("polynomial = [0, -1e6]");
   for (const auto& [step, limit] : {std::pair{"5e-4", 0.0005}, {"2.5e-4", 0.00025}}) {
-    const Outcome o =
-        call("run winch.toml --force --out r --set run.duration=2 --set run.time_step=" + std::string(step) + kBare);
+    const Outcome o = call(
+        "run winch.toml --force --out r --set run.duration=2 --set run.time_step=" + std::string(step) + kNoPictures);
     EXPECT_EQ(o.code, 3) << step;
     std::smatch named;
     ASSERT_TRUE(std::regex_search(o.errors, named, std::regex("bore so much that only steps below ([0-9.e-]+) s")))
@@ -157,14 +157,15 @@ TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
   const std::string still = " chain.toml --set run.gravity=[0,0,-9.81] --set run.time_step=",
                     warning = "at the start joint 'pin 5' bears so much that swings across it grow with steps above "
                               "7.6e-05 s";
-  const Outcome plan = call("plan" + still + "2e-4"), run = call("run" + still + "2e-4 --steps 10 --out r" + kBare);
+  const Outcome plan = call("plan" + still + "2e-4"),
+                run = call("run" + still + "2e-4 --steps 10 --out r" + kNoPictures);
   EXPECT_EQ(plan.code, 0) << plan.errors;
   EXPECT_NE(plan.out.find("warning: chain.toml: run.time_step = 0.0002 s: " + warning), std::string::npos) << plan.out;
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_NE(run.errors.find(warning), std::string::npos) << run.errors;
   for (const char* step : {"7e-5", "auto"}) {
     EXPECT_EQ(call("plan" + still + step).out.find("warning"), std::string::npos) << step;
-    const Outcome quiet = call("run" + still + step + " --steps 10 --force --out r" + kBare);
+    const Outcome quiet = call("run" + still + step + " --steps 10 --force --out r" + kNoPictures);
     EXPECT_EQ(quiet.code, 0) << quiet.errors;
     EXPECT_EQ(quiet.errors.find("warning"), std::string::npos) << quiet.errors;
   }
@@ -193,8 +194,8 @@ TEST_F(MechanismRun, SweepRunsOverAKeyOfABody) {
 }
 
 TEST_F(MechanismRun, RecordKeepsOnlyWhatItNames) {
-  const Outcome o =
-      call("run " + kMechanisms + "slider_crank.toml --out r --steps 10 --set 'output.record=[\"piston\"]'" + kBare);
+  const Outcome o = call("run " + kMechanisms +
+                         "slider_crank.toml --out r --steps 10 --set 'output.record=[\"piston\"]'" + kNoPictures);
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_NO_THROW(series("r", "bodies/piston/position"));
   EXPECT_ANY_THROW(series("r", "bodies/crank/position"));
@@ -208,7 +209,7 @@ TEST_F(MechanismRun, TooLongAStepForAnExplicitSpringIsRefusedWithItsLimit) {
   const Outcome o = call("run " + kMechanisms +
                          "joint_prismatic.toml --out r --set run.springs=explicit --set run.time_step=0.05 --set "
                          "run.output_interval=0.1 --set spring.0.stiffness=1e6" +
-                         kBare);
+                         kNoPictures);
   EXPECT_EQ(o.code, 2) << o.errors;
   EXPECT_NE(o.errors.find("spring"), std::string::npos) << o.errors;
 }

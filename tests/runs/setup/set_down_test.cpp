@@ -23,7 +23,7 @@ vehicle::VehicleSpec spec() {
 }
 
 /// A scene on level, rigid ground, or on a bed; `more` follows.
-scene::Scene sceneWith(const std::string& more, bool bed = false) {
+scene::Scene setDownScene(const std::string& more, bool bed = false) {
   return parseScene(
       "version = 1\n[run]\nduration = 4\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e6\n[terrain]\n"
       "heightmap = \"heightmaps/flat.png\"\nsize = [12, 6]\nheight_range = [0, 0]\nmaterial = \"soil\"\n" +
@@ -98,24 +98,26 @@ TEST(SetDown, OverARidge_IsClearOfItsTop) {
 
 TEST(DriveStart, ATableIsFollowedAsGiven) {
   const std::string table = "[driver.table]\ntime = [0, 0.2]\nleft = [0, 2]\nright = [0, 1]\n";
-  const vehicle::Driver driver(vehicleSetup(sceneWith("[driver]\ndrive_start = 0.5\n" + table)).driver);
+  const vehicle::Driver driver(vehicleSetup(setDownScene("[driver]\ndrive_start = 0.5\n" + table)).driver);
   EXPECT_NEAR(driver.at(0.6).sprocketSpeed[0], 1, 1e-12);
   EXPECT_NEAR(driver.at(0.65).sprocketSpeed[1], 0.75, 1e-12);
   // A ramp that was asked for applies to a table too.
   const vehicle::Driver ramped(
-      vehicleSetup(sceneWith("[driver]\ndrive_start = 0.5\ndrive_ramp = 0.2\n" + table)).driver);
+      vehicleSetup(setDownScene("[driver]\ndrive_start = 0.5\ndrive_ramp = 0.2\n" + table)).driver);
   EXPECT_NEAR(ramped.at(0.6).sprocketSpeed[0], 0.5, 1e-12);
   // Of constants, the default is a ramp of 0.3 s.
-  const vehicle::Driver constant(vehicleSetup(sceneWith("[driver]\ndrive_start = 0.5\nsprocket_speed = 2\n")).driver);
+  const vehicle::Driver constant(
+      vehicleSetup(setDownScene("[driver]\ndrive_start = 0.5\nsprocket_speed = 2\n")).driver);
   EXPECT_NEAR(constant.at(0.65).sprocketSpeed[0], 1, 1e-12);
 }
 
 TEST(DriveStart, WaitsForRestUnlessItIsGivenOrTheHullIsHeld) {
-  EXPECT_TRUE(vehicleSetup(sceneWith("[driver]\nsprocket_speed = 1\n")).driver.rest.has_value());
-  EXPECT_FALSE(vehicleSetup(sceneWith("[driver]\nsprocket_speed = 1\ndrive_start = 0.5\n")).driver.rest.has_value());
-  EXPECT_FALSE(vehicleSetup(sceneWith("chassis = \"fixed\"\n[driver]\nsprocket_speed = 1\n")).driver.rest.has_value());
+  EXPECT_TRUE(vehicleSetup(setDownScene("[driver]\nsprocket_speed = 1\n")).driver.rest.has_value());
+  EXPECT_FALSE(vehicleSetup(setDownScene("[driver]\nsprocket_speed = 1\ndrive_start = 0.5\n")).driver.rest.has_value());
+  EXPECT_FALSE(
+      vehicleSetup(setDownScene("chassis = \"fixed\"\n[driver]\nsprocket_speed = 1\n")).driver.rest.has_value());
   const auto rest =
-      vehicleSetup(sceneWith("[driver]\nrest_speed = 0.02\nrest_load = 0.1\nrest_time_limit = 3\n")).driver.rest;
+      vehicleSetup(setDownScene("[driver]\nrest_speed = 0.02\nrest_load = 0.1\nrest_time_limit = 3\n")).driver.rest;
   ASSERT_TRUE(rest);
   EXPECT_EQ(rest->speed, 0.02);
   EXPECT_EQ(rest->load, 0.1);
@@ -125,7 +127,7 @@ TEST(DriveStart, WaitsForRestUnlessItIsGivenOrTheHullIsHeld) {
 /// The refusal of what stands about the vehicle, which covers x from -0.4 to 3.1 m about its place, or "".
 std::string refusalWith(const std::string& more) {
   try {
-    checkVehicleSurroundings(sceneWith("position = [2, 0]\n" + more, true));
+    checkVehicleSurroundings(setDownScene("position = [2, 0]\n" + more, true));
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -173,7 +175,7 @@ TEST(Surroundings, WhatRestsIsMet) {
 
 TEST(Surroundings, WhatMovesIsSaid) {
   const auto warned = [](const std::string& more) {
-    return vehicleWarnings(sceneWith("position = [2, 0]\n" + more, true)).size();
+    return vehicleWarnings(setDownScene("position = [2, 0]\n" + more, true)).size();
   };
   EXPECT_EQ(warned(box(6, 1.9)), 0u) << "it rests";
   EXPECT_EQ(warned(box(6, 1.9, kMoves)), 1u) << "it may come into the vehicle's way";
@@ -181,7 +183,7 @@ TEST(Surroundings, WhatMovesIsSaid) {
 
 TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
   const auto said = [](const std::string& more) {
-    const auto warnings = vehicleWarnings(sceneWith(more));
+    const auto warnings = vehicleWarnings(setDownScene(more));
     return warnings.empty() ? "" : warnings.front();
   };
   // Of 12 m; the lead of its shoes before its place is 3.1 m. At 8 rad/s it drives 1.96 m/s from 0.45 s to 4 s.
@@ -199,10 +201,10 @@ TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
 }
 
 TEST(Surroundings, ATableThatBeginsWithAJump_IsSaid) {
-  const auto warnings = vehicleWarnings(sceneWith("[driver.table]\ntime = [0, 1]\nleft = [2, 2]\nright = [2, 2]\n"));
+  const auto warnings = vehicleWarnings(setDownScene("[driver.table]\ntime = [0, 1]\nleft = [2, 2]\nright = [2, 2]\n"));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("driver.table begins at 2"), std::string::npos) << warnings[0];
-  EXPECT_TRUE(vehicleWarnings(sceneWith("[driver.table]\ntime = [0, 1]\nleft = [0, 2]\nright = [0, 2]\n")).empty());
+  EXPECT_TRUE(vehicleWarnings(setDownScene("[driver.table]\ntime = [0, 1]\nleft = [0, 2]\nright = [0, 2]\n")).empty());
 }
 
 } // namespace

@@ -13,15 +13,15 @@
 namespace grouser::setup {
 namespace {
 
-scene::Scene parsed(const std::string& text) { return parseScene("version = 1\n" + text, "scene.toml"); }
+scene::Scene sceneOf(const std::string& text) { return parseScene("version = 1\n" + text, "scene.toml"); }
 
 /// Grains in a cube of this edge [m], some 1.5 kB each for all the planes that they might touch.
 scene::Scene fill(const std::string& edge) {
   std::string planes;
   for (int k = 0; k < 30; ++k) planes += "[[plane]]\npoint = [0, 0, -100]\nmaterial = \"glass\"\n";
-  return parsed("[run]\nduration = 1\n[material.glass]\nstiffness = 1e4\nrolling_friction = 0.1\n[[grains]]\nform = "
-                "\"lattice\"\nlow = [0, 0, 0]\nhigh = [" +
-                edge + ", " + edge + ", " + edge + "]\nradius = 0.01\nmaterial = \"glass\"\n" + planes);
+  return sceneOf("[run]\nduration = 1\n[material.glass]\nstiffness = 1e4\nrolling_friction = 0.1\n[[grains]]\nform = "
+                 "\"lattice\"\nlow = [0, 0, 0]\nhigh = [" +
+                 edge + ", " + edge + ", " + edge + "]\nradius = 0.01\nmaterial = \"glass\"\n" + planes);
 }
 
 template <class Check> std::string messageOf(const Check& check) {
@@ -34,7 +34,7 @@ template <class Check> std::string messageOf(const Check& check) {
 }
 
 TEST(SizeChecks, AMechanismHasNoFillsToCount) {
-  const scene::Scene pendulum = parsed(
+  const scene::Scene pendulum = sceneOf(
       "[run]\nduration = 1\ntime_step = 1e-3\n[[body]]\nname = \"bob\"\nmass = 1\nbox = [1, 1, 1]\nposition = "
       "[0, 0, -1]\n[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nbodies = [\"world\", \"bob\"]\npoint = [0, 0, "
       "0]\naxis = [0, 1, 0]\n");

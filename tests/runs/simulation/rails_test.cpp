@@ -26,7 +26,7 @@ scene::Scene onRails(const std::string& vehicle, const std::string& more = {}) {
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
 }
 
-Simulation begin(const scene::Scene& scene) {
+Simulation beginOnRails(const scene::Scene& scene) {
   return Simulation(
       setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
@@ -39,7 +39,7 @@ void advance(Simulation& simulation, double until) {
 const char* const kHalf = "[spec.chassis]\nmass = 1850.0\ninertia = [1025.0, 2000.0, 2110.0]\n";
 
 TEST(OnRails, ASingleTrackDrivesStraightUnderItsLoad) {
-  Simulation simulation = begin(onRails("tracks = \"single\"\nchassis = \"guided\"", kHalf));
+  Simulation simulation = beginOnRails(onRails("tracks = \"single\"\nchassis = \"guided\"", kHalf));
   const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
   ASSERT_EQ(assembly.tracks.size(), 1u);
   EXPECT_EQ(assembly.tracks[0].y, 0);
@@ -70,8 +70,8 @@ TEST(OnRails, ALevelHullDoesNotPitchAsItPulls) {
   double pitch[2];
   for (const int level : {0, 1}) {
     Simulation simulation =
-        begin(onRails(fmt::format("tracks = \"single\"\nchassis = \"{}\"", level ? "level" : "guided"),
-                      std::string("[hitch]\nkind = \"speed\"\nslip = 0.4\n") + kHalf));
+        beginOnRails(onRails(fmt::format("tracks = \"single\"\nchassis = \"{}\"", level ? "level" : "guided"),
+                             std::string("[hitch]\nkind = \"speed\"\nslip = 0.4\n") + kHalf));
     advance(simulation, 1.2);
     pitch[level] = simulation.vehicle()->observe().pitchAngle;
   }
@@ -84,7 +84,7 @@ TEST(OnRails, ALevelHullDoesNotPitchAsItPulls) {
 TEST(OnRails, AHullDoesNotYawThoughItsTracksWantTo) {
   scene::Scene scene = onRails("chassis = \"guided\"");
   scene.driver.sprocketSpeed.reset(), scene.driver.left = 1, scene.driver.right = 3;
-  Simulation simulation = begin(scene);
+  Simulation simulation = beginOnRails(scene);
   advance(simulation, 1.5);
   EXPECT_NEAR(simulation.vehicle()->observe().heading, 20 * std::atan(1.0) / 45, 1e-8);
   EXPECT_GT(norm(simulation.vehicle()->observe().velocity), 0.2);

@@ -12,7 +12,7 @@
 namespace grouser::simulation {
 namespace {
 
-scene::Scene bed(const std::vector<std::string>& overrides) {
+scene::Scene settlingBed(const std::vector<std::string>& overrides) {
   return setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
                            "restitution = 0.2\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
                            "height_range = [0, 0.03]\nmaterial = \"soil\"\ngrain_radius = 0.03\nlayers = "
@@ -32,15 +32,15 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
     return report;
   };
   double loose = 0, tight = 0;
-  const SettleReport byEnergy = settled(bed({}), loose),
-                     byBoth = settled(bed({"terrain.settle_force_ratio=0.02"}), tight);
+  const SettleReport byEnergy = settled(settlingBed({}), loose),
+                     byBoth = settled(settlingBed({"terrain.settle_force_ratio=0.02"}), tight);
   EXPECT_GT(loose, 0.04) << "the energy alone asks for less, or this shows nothing";
   EXPECT_LT(tight, 0.03); // one step after it was below 0.02
   EXPECT_GT(byBoth.time, byEnergy.time);
 }
 
 TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
-  const scene::Scene scene = bed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
+  const scene::Scene scene = settlingBed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
   const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
   Ground ground = buildGround(setup, base::cpuExec(1));
   try {
@@ -53,7 +53,7 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
 }
 
 TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
-  const setup::GroundSetup setup = setup::groundSetup(bed({"material.soil.friction=0.5"}), 2e-4);
+  const setup::GroundSetup setup = setup::groundSetup(settlingBed({"material.soil.friction=0.5"}), 2e-4);
   Ground ground = buildGround(setup, base::cpuExec(1));
   const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
   const terrain::GrainLedger now = ground.grains->ledger();
@@ -66,7 +66,7 @@ TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
 }
 
 TEST(Settling, ReportsItsHighestGrainAndTheMeanOfTheSurfaceThatSinkageIsMeasuredFrom) {
-  const setup::GroundSetup setup = setup::groundSetup(bed({"terrain.floor_grains=true"}), 2e-4);
+  const setup::GroundSetup setup = setup::groundSetup(settlingBed({"terrain.floor_grains=true"}), 2e-4);
   Ground ground = buildGround(setup, base::cpuExec(1));
   const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
   keepSurface(ground, base::cpuExec(1));
@@ -79,8 +79,8 @@ TEST(Settling, ReportsItsHighestGrainAndTheMeanOfTheSurfaceThatSinkageIsMeasured
 
 TEST(Settling, ASteepFloorIsNamedWhereItIsTheCause) {
   const auto fault = [](double height) {
-    const scene::Scene scene = bed({"terrain.height_range=[0," + std::to_string(height) + "]",
-                                    "terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.1"});
+    const scene::Scene scene = settlingBed({"terrain.height_range=[0," + std::to_string(height) + "]",
+                                            "terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.1"});
     const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
     const Ground ground = buildGround(setup, base::cpuExec(1));
     try {
