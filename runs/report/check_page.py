@@ -107,9 +107,29 @@ def costs(made, check):
         rows.append([esc(case["name"].replace("_", " ")), esc(case["what"]), esc(case["status"]),
                      number(c.get("wall_s"), "", f"{case['name']} wall"), number(c.get("cpu_s"), "", f"{case['name']} cpu"),
                      number(c.get("steps")), esc("; ".join(case["overrides"])), esc(case.get("message", ""))])
-    inner = table(["case", "what", "status", "wall time [s]", "CPU time [s]", "steps", "keys changed", "message"], rows,
+    inner = cheapest(check) + table(["case", "what", "status", "wall time [s]", "CPU time [s]", "steps", "keys changed", "message"], rows,
                   "Medians of one run of each case.", numeric=(3, 4, 5))
     return inner + error_over_time(made, check, cost)
+
+
+def cheapest(check):
+    """The settings that would bring each figure's bar down to 10, 5 and 1 %, and the wall time of all their runs."""
+    file = check.folder / "costs.json"
+    told = grouser.check.read_json(file, "costs of a check").get("cheapest", [])
+    percents = list(dict.fromkeys(key for row in told for key in row if key != "figure"))
+    if not percents:
+        return ""
+    def cell(row, percent):
+        one = row.get(percent)
+        if not one:
+            return "no setting that was run"
+        seeds = f", {one['seeds']} seeds" if check.json.get("seeds_matter") else ""
+        name = f"{row['figure']} {percent}"
+        return f"{esc(one['case'].replace('_', ' '))}{seeds}: {number(one['wall_s'], 's', name, 3)}"
+    rows = [[esc(grouser.series.split_unit(row["figure"])[0]), *(cell(row, percent) for percent in percents)]
+            for row in told]
+    return table(["figure", *(f"bar of {percent}" for percent in percents)], rows,
+                 "Cheapest settings for a bar of so much of the value, and the wall time of all their runs.")
 
 
 def error_over_time(made, check, cost):

@@ -344,6 +344,13 @@ class Pages(FolderTest):
                 self.same(shown[figure.name + " bar"], figure.bar.half_width, figure.name)
             for axis, error in figure.errors.items():
                 self.same(shown[f"{figure.name} {axis}"], error.change.value, figure.name)
+        cheapest = json.loads((self.folder / "check/costs.json").read_text())["cheapest"]
+        self.assertGreater(len(cheapest), 0)
+        cells = [(f"{row['figure']} {percent}", one["wall_s"]) for row in cheapest for percent, one in row.items()
+                 if isinstance(one, dict)]
+        self.assertGreater(len(cells), 0, "no setting keeps any bar")
+        for name, seconds in cells:
+            self.same(shown[name], seconds, name)
         # Its runs write no frames: what is seen is the checkpoint's.
         with grouser.open_run("check/base,seed=1") as run:
             self.assertIsNone(run.frames)
