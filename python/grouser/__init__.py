@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""grouser from Python: build, change and start scenes; read runs, sweeps, checks, soil tests and settled beds.
+"""grouser from Python: build, change and start scenes; read runs, sweeps, checks, events, soils and settled beds.
 
     import grouser
     scene = grouser.Scene.read("runs/scenes/quickstart.toml")
@@ -13,6 +13,7 @@ SI units and radians throughout. docs/python.md is the guide; python/examples/ h
 from .bed import Bed, kept_beds, open_bed
 from .check import AxisError, BarredSeries, Check, CheckFigure, open_check
 from .errors import DeviceError, FileError, GrouserError, InputError, SimulationError, StoppedError
+from .events import EventLimit, EventRow, Events, open_events
 from .frames import UNITS, Frame, Frames, Mesh, open_frames, rotation
 from .program import Job, Progress, call, find_program
 from .run import Run, Surface, open_run
@@ -22,9 +23,9 @@ from .soil import Constant, PlateCurve, ShearCurve, SoilTest, open_soil
 from .sweep import Sweep, SweepMean, SweepRun, open_sweep
 
 __all__ = [
-    "UNITS", "AxisError", "BarredSeries", "Bed", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate",
-    "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job", "Mesh", "PlateCurve", "Progress", "Quantity",
-    "Run", "Scene", "Series", "ShearCurve", "SimulationError", "SoilTest", "StoppedError", "Surface", "Sweep",
-    "SweepMean", "SweepRun", "call", "find_program", "kept_beds", "measure_soil", "open_bed", "open_check",
-    "open_frames", "open_run", "open_soil", "open_sweep", "rotation",
+    "AxisError", "BarredSeries", "Bed", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate", "EventLimit",
+    "EventRow", "Events", "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job", "Mesh", "PlateCurve",
+    "Progress", "Quantity", "Run", "Scene", "Series", "ShearCurve", "SimulationError", "SoilTest", "StoppedError",
+    "Surface", "Sweep", "SweepMean", "SweepRun", "UNITS", "call", "find_program", "kept_beds", "measure_soil",
+    "open_bed", "open_check", "open_events", "open_frames", "open_run", "open_soil", "open_sweep", "rotation",
 ]

@@ -23,12 +23,15 @@ SIDES = ("left", "right")
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """The undisturbed surface of the bed, before the vehicle touched it, on a grid of nodes."""
+    """The undisturbed surface of the bed, before the vehicle touched it, on a grid of nodes, and what became of it:
+    `surface.final_height - surface.height` are ruts where it is below 0."""
 
     x: numpy.ndarray  #: [columns] of the nodes [m]
     y: numpy.ndarray  #: [rows] of the nodes [m]
     height: numpy.ndarray  #: [rows, columns] at (x[column], y[row]) [m]
     interpolation: str  #: between nodes: "bilinear" or "Catmull-Rom"
+    final_height: numpy.ndarray | None = None  #: [rows, columns] at the same nodes when the run ended [m]; None where
+    #: it was not looked at (a run that has not ended, output.final_surface = false)
 
 
 def text_of(value: object) -> str:
@@ -147,10 +150,12 @@ class Run:
 
     @property
     def surface(self) -> Surface | None:
-        """The undisturbed surface; None for a run without a vehicle on a bed."""
+        """The undisturbed surface and that at the end; None for a run without a vehicle on a bed."""
         group = self._open.get("terrain/surface")
-        return None if group is None else Surface(group["x"][:], group["y"][:], group["height"][:],
-                                                  text_of(group["height"].attrs["interpolation"]))
+        if group is None:
+            return None
+        return Surface(group["x"][:], group["y"][:], group["height"][:], text_of(group["height"].attrs["interpolation"]),
+                       group["final_height"][:] if "final_height" in group else None)
 
     @cached_property
     def scene(self) -> dict:

@@ -144,7 +144,7 @@ std::string switchesText(const scene::Scene& scene) {
                   kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
                                     : fmt::format("all {:g} m", kinds.largest));
     text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in all", kinds.material.size()));
-    text += fmt::format("       {:<22} {}: {}; {} precision\n", "kernel of the grains",
+    text += fmt::format("       {:<26} {}: {}; {} precision\n", "kernel of the grains",
                         terrain::hasOwnKernel(features, scene.run.precision) ? "special" : "general",
                         terrain::featureText(features), base::wordOf(scene.run.precision));
   }

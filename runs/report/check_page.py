@@ -22,9 +22,19 @@ def axis_words(error):
             f'<em>{esc(error.verdict)}</em>{order}')
 
 
+def headlines(check):
+    """Names of the figures that the program tells first."""
+    return {grouser.series.split_unit(f["name"])[0] for f in check.json["figures"] if f.get("headline", True)}
+
+
+def told(check):
+    """Those, or all where there are none."""
+    return [figure for figure in check if figure.name in headlines(check)] or list(check)
+
+
 def figures(check):
     axes = list(dict.fromkeys(axis for figure in check for axis in figure.errors))
-    headline = {grouser.series.split_unit(f["name"])[0] for f in check.json["figures"] if f.get("headline", True)}
+    headline = headlines(check)
     rows = [(figure.name in headline, [
         esc(figure.name), with_bar(figure.bar.value, known(figure.bar.half_width), "", figure.name),
         esc(figure.bar.unit), f"\u00b1 {number(known(figure.by_seeds.half_width), '', figure.name + ' seeds', 2)}",
@@ -42,7 +52,7 @@ def figures(check):
 
 def shares(made, check):
     """Bars in percent of the values, by cause."""
-    found = [f for f in check if f.bar.value and math.isfinite(f.bar.value)][:MOST_FIGURES]
+    found = [f for f in told(check) if f.bar.value and math.isfinite(f.bar.value)][:MOST_FIGURES]
     if not found:
         return ""
     def percent(figure, half):
@@ -97,15 +107,37 @@ def costs(made, check):
         rows.append([esc(case["name"].replace("_", " ")), esc(case["what"]), esc(case["status"]),
                      number(c.get("wall_s"), "", f"{case['name']} wall"), number(c.get("cpu_s"), "", f"{case['name']} cpu"),
                      number(c.get("steps")), esc("; ".join(case["overrides"])), esc(case.get("message", ""))])
-    inner = table(["case", "what", "status", "wall time [s]", "CPU time [s]", "steps", "keys changed", "message"], rows,
+    inner = cheapest(check) + table(["case", "what", "status", "wall time [s]", "CPU time [s]", "steps", "keys changed", "message"], rows,
                   "Medians of one run of each case.", numeric=(3, 4, 5))
     return inner + error_over_time(made, check, cost)
 
 
+def cheapest(check):
+    """The settings that would bring each figure's bar down to 10, 5 and 1 %, and the wall time of all their runs."""
+    file = check.folder / "costs.json"
+    told = grouser.check.read_json(file, "costs of a check").get("cheapest", [])
+    percents = list(dict.fromkeys(key for row in told for key in row if key != "figure"))
+    if not percents:
+        return ""
+    def cell(row, percent):
+        one = row.get(percent)
+        if not one:
+            return "no setting that was run"
+        seeds = f", {one['seeds']} seeds" if check.json.get("seeds_matter") else ""
+        name = f"{row['figure']} {percent}"
+        return f"{esc(one['case'].replace('_', ' '))}{seeds}: {number(one['wall_s'], 's', name, 3)}"
+    rows = [[esc(grouser.series.split_unit(row["figure"])[0]), *(cell(row, percent) for percent in percents)]
+            for row in told]
+    return table(["figure", *(f"bar of {percent}" for percent in percents)], rows,
+                 "Cheapest settings for a bar of so much of the value, and the wall time of all their runs.")
+
+
 def error_over_time(made, check, cost):
     """Error bar of the step over the wall time, a curve a figure."""
-    drawn = []
+    drawn, names = [], {figure.name for figure in told(check)}
     for one in check.json["figures"]:
+        if grouser.series.split_unit(one["name"])[0] not in names:  # such as what is the same but for rounding
+            continue
         value = one["value"]
         points = sorted((cost[name]["wall_s"], 100 * abs(bar / value)) for name, bar in
                         zip(check.json.get("step_cases", []), one.get("bar_of_step", []))
@@ -114,6 +146,13 @@ def error_over_time(made, check, cost):
             drawn.append((grouser.series.split_unit(one["name"])[0], *map(list, zip(*points))))
     return made.plot("Error over run time", "wall time of a run [s]", "error bar of the step [% of the value]", drawn,
                      "A point for each step that was run.", log="xy") if drawn else ""
+
+
+def first_runs(check):
+    """Folders of the first run of each case that has one, the scene as it is before all."""
+    named = [name for case in check.json["cases"] if case["runs"]
+             for name in (f"{case['name']},seed={case['runs'][0]['seed']}", case["name"])]  # with seeds, or without
+    return [check.folder / name for name in named if (check.folder / name / "manifest.json").is_file()]
 
 
 def machine_of(check):
@@ -143,7 +182,6 @@ def page(folder, options):
     made.section("shares", "What makes the bars", shares(made, check))
     made.section("plots", "Series with their bars", bands(made, check))
     made.section("costs", "What it cost", costs(made, check))
-    runs = [folder / path.name for path in sorted(folder.iterdir()) if (path / "manifest.json").is_file()]
-    sweep_page.add_base(made, runs, options)
+    sweep_page.add_runs(made, first_runs(check), options, "The first run of each case.")
     made.section("provenance", "Where it comes from", provenance(check))
     return made

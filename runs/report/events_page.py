@@ -31,7 +31,7 @@ def limits(found, titles):
     lines = [[esc(titles.get(limit["event"], limit["event"])), esc(limit["level_is"]), number(limit["go"]),
               number(limit["no_go"]), esc(limit["reference"] or ""),
               "" if limit["agrees"] is None else "agrees" if limit["agrees"] else "does not agree"] for limit in found]
-    return table(["event", "level is", "go up to", "no-go from", "expected", ""], lines,
+    return table(["event", "level is", "go up to", "no-go from", "expected", "and it"], lines,
                  "The hardest level that all runs pass, and the easiest that some do not.", numeric=(2, 3)) if lines \
         else ""
 
@@ -71,9 +71,8 @@ def plots(made, rows):
 
 
 def page(folder, options):
-    events = grouser.check.read_json(folder / "events.json", "events")
-    if not isinstance(events, dict) or "rows" not in events:
-        raise grouser.FileError(f"{folder / 'events.json'}: is no file of events")
+    opened = grouser.open_events(folder)
+    events = opened.json
     made = pages.Page(f"{folder.resolve().name} (events)", "series of mobility events", folder)
     rows = events["rows"]
     left_out = "".join(f"<p>Left out: {esc(event)}: {esc(why)}</p>" for event, why in events.get("left_out", {}).items())
@@ -86,8 +85,7 @@ def page(folder, options):
                                                                 ("drawbar.png", "Drawbar pull over slip"))]))
     made.section("numbers", "Figures", figures(rows))
     made.section("plots", "Plots", plots(made, rows))
-    runs = sorted(path for path in folder.iterdir() if (path / "manifest.json").is_file())
-    sweep_page.add_base(made, runs, options)
+    sweep_page.add_runs(made, [row.folder for row in opened if row.folder], options, "The first run of each level.")
     made.section("provenance", "Where it comes from", facts([
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),
         ("soil", esc(events.get("soil", ""))), ("seeds", esc(str(events.get("seeds", "")))),

@@ -131,6 +131,10 @@ class Page:
         self.data["arrays"][name] = packed(values)
         return name
 
+    def bytes(self):
+        """What the arrays take in the page so far."""
+        return sum(len(array["data"]) for array in self.data["arrays"].values())
+
     def plot(self, title, x, y, curves, caption="", **more):
         """HTML of an interactive plot. `x`, `y`: what stands at the axes, with units. `curves`: [(label, x, y)], or
         with half widths of bars [(label, x, y, half)], or with both ends [(label, x, y, low, high)]. `more`: `points`

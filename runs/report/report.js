@@ -202,7 +202,7 @@ async function begin() {
   for (const number of document.querySelectorAll("main data")) number.title = number.value;
   report.plots = data.plots.map((entry, index) => new Plot(entry, index));
   if (data.explorer) explorer(data.explorer);
-  if (data.space) report.space = await report.openSpace(data.space);
+  if (data.spaces) report.openSpaces(data.spaces);
   const choice = document.getElementById("theme");
   choice.addEventListener("change", () => report.theme(choice.value));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => report.theme(choice.value));

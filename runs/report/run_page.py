@@ -120,18 +120,20 @@ def any_series(made, run):
     if len(run.time) < 2:
         return ""
     columns = [column for name in run.names() for column in columns_of(run, name)]
-    listed, options, lines, start = [], [], [], None  # start: the first that changes
+    listed, lines, start = [], [], None  # start: the first that changes, of the vehicle if there is one
     for k, (name, values, series) in enumerate(columns):
         array = made.array(f"series.{name}", numpy.asarray(values, dtype=float)[rows])
         listed.append({"name": name, "array": array, "axis": f"{short(name)} [{series.unit}]", "help": series.help})
         there = values[numpy.isfinite(values)]
-        if start is None and len(there) and numpy.ptp(there) > 0:
+        changes = len(there) and numpy.ptp(there) > 0
+        if changes and (start is None or name.startswith("vehicle.") and not columns[start][0].startswith("vehicle.")):
             start = k
-        options.append(f"<option{' selected' if k == start else ''}>{esc(name)} [{esc(series.unit)}]</option>")
         marks = [values[0], values[-1], *([there.min(), there.mean(), there.max()] if len(there) else [math.nan] * 3)]
         lines.append([f"<code>{esc(name)}</code>", esc(series.unit),
                       *(number(float(mark), "", f"{name} {what}") for mark, what in
                         zip(marks, ("first", "last", "least", "mean", "largest"))), esc(series.help)])
+    options = [f"<option{' selected' if k == start else ''}>{esc(name)} [{esc(series.unit)}]</option>"
+               for k, (name, _, series) in enumerate(columns)]
     time = made.array("series.time", run.time[rows])
     shown = listed[start or 0]
     figure = made.plot("Any series", "time [s]", shown["axis"], [
@@ -186,21 +188,24 @@ def constants(run):
     return table(["what", "value", "unit", ""], rows, numeric=(1,)) if rows else ""
 
 
-def ledger(run):
-    """The energy ledger at the end, and whether it closes."""
-    rows = []
-    names = run.names("ledger.")
+def ledger(runs):
+    """The energy ledger at the end of a run, or of several beside each other: does it close?"""
+    runs = [run for run in runs if len(run.time)]
+    ends = [{name: run[name] for name in run.names("ledger.") if run[name].value.ndim == 1} for run in runs]
+    names = list(dict.fromkeys(name for end in ends for name in end))
     first = [f"ledger.{word}" for word in LEDGER if f"ledger.{word}" in names]
+    rows = []
     for name in first + [name for name in names if name not in first]:
-        series = run[name]
-        if series.value.ndim == 1 and len(series.value):
-            rows.append([esc(short(name)), number(float(series.value[-1]), "", name + " at the end"), esc(series.unit),
-                         esc(series.help)])
+        series = next(end[name] for end in ends if name in end)
+        values = [number(float(end[name].value[-1]), "", f"{run.folder.name + ' ' if len(runs) > 1 else ''}{name} at the end")
+                  if name in end else "" for run, end in zip(runs, ends)]
+        rows.append([esc(short(name)), *values, esc(series.unit), esc(series.help)])
     if not rows:
         return ""
-    return table(["term", "at the end", "unit", "what it is"], rows, "Changes since the first step of the run. Kinetic, "
-                 "potential, elastic and dissipated energy with the integration error make the work of the drives, to "
-                 "the residual.", numeric=(1,))
+    headings = [run.folder.name for run in runs] if len(runs) > 1 else ["at the end"]
+    return table(["term", *headings, "unit", "what it is"], rows, "Changes since the first step of the run, at its end. "
+                 "Kinetic, potential, elastic and dissipated energy with the integration error make the work of the "
+                 "drives, to the residual.", numeric=range(1, 1 + len(runs)))
 
 
 def switches(manifest):
@@ -246,18 +251,25 @@ def number_text(value):
     return "" if value is None else f'<data value="{exact(value)}">{value:.0f}</data>'
 
 
-def film_of(folder, options):
-    """The film in the page, or where it lies."""
-    file = options.film or next((f for f in sorted(folder.iterdir()) if f.suffix in FILMS), None)
-    if file is None:
-        return ""
-    if not options.film and file.stat().st_size > LARGEST_FILM:
-        return (f"<p>The film <code>{esc(file.name)}</code> beside this page has "
-                f"{file.stat().st_size / 1e6:.0f} MB; <code>--film</code> puts it in.</p>")
-    data = base64.b64encode(file.read_bytes()).decode()
-    kind = FILMS.get(file.suffix, "video/mp4")
-    return (f'<figure><video controls src="data:{kind};base64,{data}"></video><figcaption>{esc(file.name)}'
-            f'</figcaption></figure>')
+def films(folders, options, most=LARGEST_FILM):
+    """The films that lie in the folders, or the one that was named: in the page as long as they are small, and where
+    the others lie."""
+    files = [options.film] if options.film else [f for folder in folders for f in sorted(folder.iterdir())
+                                                 if f.suffix in FILMS and f.is_file()]
+    shown, beside, taken = [], [], 0
+    for file in files:
+        size = file.stat().st_size
+        if not options.film and (taken + size > most):
+            beside.append(f"<code>{esc(file.name)}</code> ({size / 1e6:.1f} MB)")
+            continue
+        taken += size
+        data = base64.b64encode(file.read_bytes()).decode()
+        shown.append(f'<figure><video controls src="data:{FILMS.get(file.suffix, "video/mp4")};base64,{data}" '
+                     f'aria-label="film {esc(file.name)}"></video><figcaption>{esc(file.name)}</figcaption></figure>')
+    if beside:
+        shown.append(f"<p>Too large to be in this page, beside it: {', '.join(beside)}; <code>--film</code> puts one "
+                     "in.</p>")
+    return "".join(shown)
 
 
 def page(folder, options):
@@ -268,12 +280,12 @@ def page(folder, options):
         failed = (f'<p class="bad">This run has not ended well: {esc(run.status)}. '
                   f'{esc(run.manifest.get("message", ""))}</p>')
     made.section("figures", "Figures", failed + figures(run, options) + folded("Constants of the run", constants(run)))
-    made.section("space", "In space", space.section(made, run.frames, options))
+    made.section("space", "In space", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([
-        film_of(run.folder, options), pages.picture(run.folder / "picture.png", "The end of the run"),
-        pages.picture(run.folder / "surface.png", "The undisturbed surface, with the way of the vehicle")]))
+        films([run.folder], options), pages.picture(run.folder / "picture.png", "The end of the run"),
+        pages.picture(run.folder / "surface.png", "The bed's surface, with the way of the vehicle")]))
     made.section("plots", "Plots", curves(made, run))
-    made.section("ledger", "Energy ledger", ledger(run))
+    made.section("ledger", "Energy ledger", ledger([run]))
     made.section("series", "All series", any_series(made, run))
     made.section("switches", "What was on and off", switches(run.manifest))
     made.section("scene", "Scene", folded("The resolved scene: every key with its value",

@@ -93,17 +93,49 @@ def details(soil):
     rows = []
     for test in soil.json.get("tests", []):
         p = test["porosity"]
-        rows.append([esc(test["name"]), str(test["tests"]), with_bar(p["value"], p["half_width"], "", test["name"] + " porosity"),
-                     number(test["grains"]), number(test["steps"]), number(test["seconds"])])
+        # What a kind of test does not record is 0 in the file.
+        rows.append([esc(test["name"]), str(test["tests"]),
+                     with_bar(p["value"], p["half_width"], "", test["name"] + " porosity"),
+                     *(number(test[what]) if test[what] else "" for what in ("grains", "steps", "seconds"))])
     return table(["test", "tests", "porosity", "grains", "steps", "wall time [s]"], rows,
                  "Means of one test.", numeric=range(1, 6)) if rows else ""
+
+
+#: What is measured beside the constants, by its key in soil.json.
+BESIDE = {"k": "modulus of the plate, at the common n", "n_alone": "exponent of this plate alone",
+          "goodness": "goodness of fit", "origin": "depth of the fit's origin below the mean surface",
+          "k_u": "stiffness of unloading", "k_reloading": "stiffness of loading again",
+          "unloaded_from": "pressure it was unloaded from", "peak_phi": "phi at the peak", "peak_c": "c at the peak",
+          "peak_over_residual": "peak over residual strength", "janosi_misfit": "misfit of 1 - exp(-j / K)"}
+
+
+def beside(soil):
+    """All else that was measured, with its bars."""
+    j, rows = soil.json, []
+
+    def add(of, what, one, name):
+        if one.get("value") is not None:
+            rows.append([esc(of), esc(what), with_bar(one["value"], one.get("half_width"), "", name),
+                         esc(one.get("unit", ""))])
+
+    for plate, breadth in zip(j.get("plates", []), j.get("breadth_m", [])):
+        for key, one in plate.items():
+            add(f"plate of {1000 * breadth:g} mm", BESIDE.get(key, key), one, f"plate {breadth} {key}")
+    for key, one in j.get("shear", {}).items():
+        if isinstance(one, dict):
+            add("shear", BESIDE.get(key, key), one, f"shear {key}")
+    if isinstance(j.get("track_sinkage"), dict):
+        add("track", "sinkage by Bekker's form at 47.5 kPa under 0.28 m", j["track_sinkage"], "track sinkage")
+    return folded("What was measured beside them", table(
+        ["of", "what", "measured", "unit"], rows, "\u00b1 half of the 95 % interval over the tests, where there are "
+        "several.", numeric=(2,)), opened=True) if rows else ""
 
 
 def page(folder, options):
     soil = grouser.open_soil(folder)
     made = pages.Page(f"{soil.name} (soil)", "soil's tests", folder)
     care = '<p class="bad">Coarse: measured with <code>--quick</code>.</p>' if soil.coarse else ""
-    made.section("figures", "Constants", care + constants(soil))
+    made.section("figures", "Constants", care + constants(soil) + beside(soil))
     inner = present(plate_plots, made, soil) + present(shear_plots, made, soil)
     made.section("plots", "Plots", f'<div class="plots">{"".join(inner)}</div>' if inner else "")
     made.section("tests", "Tests", details(soil))

@@ -6,7 +6,8 @@ import numpy
 import grouser
 import page as pages
 
-PLACES = 12e6  # places of grains in all frames together, at most: they are the bulk of a page
+PLACES = 12e6  # places of grains in all frames of a run together, at most: they are the bulk of a page
+LARGEST = 10e6  # bytes of a page that another run in space may make; 15 MB are what a mail takes
 CODES = 65535  # of a coordinate: the last one stands for grains that are not there
 
 
@@ -42,13 +43,13 @@ def chosen_grains(first, last, most):
     return numpy.sort(ids[numpy.argsort(-score, kind="stable")[:most]])
 
 
-def grains_of(made, frames, picked, most):
+def grains_of(made, frames, picked, most, most_places):
     """Places, speeds and radii of the grains in the frames picked; nothing where there are none."""
     first, last = frames[picked[0]], frames[picked[-1]]
     if len(first) + len(last) == 0:
         return None, None, 0
     total = len(numpy.union1d(first.id, last.id))
-    ids = chosen_grains(first, last, min(most, int(PLACES / len(picked))))
+    ids = chosen_grains(first, last, min(most, int(most_places / len(picked))))
     places = numpy.full((len(picked), len(ids), 3), numpy.nan)
     speed = numpy.zeros((len(picked), len(ids)))
     radius = numpy.zeros(len(ids))
@@ -94,7 +95,7 @@ def box_of(places, corners, ground):
     return numpy.nanmin(points, axis=0), numpy.nanmax(points, axis=0)
 
 
-def add_grains(made, drawn, middle, data):
+def add_grains(made, name, drawn, middle, data):
     places, radius = drawn["places"] - middle, drawn["radius"]
     low = numpy.nanmin(places, axis=(0, 1))
     unit = numpy.maximum(numpy.nanmax(places, axis=(0, 1)) - low, 1e-9) / (CODES - 1)
@@ -108,70 +109,139 @@ def add_grains(made, drawn, middle, data):
     most_moved = float(numpy.nanquantile(moved, 0.99)) if numpy.isfinite(moved).any() else 0.0
     heights = drawn["places"][..., 2]
     data["grains"] = {
-        "places": made.array("space.places", codes), "low": low.tolist(), "unit": unit.tolist(),
-        "radius": made.array("space.radius", radius.astype(numpy.float32)),
-        "speed": made.array("space.speed", (drawn["speed"] / (fastest or 1) * 255).round().astype(numpy.uint8)),
+        "places": made.array(f"{name}.places", codes), "low": low.tolist(), "unit": unit.tolist(),
+        "radius": made.array(f"{name}.radius", radius.astype(numpy.float32)),
+        "speed": made.array(f"{name}.speed", (drawn["speed"] / (fastest or 1) * 255).round().astype(numpy.uint8)),
         "fastest": fastest,
         "ranges": {"height": [float(numpy.nanmin(heights)), float(numpy.nanmax(heights))],
                    "speed": [0.0, float(numpy.quantile(drawn["speed"], 0.995)) or fastest or 1.0],
-                   "moved": [0.0, most_moved or 1.0]},
+                   **({"moved": [0.0, most_moved or 1.0]} if len(places) > 1 else {})},
         "units": {"height": "m", "speed": "m/s", "moved": "m"}}
 
 
-def section(made, frames, options):
-    """HTML of the view, with its data put into the page; empty where the run has no frames."""
-    if frames is None or options.frames == 0 or len(frames) == 0:
-        return ""
-    picked = chosen_frames(len(frames), options.frames)
-    drawn, total, count = grains_of(made, frames, picked, options.grains)
+class AtEnd:
+    """The grains of a run's checkpoint, as the one frame of a run that has written none."""
+    parts, ground, poses = [], None, None
+
+    def __init__(self, run):
+        bed = run.bed()
+        self.position, self.radius, self.id = bed.position, bed.radius, numpy.arange(len(bed))
+        self.speed = numpy.linalg.norm(bed.velocity, axis=1)
+        self.time = run.time[-1:]
+
+    def __getitem__(self, _):
+        return self
+
+    def __len__(self):
+        return 1 if self.id is None else len(self.id)
+
+    def grains(self, name):
+        return getattr(self, name)
+
+
+def frames_of(run):
+    """What there is of a run to be seen in space, in how many frames, and what to say of it; (None, 0, "") where there
+    is nothing."""
+    if run.frames is not None and len(run.frames):
+        return run.frames, len(run.frames), f"of {len(run.frames)} frames"
+    try:
+        still = AtEnd(run)
+    except (grouser.FileError, OSError, KeyError, ValueError):
+        return None, 0, ""
+    if not len(still) or not len(still.time):
+        return None, 0, ""
+    return still, 1, "frame, of the checkpoint: this run has written no frames (output.frames), so that no parts are seen"
+
+
+def data_of(made, run, place, options, places):
+    """What the page needs to draw a run in space, put into it; None where there is nothing to draw."""
+    frames, count, words = frames_of(run)
+    if frames is None:
+        return None
+    picked = chosen_frames(count, options.frames)
+    drawn, total, left = grains_of(made, frames, picked, options.grains, places)
     shapes = shapes_of(frames)
     ground = frames.ground
     poses = numpy.array([frames[k].poses for k in picked]) if shapes else None
     if drawn is None and poses is None:
-        return ""
+        return None
     corners = None if poses is None else numpy.concatenate([frames[k].parts.vertices for k in (picked[0], picked[-1])])
     low, high = box_of(None if drawn is None else drawn["places"], corners, None if ground is None else ground.vertices)
     reach = 0.0 if drawn is None else float(drawn["radius"].max())  # of grains their places alone are in the box
     low, high = low - reach, high + reach
     middle = 0.5 * (low + high)
-    made.need(pages.SPACE)
-    data = {"time": made.array("space.time", frames.time[picked]), "middle": middle.tolist(), "names": frames.parts,
-            "box": [(low - middle).tolist(), (high - middle).tolist()], "shapes": []}
+    name = f"space{place}"
+    data = {"name": run.folder.name, "time": made.array(f"{name}.time", frames.time[picked]), "middle": middle.tolist(),
+            "names": frames.parts, "box": [(low - middle).tolist(), (high - middle).tolist()], "shapes": [],
+            "words": words_of(len(picked), words, left, total, drawn is not None)}
     if drawn is not None:
-        add_grains(made, drawn, middle, data)
+        add_grains(made, name, drawn, middle, data)
     if poses is not None:
         poses[:, :, :3] -= middle
-        data["poses"] = made.array("space.poses", poses.astype(numpy.float32))
+        data["poses"] = made.array(f"{name}.poses", poses.astype(numpy.float32))
         for k, (vertices, triangles, parts) in enumerate(shapes):
-            data["shapes"].append({"vertices": made.array(f"space.shape{k}", vertices.astype(numpy.float32)),
-                                   "triangles": made.array(f"space.corners{k}", triangles.astype(numpy.uint32)),
+            data["shapes"].append({"vertices": made.array(f"{name}.shape{k}", vertices.astype(numpy.float32)),
+                                   "triangles": made.array(f"{name}.corners{k}", triangles.astype(numpy.uint32)),
                                    "parts": parts})
     if ground is not None:
-        data["ground"] = {"vertices": made.array("space.ground", (ground.vertices - middle).astype(numpy.float32)),
-                          "triangles": made.array("space.ground.corners", ground.triangles.astype(numpy.uint32))}
-    made.data["space"] = data
-    return frame_html(len(picked), len(frames), count, total, drawn is not None, "chassis" in frames.parts)
+        data["ground"] = {"vertices": made.array(f"{name}.ground", (ground.vertices - middle).astype(numpy.float32)),
+                          "triangles": made.array(f"{name}.ground.corners", ground.triangles.astype(numpy.uint32))}
+    return data
 
 
-def frame_html(shown, frames, count, total, grains, vehicle):
-    words = [f"{shown} of {frames} frames"]
+def words_of(shown, frames, count, total, grains):
+    words = f"{shown} {frames}"
     if grains:
         left_out = "" if count == total else ": those at the surface and the sides first, then those that moved most"
-        words.append(f"{count} of {total} grains{left_out}; places to 1/65534 of the bed's extent")
-    colours = """<label>Colour of grains <select id="space-colour"><option value="moved">way from the first frame [m]</option>
-<option value="speed">speed [m/s]</option><option value="height">height z [m]</option></select></label>
+        words += f"; {count} of {total} grains{left_out}; places to 1/65534 of the bed's extent"
+    return words + "."
+
+
+def section(made, runs, options):
+    """HTML of the view of one run, or of one after the other of several, with its data put into the page: as many as
+    leave it a handy file. Empty where none has anything to be seen."""
+    if options.frames == 0:
+        return ""
+    spaces, largest, left = [], 0, 0
+    for place, run in enumerate(runs):
+        before = made.bytes()
+        if spaces and before + largest > LARGEST:
+            left += 1
+            continue
+        data = data_of(made, run, place, options, PLACES if len(runs) == 1 else PLACES / 4)
+        if data:
+            spaces.append(data)
+            largest = max(largest, made.bytes() - before)
+    if not spaces:
+        return ""
+    made.need(pages.SPACE)
+    made.data["spaces"] = spaces
+    return frame_html(spaces, left, any("grains" in s for s in spaces), any("chassis" in s["names"] for s in spaces))
+
+
+def frame_html(spaces, left, grains, vehicle):
+    moves = any("grains" in s and "moved" in s["grains"]["ranges"] for s in spaces)
+    moved = '<option value="moved">way from the first frame [m]</option>' if moves else ""
+    colours = f"""<label>Colour of grains <select id="space-colour">{moved}
+<option value="speed">speed [m/s]</option><option value="height"{"" if moves else " selected"}>height z [m]</option></select></label>
 <span class="scale"><span id="space-low"></span><canvas id="space-scale" width="192" height="16" role="img"
  aria-label="colour scale"></canvas><span id="space-high"></span></span>""" if grains else ""
     follow = '<label><input type="checkbox" id="space-follow"> follow the vehicle</label>' if vehicle else ""
-    return f"""<figure><div class="space" id="space"><canvas id="space-canvas" tabindex="0" role="application"
+    several = ""
+    if len(spaces) > 1:
+        names = "".join(f"<option>{pages.esc(s['name'])}</option>" for s in spaces)
+        more = f" {left} more would make this page too large." if left else ""
+        several = (f'<div class="controls"><label>Run <select id="space-run">{names}</select></label>'
+                   f'<span>{len(spaces)} runs can be chosen.{more}</span></div>')
+    return f"""<figure>{several}<div class="space" id="space"><canvas id="space-canvas" tabindex="0" role="application"
  aria-label="Grains and parts in space" aria-describedby="space-keys"></canvas>
 <div class="label" id="space-time" aria-live="off"></div></div>
 <div class="controls"><button id="space-back" aria-label="one frame back">&#9664;&#xfe0e;</button>
 <button id="space-play">Play</button><button id="space-on" aria-label="one frame on">&#9654;&#xfe0e;</button>
-<input type="range" id="space-frame" min="0" max="{shown - 1}" value="{shown - 1}" aria-label="frame">
+<input type="range" id="space-frame" min="0" max="0" value="0" aria-label="frame">
 <button id="space-home">Reset view</button>{follow}</div>
 <div class="controls">{colours}</div>
-<figcaption>{"; ".join(words)}. The white bar is the scale. <span id="space-keys" class="keys">Drag turns, wheel zooms,
-right button shifts. With the picture in focus: <kbd>Space</kbd> plays and pauses, <kbd>,</kbd> <kbd>.</kbd> step,
-<kbd>Home</kbd> <kbd>End</kbd> first and last frame, arrows turn, <kbd>+</kbd> <kbd>&minus;</kbd> zoom,
-<kbd>0</kbd> resets.</span></figcaption></figure>"""
+<figcaption><span id="space-words"></span> The white bar is the scale. <span id="space-keys" class="keys">Drag turns,
+wheel zooms, right button shifts. With the picture in focus: <kbd>Space</kbd> plays and pauses, <kbd>,</kbd>
+<kbd>.</kbd> step, <kbd>Home</kbd> <kbd>End</kbd> first and last frame, arrows turn, <kbd>+</kbd> <kbd>&minus;</kbd>
+zoom, <kbd>0</kbd> resets.</span></figcaption></figure>"""

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a sweep, or of anything else whose tables are a sweep's: figures over what was varied, means with
 intervals over seeds, every run."""
+import contextlib
+import itertools
 import math
 import re
 import subprocess
@@ -14,6 +16,9 @@ import space
 from page import esc, facts, folded, number, table, with_bar
 
 MOST_CURVES = 7
+MOST_SPACES = 16  # runs that can be chosen in space
+MOST_LEDGERS = 6  # columns of a table
+MOST_FILMS = 6e6  # bytes
 
 
 def text_of(keys):
@@ -125,23 +130,49 @@ def runs_table(sweep):
                  rows, "Every run, as summary.csv has it.", numeric=range(first, first + len(names)))
 
 
-def add_base(made, folders, options):
-    """Of the first run that is there: what was on and off, its scene, its machine, the view in space."""
+def opened(folders):
+    """The runs of folders that hold some, up to MOST_SPACES."""
     for folder in folders:
         try:
-            run = grouser.open_run(folder)
+            yield grouser.open_run(folder)
         except grouser.FileError:
             continue
-        with run:
-            name = esc(folder.name)
-            view = space.section(made, run.frames, options)
-            made.section("space", "In space", f"<p>The run <code>{name}</code>.</p>{view}" if view else "")
-            made.section("switches", "What was on and off",
-                         f"<p>In the run <code>{name}</code>.</p>{run_page.switches(run.manifest)}")
-            made.section("scene", "Scene", folded(f"The resolved scene of {folder.name}: every key with its value",
-                                                  f"<pre>{esc(run_page.pages_text(run))}</pre>"))
-            made.section("first", "The first run", run_page.provenance(run))
-        return
+
+
+def add_runs(made, folders, options, words):
+    """Of runs that are there: films, the view in space of one after the other, their ledgers; of the first what was on
+    and off, its scene, its machine. `folders`: whose runs are told; `words`: which these are."""
+    with contextlib.ExitStack() as stack:
+        runs = [stack.enter_context(run) for run in itertools.islice(opened(folders), MOST_SPACES)]
+        made.section("films", "Films", films(folders, options))
+        if not runs:
+            return
+        view = space.section(made, runs, options)
+        made.section("space", "In space", f"<p>{esc(words)}</p>{view}" if view else "")
+        made.section("ledger", "Energy ledgers", run_page.ledger(runs[:MOST_LEDGERS]))
+        name = esc(runs[0].folder.name)
+        made.section("switches", "What was on and off",
+                     f"<p>In the run <code>{name}</code>.</p>{run_page.switches(runs[0].manifest)}")
+        made.section("scene", "Scene", folded(f"The resolved scene of {runs[0].folder.name}: every key with its value",
+                                              f"<pre>{esc(run_page.pages_text(runs[0]))}</pre>"))
+        made.section("first", "The first run", run_page.provenance(runs[0]))
+
+
+def films(folders, options):
+    """Those of the runs: in their folders, or beside them with their names."""
+    if options.film:
+        return run_page.films([], options)
+    return run_page.films(list(dict.fromkeys([*(f.parent for f in folders), *(f for f in folders if f.is_dir())])),
+                          options, MOST_FILMS)
+
+
+def first_seeds(sweep):
+    """Folders of the runs that have finished, of each combination the first one."""
+    found = {}
+    for run in sweep.runs:
+        if run.status == "finished":
+            found.setdefault(tuple((k, v) for k, v in run.keys.items() if k != "run.seed"), run.folder)
+    return list(found.values())
 
 
 def page(folder, options):
@@ -157,5 +188,5 @@ def page(folder, options):
     made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep),
                                                                            opened=not sweep.means))
     made.section("plots", "Plots", plots(made, sweep, options.program))
-    add_base(made, [run.folder for run in sweep.runs], options)
+    add_runs(made, first_seeds(sweep), options, "The first run of each combination.")
     return made

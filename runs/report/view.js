@@ -40,15 +40,16 @@ void main() {
   gl_FragColor = vec4(vTint * light, 1.0);
 }`;
 
+/** A run in space. Several share the canvas, its renderer and the controls below it; report.space is the one shown. */
 class Space {
-  constructor(data) {
+  constructor(data, renderer) {
     this.data = data;
     this.time = report.arrays[data.time];
-    this.frame = 0;
-    this.place = document.getElementById("space");
-    this.canvas = document.getElementById("space-canvas");
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: true });
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.frame = this.time.length - 1;
+    this.renderer = renderer;
+    this.canvas = renderer.domElement;
+    for (const [name, id] of [["slider", "frame"], ["play", "play"], ["colour", "colour"], ["following", "follow"]])
+      this[name] = document.getElementById("space-" + id);
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(0x2b3038);
     this.camera = new THREE.PerspectiveCamera(35, 2, 0.01, 1000);
@@ -63,10 +64,22 @@ class Space {
     if (data.grains) this.addGrains(data.grains);
     this.addParts(data);
     this.addScale(data.box);
-    this.connect();
+    this.controls.enabled = false;
     this.home();
-    this.show(this.time.length - 1);
-    new ResizeObserver(() => this.render()).observe(this.canvas);
+  }
+
+  /** Takes canvas and controls. */
+  enter() {
+    this.controls.enabled = true;
+    this.slider.max = this.time.length - 1;
+    document.getElementById("space-words").textContent = this.data.words;
+    this.followed = null;
+    this.show(this.frame);
+  }
+
+  leave() {
+    this.pause();
+    this.controls.enabled = false;
   }
 
   addGrains(g) {
@@ -158,22 +171,6 @@ class Space {
     this.follow();
   }
 
-  connect() {
-    const get = (id) => document.getElementById(id);
-    this.slider = get("space-frame");
-    this.play = get("space-play");
-    this.colour = get("space-colour");
-    this.following = get("space-follow");
-    this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
-    this.play.addEventListener("click", () => this.toggle());
-    get("space-back").addEventListener("click", () => this.step(-1));
-    get("space-on").addEventListener("click", () => this.step(1));
-    get("space-home").addEventListener("click", () => { this.home(); this.render(); });
-    if (this.colour) this.colour.addEventListener("change", () => this.show(this.frame));
-    if (this.following) this.following.addEventListener("change", () => { this.followed = null; this.show(this.frame); });
-    this.canvas.addEventListener("keydown", (event) => this.key(event));
-  }
-
   key(event) {
     if (event.altKey || event.ctrlKey || event.metaKey) return;
     const turn = 0.1;
@@ -236,7 +233,8 @@ class Space {
   }
 
   placeGrains(frame) {
-    const g = this.grains, what = this.colour.value, [low, high] = g.ranges[what];
+    const g = this.grains, what = this.colour.value in g.ranges ? this.colour.value : "height";
+    const [low, high] = g.ranges[what];
     for (let i = 0; i < g.count; ++i) {
       const at = [0, 1, 2].map((k) => this.coordinate(frame, k, i));
       const absent = Number.isNaN(at[0]);
@@ -308,13 +306,42 @@ class Space {
   }
 }
 
-report.openSpace = async function (data) {
+/** What is pressed and chosen goes to the run that is shown. */
+function connectSpace(canvas, choose) {
+  const get = (id) => document.getElementById("space-" + id), on = (id, kind, does) => {
+    if (get(id)) get(id).addEventListener(kind, does);
+  };
+  on("frame", "input", () => report.space.show(Number(get("frame").value)));
+  on("play", "click", () => report.space.toggle());
+  on("back", "click", () => report.space.step(-1));
+  on("on", "click", () => report.space.step(1));
+  on("home", "click", () => { report.space.home(); report.space.render(); });
+  on("colour", "change", () => report.space.show(report.space.frame));
+  on("follow", "change", () => { report.space.followed = null; report.space.show(report.space.frame); });
+  on("run", "change", () => choose(get("run").selectedIndex));
+  canvas.addEventListener("keydown", (event) => report.space.key(event));
+  new ResizeObserver(() => report.space.render()).observe(canvas);
+}
+
+/** The view of the runs in `list`, the first of them shown; false where the browser cannot. */
+report.openSpaces = function (list) {
   const trial = document.createElement("canvas");
   const context = trial.getContext("webgl");
   if (!context || !context.getExtension("EXT_frag_depth")) {
     document.getElementById("space").textContent = "This browser draws no 3-D pictures (WebGL).";
-    return null;
+    return false;
   }
   context.getExtension("WEBGL_lose_context")?.loseContext();
-  return new Space(data);
+  const canvas = document.getElementById("space-canvas");
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+  renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+  const spaces = [];
+  const choose = (k) => {
+    if (report.space) report.space.leave();
+    report.space = spaces[k] ||= new Space(list[k], renderer);
+    report.space.enter();
+  };
+  choose(0);
+  connectSpace(canvas, choose);
+  return true;
 };

@@ -226,9 +226,9 @@ private:
     if (options_.sweep.plot)
       output::drawPicture("check.py", {record_.folder / kCheckFile, record_.folder / kCheckCosts},
                           record_.folder / kCheckPlot);
-    write(kCheckPage, checkPage(record_, results));
-    for (const char* name : {kCheckFile, kCheckSeries, kCheckCosts, kCheckPage})
+    for (const char* name : {kCheckFile, kCheckSeries, kCheckCosts})
       fmt::print("{:<9} {}\n", "check", (record_.folder / name).string());
+    fmt::print("{:<9} `grouser report {}` makes one page of it\n", "report", record_.folder.string());
     const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
                                         [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
     keepCheck(origin_, json, static_cast<int>(finished), record_.folder);

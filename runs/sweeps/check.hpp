@@ -22,7 +22,7 @@ struct CheckOptions {
   SweepOptions sweep;             ///< folder, jobs, seconds of this call
 };
 
-/// Runs what is missing, a process a run, and writes check.json, series.csv, costs.json, check.html and check.png into
+/// Runs what is missing, a process a run, and writes check.json, series.csv, costs.json and check.png into
 /// the folder; settled beds are shared with other runs. A check that was killed goes on: its files are then the same as
 /// those of one that was not, and of one with other `jobs`, but for costs.json and what shows it. With a budget the
 /// cost of the first run decides what is made, and is kept in choice.json, so that a call that goes on makes the same

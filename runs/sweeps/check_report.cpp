@@ -153,39 +153,6 @@ std::string lineOf(const CheckRecord& record, const CheckResults& results, const
                      c.name.empty() ? "" : "1 %: " + c.name);
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-std::string cellsOf(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string row = "<tr>";
-  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
-  return row + "</tr>\n";
-}
-
-std::string figureRows(const CheckRecord& record, const CheckResults& results) {
-  std::string rows;
-  for (const CheckFigure& f : results.figures) {
-    rows += cellsOf({f.name, studies::valueText({f.value.value, f.bar}),
-                     results.seeded ? fmt::format("seeds ({})", f.seeds) : "value", studies::valueText(f.value),
-                     shareText(f, {0, f.value.halfWidth}), "",
-                     isHeadline(results, f) ? cheapestText(record, results, f) : ""});
-    for (const AxisError& e : f.errors)
-      rows += cellsOf({"", "", std::string(base::wordOf(e.axis)), changeText(e.change), shareText(f, e.change),
-                       studies::verdictText(e.verdict), remark(results, f, e)});
-  }
-  return rows;
-}
-
 } // namespace
 
 std::vector<CaseCost> costsOf(const CheckRecord& record) {
@@ -317,7 +284,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     if (told > kMostTold) continue;
     text += results.seeded ? linesOf(record, results, f) : lineOf(record, results, f);
   }
-  if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckPage);
+  if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);
   text += "\nruns\n";
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
     const CaseCost& cost = record.costs[c];
@@ -331,36 +298,6 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     text += fmt::format("  {:<14} left out: {}\n", base::wordOf(o.axis), o.why);
   if (results.skin != SameBits::notRun) text += fmt::format("  {:<14} {}\n", "skin", bitsText(results.skin));
   return text;
-}
-
-std::string checkPage(const CheckRecord& record, const CheckResults& results) {
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}: error bars</title>\n<style>body{{"
-      "font:14px sans-serif;margin:2em}}table{{border-collapse:collapse}}td,th{{padding:2px 10px;text-align:left;"
-      "border-bottom:1px solid #ddd}}</style></head><body>\n<h1>{0}: error bars</h1>\n<p>Program {1}, {2}. Verdicts at "
-      "{3:g} % of a value. The bar is the root of the sum of the squares of the seeds' 95 % interval and of every "
-      "change with its interval.</p>\n",
-      escaped(record.scene), support::buildInfo().version, support::buildInfo().commit, results.percent);
-  std::error_code error;
-  if (std::filesystem::exists(record.folder / kCheckPlot, error))
-    page += fmt::format("<p><img src=\"{}\" alt=\"error over run time\" style=\"max-width:100%\"></p>\n", kCheckPlot);
-  page += "<table>\n" +
-          cellsOf({"figure", "value with bar", "by", "change", "share", "verdict", "cheapest within 10, 5, 1 %; order"},
-                  "th");
-  page += figureRows(record, results) + "</table>\n<h2>Runs</h2>\n<table>\n" +
-          cellsOf({"case", "what", "status", "wall time of one [s]", "CPU time of its steps [s]", "steps"}, "th");
-  const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.4g}", v) : "-"; };
-  for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
-    const CaseCost& cost = record.costs[c];
-    const CaseStatus status = statusOf(record, c);
-    page += cellsOf({record.cases.cases[c].name, record.cases.cases[c].what,
-                     status.word + (status.message.empty() ? "" : ": " + status.message), number(cost.wall),
-                     number(cost.cpu), number(cost.steps)});
-  }
-  page += "</table>\n<p>Skin of the neighbour lists: " + bitsText(results.skin) + ".";
-  for (const CheckOmission& o : record.cases.omitted)
-    page += fmt::format(" Not asked: {} ({}).", base::wordOf(o.axis), escaped(o.why));
-  return page + "</p>\n<p>Time series with bars: <a href=\"series.csv\">series.csv</a>.</p>\n</body></html>\n";
 }
 
 } // namespace grouser::sweeps

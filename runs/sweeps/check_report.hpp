@@ -53,8 +53,6 @@ std::string costsJson(const CheckRecord& record, const CheckResults& results);
 
 /// The figures one asks for first, to read in a terminal.
 std::string checkText(const CheckRecord& record, const CheckResults& results);
-/// All figures as a page, with the picture where it has been drawn.
-std::string checkPage(const CheckRecord& record, const CheckResults& results);
 
 /// Whether a figure says more than that something is zero: it is known, and itself or its bar is above rounding, 1e-12
 /// of its scale.
@@ -63,6 +61,6 @@ bool isTold(const CheckFigure& figure);
 bool isHeadline(const CheckResults& results, const CheckFigure& figure);
 
 inline constexpr const char *kCheckFile = "check.json", *kCheckCosts = "costs.json", *kCheckSeries = "series.csv",
-                            *kCheckPage = "check.html", *kCheckPlot = "check.png", *kCheckChoice = "choice.json";
+                            *kCheckPlot = "check.png", *kCheckChoice = "choice.json";
 
 } // namespace grouser::sweeps

@@ -157,7 +157,7 @@ void checkFolderOfCheck(const fs::path& folder) {
     throw base::InputError(fmt::format("{}: is a file that no check has written; name another folder with --out, or "
                                        "overwrite it with --force",
                                        (folder / kCheckChoice).string()));
-  for (const char* name : {kCheckFile, kCheckCosts, kCheckSeries, kCheckPage, kCheckPlot})
+  for (const char* name : {kCheckFile, kCheckCosts, kCheckSeries, kCheckPlot})
     if (fs::exists(folder / name, error))
       throw base::InputError(
           fmt::format("{}: is a file that no check has written, and this one would write over it; name "

@@ -33,7 +33,7 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   const SweepFigures found = sweepFigures(plan, {{output::RunStatus::finished, ""}}, whole.parent_path());
   for (std::size_t i = 0; i < found.columns.size(); ++i)
     json["figures"].push_back({{"name", found.columns[i]}, {"value", jsonNumber(found.values.front()[i])}});
-  json["steady_from"] = jsonNumber(steadyFrom(scene, manifest.figure("drive_start_s")));
+  json["steady_from"] = jsonNumber(steadyFrom(scene, manifest));
   if (const std::string check = keptCheckText(scene, manifest.text("inputs")); !check.empty())
     json["check"] = nlohmann::ordered_json::parse(check);
   return json;

@@ -185,10 +185,7 @@ std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, 
   std::optional<support::Hdf5File> file;
   if (const fs::path results = folder / run.name / "results.h5"; fs::exists(results))
     file.emplace(support::Hdf5File::open(results));
-  const RunManifest manifest(folder / run.name);
-  const double end = manifest.text("ended_by").empty() ? base::kNaN : manifest.number("simulated_time_s");
-  const double from = steadyFrom(run.scene, manifest.figure("drive_start_s"), end);
-  return figuresOf(file ? &*file : nullptr, from, columns);
+  return figuresOf(file ? &*file : nullptr, steadyFrom(run.scene, RunManifest(folder / run.name)), columns);
 }
 
 /// The cells of one run, in the order of the header.
@@ -219,6 +216,11 @@ double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
   if (const auto& torques = scene.driver.torqueTable) ramped = std::max(ramped, begins + torques->time.back());
   if (scene.driver.table) ramped = std::max(ramped, begins + scene.driver.table->time.back());
   return ramped < duration ? 0.5 * (ramped + duration) : base::kNaN;
+}
+
+double steadyFrom(const scene::Scene& scene, const RunManifest& manifest) {
+  const double end = manifest.text("ended_by").empty() ? base::kNaN : manifest.number("simulated_time_s");
+  return steadyFrom(scene, manifest.figure("drive_start_s"), end);
 }
 
 SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {

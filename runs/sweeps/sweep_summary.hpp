@@ -11,6 +11,8 @@
 
 namespace grouser::sweeps {
 
+class RunManifest;
+
 /// How one run of a sweep stands.
 struct SweepOutcome {
   output::RunStatus status = output::RunStatus::pending;
@@ -23,6 +25,8 @@ struct SweepOutcome {
 /// where [stop] may have ended it [s]; NaN: as the scene says.
 double steadyFrom(const scene::Scene& scene, double driveStart = std::numeric_limits<double>::quiet_NaN(),
                   double end = std::numeric_limits<double>::quiet_NaN());
+/// The same of a finished run, by what its manifest says of its drive and of its end.
+double steadyFrom(const scene::Scene& scene, const RunManifest& manifest);
 
 /// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5.
 struct SweepFigures {

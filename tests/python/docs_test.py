@@ -84,6 +84,50 @@ class Commands(unittest.TestCase):
                     self.assertTrue((ROOT / name).is_file(), f"{document.relative_to(ROOT)}:{line}: {name}")
 
 
+class Sources(unittest.TestCase):
+    """What documents say of the code is of this code."""
+
+    def test_sources_that_are_named_are_there(self):
+        name = re.compile(r"(?<![\w/.~$])(?:base|contact|spheredecomp|multibody|terrain|vehicle|runs|assets|python|tests|"
+                          r"cmake)/[\w./]+\.(?:hpp|cpp|cuh|cu|py|js)(?!\w)")
+        count = 0
+        for document in DOCUMENTS:
+            for line, code in code_of(document.read_text(encoding="utf-8")):
+                for found in name.findall(code):
+                    count += 1
+                    self.assertTrue((ROOT / found).is_file(), f"{document.relative_to(ROOT)}:{line}: {found}")
+        self.assertGreater(count, 60)
+
+    def test_theory_has_every_choice_of_laws_and_integrators(self):
+        choices = (ROOT / "runs/scene/choices.hpp").read_text(encoding="utf-8")
+        theory = (ROOT / "docs/theory.md").read_text(encoding="utf-8")
+        spans = set(re.findall(r"`([^`]+)`", theory))
+        for enum, fewest in (("scene::ContactLawKind", 5), ("multibody::Integrator", 2), ("multibody::JointType", 7),
+                             ("multibody::DriveKind", 3), ("vehicle::SprocketDrive", 3), ("vehicle::HitchKind", 4)):
+            body = re.search(rf"struct EnumWords<{enum}> {{(.*?)\n}};", choices, re.S)[1]
+            words = re.findall(r'"(\w+)"', body)
+            self.assertGreaterEqual(len(words), fewest, enum)
+            for word in words:
+                self.assertIn(word, spans, f"docs/theory.md does not say what {enum} {word} is")
+
+
+    def test_libraries_that_are_included_are_named(self):
+        told = (ROOT / "docs/libraries.md").read_text(encoding="utf-8")
+        rooms = ("base", "contact", "spheredecomp", "multibody", "terrain", "vehicle", "runs")
+        sources = [file for room in rooms for file in (ROOT / room).rglob("*") if file.suffix in (".cpp", ".hpp", ".cu", ".cuh")]
+        included = {name for file in sources
+                    for name in re.findall(r"^ *#include <([\w+.-]+(?:/[^>]+|\.h))>", file.read_text(encoding="utf-8"), re.M)}
+        # Of the system, the compiler and the CUDA toolkit.
+        of_none = re.compile(r"(sys|linux|cooperative_groups|cuda).*|(fcntl|unistd|signal|sched|poll|dirent|errno|omp|"
+                             r"immintrin|malloc|execinfo|fenv|termios|spawn|getopt|math|stdint|cxxabi)\.h|nv.*")
+        libraries = {name.split("/")[0] for name in included if not of_none.fullmatch(name)}
+        self.assertTrue({"toml++", "CLI", "Eigen", "hdf5.h", "assimp"} <= libraries, libraries)
+        for name in libraries:
+            self.assertIn(f"<{name}", told, "docs/libraries.md does not say what this library is for")
+        for package in re.findall(r"libjs-\w+", (ROOT / "runs/packages.sh").read_text(encoding="utf-8")):
+            self.assertIn(package, told)
+
+
 class Tutorial(FolderTest):
     def test_its_commands_work_as_they_stand(self):
         text = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")

@@ -50,6 +50,10 @@ class TrackSinkage(FolderTest):
         for time in (0.0, 0.3):
             self.assertLess(abs(heights.at(time)[0] - places["z"].at(time)), 0.15)
         self.assertAlmostEqual(run.surface.x[-1] - run.surface.x[0], 4.2, delta=0.2)
+        # The vehicle has pressed the bed down below its tracks: less than a grain is no rut.
+        rise = run.surface.final_height - run.surface.height
+        self.assertEqual(rise.shape, (len(run.surface.y), len(run.surface.x)))
+        self.assertLess(rise.min(), -0.01)
 
         # The checkpoint at the end and the last frame hold the same grains: a frame has floats.
         bed, last = run.bed(), run.frames[-1]

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package: scenes as text, calls and their errors, files that are not what they should be."""
+import json
 import os
 import signal
 import time
@@ -143,10 +144,10 @@ class Calls(FolderTest):
 class Files(FolderTest):
     def test_that_are_something_else_are_said_to_be_so(self):
         (self.folder / "results.h5").write_text("no HDF5")
-        for name in ("summary.csv", "check.json", "soil.json"):
+        for name in ("summary.csv", "check.json", "soil.json", "events.json"):
             (self.folder / name).write_text('{"other": 1}\n')
         openers = (grouser.open_run, grouser.open_sweep, grouser.open_check, grouser.open_soil, grouser.open_bed,
-                   grouser.open_frames)
+                   grouser.open_events, grouser.open_frames)
         for opener in openers:
             with self.assertRaises(grouser.FileError, msg=opener.__name__):
                 opener(self.folder)
@@ -175,6 +176,30 @@ class Files(FolderTest):
         self.assertEqual(run.names("terrain.")[0], "terrain.boundary_contacts")
         self.assertEqual(run.facts["creator"], "grouser")
         self.assertEqual(numpy.mean(falls), numpy.mean(falls.value))
+
+    def test_events_have_rows_limits_and_runs(self):
+        grouser.Scene(MINIMAL).run("step=0.2")
+        def row(event, level, mean, picture):
+            return {"event": event, "title": "up a step", "level": level, "level_is": "height [m]", "verdict": "go",
+                    "runs": 1, "why": "5.0 m", "picture": picture, "scene": "event_step.toml", "overrides": ["run.seed=1"],
+                    "figures": [{"name": "greatest pitch [deg]", "runs": 1, "mean": mean, "half_width": None}]}
+        (self.folder / "events.json").write_text(json.dumps({
+            "vehicle": "light", "soil": "rigid", "rows": [row("step", 0.2, 11.5, "step=0.2/picture.png"),
+                                                          row("turn", None, 1.5, "")],
+            "limits": [{"event": "step", "level_is": "height [m]", "go": 0.2, "no_go": None, "reference": "none above",
+                        "agrees": True}]}))
+        events = grouser.open_events(self.folder)
+        self.assertEqual((len(events), events.vehicle, events.soil), (2, "light", "rigid"))
+        step, = events["step"]
+        pitch = step.figures["greatest pitch"]
+        self.assertEqual((step.level, pitch.value, pitch.unit), (0.2, 11.5, "deg"))
+        self.assertTrue(numpy.isnan(pitch.half_width) and numpy.isnan(events["turn"][0].level))
+        self.assertEqual(step.open().status, "finished")
+        self.assertEqual((events.limits["step"].go, events.limits["step"].agrees), (0.2, True))
+        with self.assertRaisesRegex(KeyError, "step, turn"):
+            events["gap"]
+        with self.assertRaises(grouser.FileError):
+            events["turn"][0].open()
 
     def test_positions_of_both_signs_and_all_bits_are_decoded(self):
         whole = [(0, 0, 0), (-1, 1, -2), (2**41 - 1, -2**41, 12345678901), (-2**32, 2**32, -2**32 - 1)]

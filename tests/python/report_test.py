@@ -300,6 +300,37 @@ class Pages(FolderTest):
             self.same(shown[name + " bar"], mean.mean.half_width, name)
         self.assertGreater(compared, 20)
         self.assertGreater(self.colours_in_space()[0], 20)
+        firsts = [run for run in sweep.runs if run.keys["run.seed"] == "1"]
+        self.runs_are_chosen([run.folder for run in firsts])
+        (firsts[1].folder / "film.mp4").write_bytes(b"a film")
+        (self.folder / "sweep/long.mp4").write_bytes(b"long" * 2000000)
+        self.opened("sweep")
+        films = "[...document.querySelectorAll('#films video')].map(v => v.src)"
+        self.assertEqual(self.browser.value(films), ["data:video/mp4;base64,YSBmaWxt"])
+        self.assertIn("long.mp4", self.browser.value("document.getElementById('films').textContent"))
+
+    def runs_are_chosen(self, folders):
+        """By keys each run comes into view in turn, with its own frames; and each has its ledger."""
+        page = self.browser
+        self.assertEqual(page.value("report.data.spaces.map(s => s.name)"), [folder.name for folder in folders])
+        page.value("document.getElementById('space-run').focus()")
+        for folder in folders:
+            self.assertEqual(page.value("report.space.data.name"), folder.name)
+            with grouser.open_run(folder) as run:
+                self.assertEqual(page.value("Array.from(report.space.time)"), run.frames.time.tolist())
+                self.assertEqual(page.value("Number(report.space.slider.max)"), len(run.frames) - 1)
+                drawn = page.value("Array.from(report.space.positions.slice(0, 3))")
+                where = numpy.array(drawn) + page.value("report.space.data.middle")
+                last = run.frames[-1]
+                numpy.testing.assert_allclose(where, last.position[numpy.argmin(last.id)], atol=1e-5)
+                for name in ("kinetic", "integration_error"):
+                    self.same(self.numbers()[f"{folder.name} ledger.{name} at the end"],
+                              run[f"ledger.{name}"].value[-1], name)
+            page.press("ArrowDown")
+        page.value("document.getElementById('space-canvas').focus()")
+        page.press("Home")
+        self.assertEqual(page.value("[report.space.frame, report.space.data.name]"), [0, folders[-1].name])
+        self.assertEqual(page.errors, [])
 
     def test_a_check(self):
         (self.folder / "grains.toml").write_text(GRAINS)
@@ -313,6 +344,22 @@ class Pages(FolderTest):
                 self.same(shown[figure.name + " bar"], figure.bar.half_width, figure.name)
             for axis, error in figure.errors.items():
                 self.same(shown[f"{figure.name} {axis}"], error.change.value, figure.name)
+        cheapest = json.loads((self.folder / "check/costs.json").read_text())["cheapest"]
+        self.assertGreater(len(cheapest), 0)
+        cells = [(f"{row['figure']} {percent}", one["wall_s"]) for row in cheapest for percent, one in row.items()
+                 if isinstance(one, dict)]
+        self.assertGreater(len(cells), 0, "no setting keeps any bar")
+        for name, seconds in cells:
+            self.same(shown[name], seconds, name)
+        # Its runs write no frames: what is seen is the checkpoint's.
+        with grouser.open_run("check/base,seed=1") as run:
+            self.assertIsNone(run.frames)
+            bed = run.bed()
+            drawn = numpy.array(self.browser.value("Array.from(report.space.positions)")).reshape(-1, 3)
+            numpy.testing.assert_allclose(drawn + self.browser.value("report.space.data.middle"), bed.position, atol=1e-5)
+            self.same(shown["base,seed=1 ledger.dissipated at the end"], run["ledger.dissipated"].value[-1], "ledger")
+        self.assertIn("of the checkpoint", self.browser.value("document.getElementById('space-words').textContent"))
+        self.assertGreater(self.colours_in_space()[0], 20)
 
     def test_a_run_has_the_bars_of_its_last_check(self):
         (self.folder / "grains.toml").write_text(GRAINS)
@@ -339,10 +386,13 @@ class Pages(FolderTest):
 
     def test_events(self):
         folder = self.folder / "events"
-        folder.mkdir()
+        (self.folder / "grains.toml").write_text(GRAINS)
+        for level in (0.1, 0.2):
+            grouser.call(["run", "grains.toml", "--set", f"run.gravity=[-{level}, 0, -9.81]", "--out",
+                          f"events/grade={level}"])
         def row(level, pull):
             return {"event": "grade", "title": "Up a slope", "level": level, "level_is": "tan of the slope [-]",
-                    "verdict": "go", "runs": 3, "go": 3, "failed": 0, "pending": 0, "why": "at the top", "figures": [
+                    "picture": f"grade={level}/picture.png", "verdict": "go", "runs": 3, "go": 3, "failed": 0, "pending": 0, "why": "at the top", "figures": [
                         {"name": "speed [m/s]", "runs": 3, "mean": pull, "half_width": 0.0123456789}]}
         (folder / "events.json").write_text(json.dumps({
             "command": "grouser events", "commit": "0123abc", "machine": "this", "vehicle": "light", "soil": "sand",
@@ -354,6 +404,7 @@ class Pages(FolderTest):
         shown = self.numbers()
         self.assertEqual((shown["grade 0.1 speed"], shown["grade 0.1 speed bar"]), (0.4987654321, 0.0123456789))
         self.assertEqual(self.browser.value("Array.from(report.plots[0].curves[0].columns[1])"), [0.4987654321, 0.31])
+        self.runs_are_chosen([folder / "grade=0.1", folder / "grade=0.2"])
 
     def test_a_soil(self):
         folder = self.folder / "sand"
@@ -362,13 +413,15 @@ class Pages(FolderTest):
             '{"soil": "sand", "care": "coarse", "grain_radius_m": 0.007, "constants": {"n": {"value": 0.8123456789, '
             '"half_width": 0.1, "unit": "-", "published": [{"value": 0.79, "source": "a book"}], "span": [0.7, 0.9], '
             '"verdict": "inside"}, "phi": {"value": 28.7, "half_width": null, "unit": "deg", "published": []}}, '
-            '"plates": [{"k": {"value": 244.0, "half_width": 1.0}}], "version": "0.1.0", "commit": "0123abc"}')
+            '"plates": [{"k": {"value": 244.0, "half_width": 1.0}}], '
+            '"breadth_m": [0.1], "shear": {"peak_phi": {"value": 31.25, "half_width": 0.5, "unit": "deg"}}, "version": "0.1.0", "commit": "0123abc"}')
         (folder / "plates.csv").write_text(
             "care,plate,breadth [m],seed,phase,sinkage [m],pressure [Pa]\n" +
             "".join(f"coarse,small,0.1,1,0,{0.001 * k},{1000 * k}\n" for k in range(20)))
         self.opened("sand")
         shown = self.numbers()
         self.assertEqual((shown["n"], shown["n bar"], shown["phi"]), (0.8123456789, 0.1, 28.7))
+        self.assertEqual((shown["shear peak_phi"], shown["shear peak_phi bar"], shown["plate 0.1 k"]), (31.25, 0.5, 244.0))
         self.assertEqual(self.browser.value("Array.from(report.plots[0].curves[0].columns[1])"),
                          [1000.0 * k for k in range(20)])
 

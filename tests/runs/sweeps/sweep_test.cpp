@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"
+#include "runs/sweeps/run_figures.hpp"
 #include "runs/sweeps/sweep_intervals.hpp"
 #include "runs/sweeps/sweep_summary.hpp"
 #include "tests/runs/csv_fixture.hpp"
@@ -13,6 +14,7 @@
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -457,6 +459,10 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   EXPECT_NEAR(number("integration error [J]"), 3, 1e-8) << "at the end";
   EXPECT_NEAR(number("impulse residual [N s]"), 5, 1e-8);
   EXPECT_EQ(csv.at(0, "drawbar pull [N]"), "") << "what the results lack is empty";
+  // What a report says of this run begins where its figures do: at the end that [stop] has made.
+  const auto told = nlohmann::json::parse(runFiguresText(folder_ / "sprocket_speed=2"));
+  ASSERT_TRUE(told["steady_from"].is_number()) << told.dump();
+  EXPECT_NEAR(told["steady_from"].get<double>(), 2, 1e-12);
 }
 
 } // namespace
