@@ -36,6 +36,20 @@ std::string processorName() {
   return "unknown processor";
 }
 
+/// Why this build can use no GPU of this machine, where it has a CUDA backend; empty where it can, or has none.
+std::string whyNoGpu() {
+#if defined(__CUDACC__)
+  int count = 0, driver = 0;
+  const cudaError_t code = cudaGetDeviceCount(&count);
+  if (code == cudaSuccess) return count > 0 ? "" : "the driver finds none";
+  // The runtime calls a driver that is not there too old.
+  if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0) return "NVIDIA's driver is not installed";
+  return cudaGetErrorString(code);
+#else
+  return {};
+#endif
+}
+
 } // namespace
 
 Exec cpuExec(int threads) {
@@ -52,6 +66,8 @@ int cudaDevices() {
 }
 
 Exec cudaExec(int index) {
+  if (const std::string why = whyNoGpu(); !why.empty())
+    throw DeviceError("no GPU can be used: " + why + "; nvidia-smi shows what there is; --device cpu needs none");
   checkCuda(cudaSetDevice(index), "cudaSetDevice");
   // The pool keeps released memory for the next allocation: asking the driver takes longer than most kernels.
   cudaMemPool_t pool = nullptr;
@@ -79,7 +95,10 @@ Exec cudaExec(int) { noCuda(); }
 bool cudaAvailable() { return cudaDevices() > 0; }
 
 std::string describe(const Exec& exec) {
-  if (exec.onCpu()) return std::to_string(exec.threads) + " thread(s) on " + processorName();
+  if (exec.onCpu()) {
+    const std::string why = whyNoGpu();
+    return std::to_string(exec.threads) + " thread(s) on " + processorName() + (why.empty() ? "" : "; no GPU: " + why);
+  }
 #if defined(__CUDACC__)
   int index = 0;
   cudaDeviceProp properties{};

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `cmake --install`: programs, assets, headers, exported targets, Python package, manual; and the .deb by CPack.
+# `cmake --install`: programs, assets, headers, exported targets, Python package, manual.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(GROUSER_PYTHON_DIR "lib/python3/dist-packages" CACHE STRING "Where the Python package goes, below the prefix")
@@ -60,28 +60,4 @@ write_basic_package_version_file(grouser-config-version.cmake COMPATIBILITY Same
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/grouser-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/grouser-config-version.cmake
   DESTINATION ${config} COMPONENT development)
 
-# cpack -G DEB: grouser, and grouser-dev with headers and libraries. With CUDA the package has another name.
-set(CPACK_PACKAGE_NAME grouser)
-set(CPACK_PACKAGE_VENDOR "grouser")
-set(CPACK_PACKAGE_CONTACT "grouser <grouser@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES ON)
-set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL program development)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grouser)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, openmpi-bin, fonts-dejavu-core, libjs-three, libjs-dygraphs")
-if(GROUSER_CUDA)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grouser-cuda)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_PROVIDES grouser)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONFLICTS grouser)
-endif()
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME grouser-dev)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, libassimp-dev, libcli11-dev, libeigen3-dev, libfmt-dev, \
-libhdf5-openmpi-dev, libopenmpi-dev, libpng-dev, libtomlplusplus-dev, nlohmann-json3-dev")
-include(CPack)
+include(cmake/package.cmake)

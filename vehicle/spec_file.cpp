@@ -92,7 +92,7 @@ void refuse(const SpecSource& source, const SpecFault& fault) {
 }
 
 void refuseMesh(const SpecSource& source, const std::string& section, const std::string& why) {
-  refuse(source, {section, "mesh", "in vehicle.mesh_folder is no mesh for it: " + why});
+  refuse(source, {section, "mesh", "in vehicle.mesh_folder, named from this file's folder, is no mesh for it: " + why});
 }
 
 std::vector<SpecSection> specSections() {

@@ -17,6 +17,9 @@ fs::path shareFolder() {
     fs::path beside = program.parent_path().parent_path() / "share" / "grouser";
     if (fs::is_directory(beside, error)) return beside;
   }
+  // A program of one's own, built against an installed library, lies anywhere.
+  for (const char* installed : {"/usr/local/share/grouser", "/usr/share/grouser"})
+    if (!fs::is_directory(GROUSER_SHARE_FOLDER, error) && fs::is_directory(installed, error)) return installed;
   return GROUSER_SHARE_FOLDER;
 }
 

@@ -8,7 +8,8 @@
 namespace grouser::support {
 
 /// The folder that holds assets/ and runs/plots/: GROUSER_SHARE of the environment if set, else beside the program
-/// (../share/grouser), else the source folder that the program was built from.
+/// (../share/grouser), else the source folder that the program was built from, else, where that is gone,
+/// /usr/local/share/grouser or /usr/share/grouser.
 std::filesystem::path shareFolder();
 
 /// The folders that a scene's files are looked for in: its own, the current one, assets/.

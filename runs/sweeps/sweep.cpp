@@ -9,23 +9,47 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace grouser::sweeps {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// What to say of finished runs that ended before anything was steady, whose figures are empty.
+std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOutcome>& outcomes) {
+  const auto column = std::find(figures.columns.begin(), figures.columns.end(), "steady from [s]");
+  if (column == figures.columns.end()) return {};
+  const auto at = static_cast<std::size_t>(column - figures.columns.begin());
+  int finished = 0, tooShort = 0;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (outcomes[i].status != output::RunStatus::finished) continue;
+    ++finished;
+    if (!std::isfinite(figures.values[i][at])) ++tooShort;
+  }
+  if (tooShort == 0) return {};
+  return fmt::format("note      {} of {} runs ended before their drive was up to speed, and have no figures: give "
+                     "run.duration more than driver.drive_start + driver.drive_ramp\n",
+                     tooShort, finished);
+}
+
+} // namespace
 
 int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   if (!options.force) checkSweepFiles(options.folder);
   const std::vector<SweepOutcome> outcomes = runMissing(
       plan, options, "sweep", [&](const std::vector<SweepOutcome>& now) { writeSummary(plan, now, options.folder); });
   std::vector<fs::path> tables = {options.folder / kSummaryFile};
-  const SeedIntervals intervals = seedIntervals(plan, sweepFigures(plan, outcomes, options.folder));
+  const SweepFigures figures = sweepFigures(plan, outcomes, options.folder);
+  const SeedIntervals intervals = seedIntervals(plan, figures);
   if (!intervals.groups.empty()) {
     fmt::print("{}", intervalsText(intervals));
     tables.push_back(writeIntervals(intervals, options.folder));
     fmt::print("intervals {}\n", tables.back().string());
   }
   fmt::print("summary   {}\n", tables.front().string());
+  fmt::print("{}", shortRunsText(figures, outcomes));
   if (options.plot) output::drawPicture("sweep.py", {tables.back()}, options.folder / kSummaryPlot);
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const SweepOutcome& o) { return o.status == output::RunStatus::failed; });

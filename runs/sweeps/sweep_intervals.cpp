@@ -139,7 +139,9 @@ std::string intervalsText(const SeedIntervals& intervals) {
   std::string text = fmt::format("\nmeans over the steady part, +- half of the 95 % interval over the seeds{}\n",
                                  intervals.groups.size() > 1 ? "; difference to the first line, seed by seed" : "");
   for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
-    if (!isShown(intervals.columns[c])) continue;
+    const bool isKnown = std::any_of(intervals.groups.begin(), intervals.groups.end(),
+                                     [c](const SeedGroup& g) { return std::isfinite(g.figures[c].value); });
+    if (!isShown(intervals.columns[c]) || !isKnown) continue;
     text += intervals.columns[c] + "\n";
     for (const SeedGroup& group : intervals.groups) {
       if (!std::isfinite(group.figures[c].value)) continue;

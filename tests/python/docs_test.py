@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The documents: commands that they name are there with their options, the tutorial works as it stands, and the site has
-no link that leads nowhere."""
+"""The documents: commands that they name are there with their options, tutorial and how-tos work as they stand, the
+site has no link that leads nowhere."""
 import math
 import os
 import re
 import subprocess
 import unittest
 from functools import cache
+from pathlib import Path
 
 from fixture import ROOT, FolderTest
 
@@ -128,27 +129,59 @@ class Sources(unittest.TestCase):
             self.assertIn(package, told)
 
 
-class Tutorial(FolderTest):
-    def test_its_commands_work_as_they_stand(self):
-        text = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
-        blocks = re.findall(r"^```(\w+)\n(.*?)^```", text, re.M | re.S)
+class Followed(FolderTest):
+    """A page that is followed in a folder of one's own: files are saved under their names, commands are run."""
+
+    def follow(self, page, names):
+        """Runs the shell's blocks of a page in their order; names: those of its other blocks, in theirs. Gives what
+        each command printed."""
+        text = (ROOT / "docs" / page).read_text(encoding="utf-8")
         (self.folder / "build/bin").mkdir(parents=True)
         (self.folder / "build/bin/grouser").symlink_to(grouser.find_program())
-        (self.folder / "python").symlink_to(ROOT / "python")
-        written = {"toml": "thesis.toml", "python": "figure.py"}
-        environment = {**os.environ, "GROUSER_CACHE": str(self.folder / "cache")}
-        environment.pop("PYTHONPATH", None)
-        called = 0
-        for language, code in blocks:
-            if language in written:
-                (self.folder / written[language]).write_text(code)
+        for folder in ("assets", "python", "runs"):
+            (self.folder / folder).symlink_to(ROOT / folder)
+        self.environment = {**os.environ, "GROUSER_CACHE": str(self.folder / "cache"), "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+        self.environment.pop("PYTHONPATH", None)
+        names, said = list(names), {}
+        for language, code in re.findall(r"^```(\w+)\n(.*?)^```", text, re.M | re.S):
+            if language != "sh":
+                file = self.folder / names.pop(0)
+                self.assertIn(file.name, text)
+                self.assertEqual(file.suffix, {"toml": ".toml", "python": ".py"}[language])
+                file.parent.mkdir(exist_ok=True)
+                file.write_text(code)
                 continue
-            self.assertEqual(language, "sh")
             for command in code.strip().split("\n"):
-                called += 1
-                done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=environment)
+                done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=self.environment)
                 self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
-        self.assertEqual(called, 6)
+                said[command] = done.stdout
+        self.assertEqual(names, [])
+        return said
+
+
+class HowTo(Followed):
+    def test_its_commands_work_as_they_stand(self):
+        said = self.follow("howto.md", ["small.toml", "heights.py", "soils/wet_sand.toml"])
+        self.assertEqual(len(said), 13)
+        told = list(said.values())
+        self.assertEqual(grouser.open_run("out/small").status, "finished")
+        run = grouser.open_run("out/small")["vehicle.left.slip"]
+        self.assertAlmostEqual(run.time[-1], 0.15)
+        self.assertEqual(told[2], "height_range = [-0.0400, 0.0400]\n")
+        self.assertIn("dunes.png", told[3])
+        self.assertIn("wet sand, uncalibrated", told[4])
+        self.assertIn("wet_sand, wet_sand", told[5])
+        self.assertIn("vehicle                  6518 kg", told[9])
+        self.assertEqual(len(list(Path("out/small/pictures").glob("*.png"))), 3)
+        hashes = [re.findall(r"^state-hash .*$", text, re.M) for text in (told[0], told[-1])]
+        self.assertEqual(len(hashes[0]), 1)
+        self.assertEqual(hashes[0], hashes[1])
+
+
+class Tutorial(Followed):
+    def test_its_commands_work_as_they_stand(self):
+        self.assertEqual(len(self.follow("tutorial.md", ["thesis.toml", "figure.py"])), 6)
         for file in ("out/thesis/report.html", "out/speeds/report.html", "out/speeds/intervals.csv", "sinkage.pdf"):
             self.assertGreater((self.folder / file).stat().st_size, 1000, file)
         sweep = grouser.open_sweep("out/speeds")
@@ -159,7 +192,7 @@ class Tutorial(FolderTest):
             self.assertTrue(all(math.isfinite(value) for value in values), figure)
             self.assertEqual(len(set(values)), 3, figure)
         refused = subprocess.run("build/bin/grouser plan thesis.toml --set material.soil.restitution=1.4".split(),
-                                 capture_output=True, text=True, env=environment)
+                                 capture_output=True, text=True, env=self.environment)
         self.assertEqual(refused.returncode, 2)
         self.assertIn("is outside [0, 1]", refused.stderr)
 

@@ -183,6 +183,20 @@ TEST_F(Sweep, LeavesAFolderARunAndASummary) {
   EXPECT_GE(std::stod(csv.at(0, "wall time [s]")), 0);
 }
 
+TEST_F(Sweep, RunsThatEndBeforeTheyAreUpToSpeedAreNamed) {
+  const std::string words = "sweep '" + std::string(GROUSER_SOURCE_DIR) +
+                            "/runs/scenes/rigid_control.toml' --set output.plots=false --set output.picture=false "
+                            "--set driver.drive_start=0.45 --set driver.drive_ramp=0.005 ";
+  const Outcome brief = call(words + "--set run.duration=0.02 --set vehicle.sphere_radius=0.03 --seeds 2 --out brief",
+                             "export GROUSER_CACHE=cache\n");
+  EXPECT_EQ(brief.code, 0) << brief.errors;
+  EXPECT_NE(brief.out.find("note      2 of 2 runs ended before their drive was up to speed, and have no figures"),
+            std::string::npos)
+      << brief.out;
+  EXPECT_EQ(brief.out.find("slip [-]"), std::string::npos) << "a heading of nothing";
+  EXPECT_EQ(call("sweep fall.toml --set run.seed=1,2").out.find("note"), std::string::npos) << "no vehicle, no drive";
+}
+
 TEST_F(Sweep, TheSummaryHasTheLoadsOnSurfaces) {
   // The grain lies on it from the start.
   std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"belt\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What Debian's rules ask of the files of a package, and an installation by hand does not: called by CPack, once all is
+# in its place and before it is packed.
+set(stage ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
+
+function(grouser_call)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE said OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+
+# Compressed without the time, so that the same sources make the same bytes.
+file(GLOB pages ${stage}/program/usr/share/man/man1/*.1)
+grouser_call(gzip -9nf ${pages})
+
+# Documents lie under the package's own name, with copyright and Debian's changelog.
+if(CPACK_GROUSER_SUFFIX)
+  file(RENAME ${stage}/program/usr/share/doc/grouser ${stage}/program/usr/share/doc/grouser${CPACK_GROUSER_SUFFIX})
+endif()
+grouser_call(date -R)
+set(now "${said}")
+foreach(component program development)
+  string(TOUPPER ${component} upper)
+  set(package ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  set(folder ${stage}/${component}/usr/share/doc/${package})
+  file(MAKE_DIRECTORY ${folder})
+  configure_file(${CPACK_GROUSER_LICENSE} ${folder}/copyright COPYONLY)
+  file(WRITE ${folder}/changelog "grouser (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
+
+  * What has changed is told by CHANGELOG.md in the documents of grouser.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${now}
+")
+  grouser_call(gzip -9nf ${folder}/changelog)
+endforeach()

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# `cpack -G DEB`: grouser, and grouser-dev with headers and libraries. With CUDA they are grouser-cuda and
+# grouser-cuda-dev, which take the place of the others.
+
+# The maintainer is who makes the package, as Debian's own tools find out: DEBFULLNAME and DEBEMAIL, else git's user.
+set(name "$ENV{DEBFULLNAME}")
+set(mail "$ENV{DEBEMAIL}")
+foreach(part name mail)
+  string(REPLACE "mail" "email" key "user.${part}")
+  if("${${part}}" STREQUAL "")
+    execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} config ${key}
+      OUTPUT_VARIABLE ${part} OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE ignored)
+  endif()
+endforeach()
+if(name STREQUAL "" OR mail STREQUAL "")
+  # An address that can be none (RFC 2606).
+  set(name "Nobody who has said so by DEBFULLNAME and DEBEMAIL")
+  set(mail "nobody@grouser.invalid")
+endif()
+set(CPACK_PACKAGE_CONTACT "${name} <${mail}>")
+
+set(CPACK_PACKAGE_NAME grouser)
+set(CPACK_PACKAGE_VENDOR "grouser")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "tracked vehicles on granular terrain")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(suffix "")
+set(backend "This build runs on the CPU, on one host or on many by MPI.")
+if(GROUSER_CUDA)
+  set(suffix "-cuda")
+  set(backend "This build runs on NVIDIA GPUs, and on the CPU where there is none; on one\nhost or on many by MPI.")
+endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grouser${suffix})
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME grouser${suffix}-dev)
+if(GROUSER_CUDA)
+  foreach(relation PROVIDES CONFLICTS REPLACES)
+    set(CPACK_DEBIAN_PROGRAM_PACKAGE_${relation} grouser)
+    set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_${relation} grouser-dev)
+  endforeach()
+endif()
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "grouser drives a tracked vehicle over granular terrain: discrete elements
+coupled with multibody dynamics. It gives the same bits on CPU and GPU, with
+any number of processes, and says how wrong an answer is and what it cost.
+${backend}")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and the CMake package of grouser, which drives
+tracked vehicles over granular terrain, for programs of one's own:
+find_package(grouser), grouser::grouser.")
+
+# Plots, reports, films and several ranks need what is recommended; the program says so where it is missing.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
+  "python3-matplotlib, openmpi-bin, fonts-dejavu-core, libjs-three, libjs-dygraphs")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, bash-completion, paraview, grouser${suffix}-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+# Assets and plots are in the program's package.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "grouser${suffix} (= ${PROJECT_VERSION}), g++, libassimp-dev, \
+libcli11-dev, libeigen3-dev, libfmt-dev, libhdf5-openmpi-dev, libopenmpi-dev, libpng-dev, libstb-dev, \
+libtomlplusplus-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake")
+
+# What Debian's rules ask of files, and bytecode of the Python package as of any other.
+set(debian ${PROJECT_SOURCE_DIR}/cmake/debian)
+foreach(script postinst prerm)
+  configure_file(${debian}/${script} debian/${script} @ONLY)
+endforeach()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
+  "${CMAKE_CURRENT_BINARY_DIR}/debian/postinst;${CMAKE_CURRENT_BINARY_DIR}/debian/prerm")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${debian}/finish.cmake)
+set(CPACK_GROUSER_SUFFIX "${suffix}")
+set(CPACK_GROUSER_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+include(CPack)
