@@ -30,7 +30,8 @@ double shortestLoop(const std::vector<SideDisc>& discs, const SidePoint& notch);
 /// A slow vehicle whose centre of mass is about to pass over a step's edge still stands on the ground behind it: on
 /// nothing but the edge and what lies beyond it would tip back. So the step is no higher than the edge can lie over the
 /// lowest point of the track, at any pitch, with the edge straight below the centre of mass. There
-/// - the edge is not within the hull, and no higher under the ground run than half of the weight, all of it that a track
+/// - the edge is not within the hull, and no higher under the ground run than half of the weight, all of it that a
+/// track
 ///   bears, turns the arm of one wheel, or a quarter those of two wheels with shoes folded up between them;
 /// - the track goes round sprocket, idler and the wheel that is lowest, and above the edge; its pins' loop is no longer
 ///   than its shoes are, the idler pushed back to its stop;
