@@ -102,8 +102,9 @@ void addStability(CLI::App& study, GrainStudies& studies) {
 
 void addRandomVehicles(CLI::App& study, RandomVehicles& c) {
   CLI::App* vehicles = study.add_subcommand(
-      "random-vehicles", "Random tracked vehicles on rigid ground and small beds: each ends sound, is refused, or is "
-                         "stopped with a cause; exit code 3 if one is silently wrong (100: 25 min, one core)");
+      "random-vehicles",
+      "Random tracked vehicles on rigid ground and small beds: each ends sound, is refused, or is "
+      "stopped with a cause; exit code 3 if one is silently wrong (100: half an hour or more, one core)");
   QuickValues quick;
   quick.instead(vehicles->add_option("--vehicles", c.vehicles, "how many, from the first on")
                     ->check(support::wholeNumber(1, 1'000'000))
