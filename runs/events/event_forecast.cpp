@@ -17,16 +17,8 @@ namespace grouser::events {
 
 namespace {
 
-constexpr double kStart = 1.2, kSlower = 1.2;                      // s until it drives; over the time at full speed
 constexpr double kStepH200 = 161e-6, kMore = 0.43e-9;              // s, and s for a grain
 constexpr double kGrainsH200 = 285'000, kSettling = 1, kBegin = 5; // -, s, s for a process
-
-/// Until its course is driven [s].
-double durationOf(const PlannedTrial& planned, const scene::Scene& scene) {
-  const double whole = scene.run.duration;
-  return planned.trial.angle > 0 ? whole
-                                 : std::min(whole, kStart + kSlower * planned.trial.distance / planned.trial.speed);
-}
 
 /// What is probed for a run: its own scene, but of obstacles that reach into a bed, which the probe's copied tiles
 /// cannot have: there a bed alone.
@@ -58,7 +50,7 @@ std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::pat
     const PlannedTrial& planned = plan.trials[i];
     const sweeps::SweepRun& run = plan.sweep.runs[planned.runs.front()];
     std::vector<std::string> sets = run.overrides;
-    const double duration = durationOf(planned, run.scene);
+    const double duration = run.expectedEnd;
     sweeps::putOverride(sets, fmt::format("run.duration={:.6g}", duration));
     const scene::Scene scene = setup::loadScene(run.file, sets);
     const double step = setup::chooseTimeStep(scene);

@@ -31,6 +31,7 @@ constexpr double kGrain = 1 / 20.8, kDepth = 1.6, kMargin = 4, kQuickGrain = 1 /
                  kQuickMargin = 2;
 constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
 constexpr int kSeeds = 3, kQuickSeeds = 2;
+constexpr double kStart = 1.2, kSlower = 1.2; // s until it drives; over the time at full speed
 
 /// The names of the ready vehicles.
 std::vector<std::string> readyVehicles() {
@@ -119,6 +120,14 @@ std::string runName(Event event, double level, int seed, bool seeded) {
   return name;
 }
 
+/// When its course will be driven [s]. The duration of a scene is the limit up to which it may take.
+double expectedEnd(const PlannedTrial& planned, double limit) {
+  const Trial& trial = planned.trial;
+  if (trial.angle > 0) return limit;
+  const double speed = planned.event == Event::drawbar ? (1 - planned.level) * trial.speed : trial.speed;
+  return speed > 0 ? std::min(limit, kStart + kSlower * trial.distance / speed) : limit;
+}
+
 std::vector<Event> chosen(const EventOptions& options) {
   if (options.only.empty()) return allEvents();
   std::set<Event> asked;
@@ -173,6 +182,7 @@ EventPlan planEvents(const EventOptions& options) {
         for (const std::string& set : options.fixed) sweeps::putOverride(run.overrides, set);
         run.values = {fmt::format("{}={:g}", base::wordOf(event), level), fmt::format("{}", seed)};
         run.scene = setup::loadScene(run.file, run.overrides);
+        run.expectedEnd = expectedEnd(planned, run.scene.run.duration);
         if (seed == 1) sweeps::checkScene(run.scene); // another seed lays the same bed otherwise
         planned.runs.push_back(plan.sweep.runs.size());
         plan.sweep.runs.push_back(std::move(run));

@@ -210,7 +210,7 @@ std::string omission(Event event, const Course& course) {
 std::vector<double> levelsOf(Event event, const Course& c, bool quick) {
   if (!omission(event, c).empty()) return {};
   using Levels = std::vector<double>;
-  const double scale = scaleOf(c), mu = c.shape.friction, high = highestStep(c.shape);
+  const double scale = scaleOf(c), mu = c.shape.friction, high = c.shape.highestStep;
   const GapBounds gap = gapBounds(c.shape);
   const auto all = [quick](const Levels& whole, const Levels& few) { return quick ? few : whole; };
   switch (event) {
@@ -228,7 +228,8 @@ std::vector<double> levelsOf(Event event, const Course& c, bool quick) {
     return c.rigid ? Levels{rounded(0.5 * high), rounded(0.8 * high), rounded(1.05 * high)}
                    : all({rounded(0.3 * high), rounded(0.5 * high), rounded(0.7 * high)}, {rounded(0.5 * high)});
   case Event::gap:
-    return {finely(0.95 * gap.sure), finely(0.5 * (gap.sure + gap.never)), finely(1.05 * gap.never)};
+    return {finely(0.95 * gap.sure), finely(0.5 * (gap.sure + gap.level)), finely(1.05 * gap.level),
+            finely(1.5 * gap.level)};
   case Event::ditch:
     return c.rigid ? Levels{0.3, 0.6, 0.9} : all({0.2, 0.3, 0.4}, {0.3});
   case Event::halfRound:
@@ -322,14 +323,15 @@ std::optional<Reference> referenceOf(Event event, const Course& c) {
     return mu < tipping ? Reference{fmt::format("friction {:g}; tips at {:.3g}", mu, tipping), mu, mu}
                         : Reference{fmt::format("tips at {:.4g}", tipping), tipping, tipping};
   case Event::step: {
-    const double high = highestStep(c.shape) + crawl(c) * crawl(c) / (2 * kGravity);
-    return Reference{fmt::format("none above {:.3g} m: centre of mass over the edge", high), {}, high};
+    const double high = c.shape.highestStep + crawl(c) * crawl(c) / (2 * kGravity);
+    return Reference{fmt::format("none above {:.3g} m: centre of mass over the edge, arms free", high), {}, high};
   }
   case Event::gap: {
     const GapBounds g = gapBounds(c.shape);
     return Reference{
-        fmt::format("all up to {:.3g} m (wheels), none from {:.3g} m on (ends of the track)", g.sure, g.never), g.sure,
-        g.never};
+        fmt::format("all up to {:.3g} m (wheels), by the far wall's grip from {:.3g} m on, none from {:.3g} m on",
+                    g.sure, g.level, g.never),
+        g.sure, g.never};
   }
   case Event::ditch:
     return Reference{fmt::format("all up to friction {:g}", mu), mu, {}};

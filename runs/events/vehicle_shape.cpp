@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/events/vehicle_shape.hpp"
 
-#include "base/math.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace grouser::events {
 
@@ -24,25 +24,16 @@ std::vector<SidePoint> padCorners(const vehicle::VehicleSpec& spec, const vehicl
   return corners;
 }
 
-/// Height of the underside of a convex outline at `x`, of points in any order: of the lines between two points on
-/// either side the lowest.
-double undersideAt(const std::vector<SidePoint>& points, double x) {
-  double lowest = 1e300;
-  for (const SidePoint& a : points)
-    for (const SidePoint& b : points)
-      if (a.x <= x && x <= b.x && b.x - a.x > 1e-9)
-        lowest = std::min(lowest, a.z + (b.z - a.z) * (x - a.x) / (b.x - a.x));
-  return lowest;
-}
-
 } // namespace
 
 VehicleShape shapeOf(const vehicle::VehicleSpec& spec) {
   const vehicle::Assembly drawn = vehicle::assemble(spec);
   VehicleShape s;
-  s.outline = padCorners(spec, drawn.wrap);
   s.rear = s.front = -1e300;
-  for (const SidePoint& p : s.outline) s.rear = std::max(s.rear, -p.x), s.front = std::max(s.front, p.x);
+  const std::vector<SidePoint> corners = padCorners(spec, drawn.wrap);
+  for (const SidePoint& p : corners) s.rear = std::max(s.rear, -p.x), s.front = std::max(s.front, p.x);
+  for (const SidePoint& p : corners)
+    for (const SidePoint& q : corners) s.diagonal = std::max(s.diagonal, std::hypot(q.x - p.x, q.z - p.z));
   s.halfWidth = spec.trackOffset + spec.shoe.padHalfWidth;
   s.firstWheel = spec.roadWheel.firstX;
   s.lastWheel = spec.roadWheel.firstX + (spec.roadWheel.count - 1) * spec.roadWheel.spacing;
@@ -53,26 +44,14 @@ VehicleShape shapeOf(const vehicle::VehicleSpec& spec) {
   s.massCentre.x /= s.mass, s.massCentre.z = s.massCentre.z / s.mass - spec.groundHeight();
   s.tread = 2 * spec.trackOffset, s.padWidth = 2 * spec.shoe.padHalfWidth;
   s.pitchRadius = spec.pitchRadius(), s.friction = spec.contact.frictionGround;
+  s.highestStep = highestStep(spec);
   return s;
-}
-
-double highestStep(const VehicleShape& shape) {
-  constexpr int kMostPitch = 60; // degrees
-  double highest = 0;
-  for (int degrees = 1; degrees <= kMostPitch; ++degrees) {
-    const double angle = degrees * base::kPi / 180, c = std::cos(angle), s = std::sin(angle);
-    const auto turned = [c, s](const SidePoint& p) { return SidePoint{c * p.x - s * p.z, s * p.x + c * p.z}; };
-    std::vector<SidePoint> points;
-    double ground = 1e300;
-    for (const SidePoint& p : shape.outline) points.push_back(turned(p)), ground = std::min(ground, points.back().z);
-    highest = std::max(highest, undersideAt(points, turned(shape.massCentre).x) - ground);
-  }
-  return highest;
 }
 
 GapBounds gapBounds(const VehicleShape& shape) {
   const double x = shape.massCentre.x;
-  return {std::min(x - shape.firstWheel, shape.lastWheel - x), std::min(x + shape.rear, shape.front - x)};
+  return {std::min(x - shape.firstWheel, shape.lastWheel - x), std::min(x + shape.rear, shape.front - x),
+          shape.diagonal};
 }
 
 double tippingSlope(const VehicleShape& shape) { return shape.halfWidth / shape.massCentre.z; }

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "vehicle/spec.hpp"
-
-#include <vector>
+#include "runs/events/step_bound.hpp"
 
 /// What a vehicle can pass by its shape alone: for the sizes of obstacles, and to compare with what runs have shown.
 namespace grouser::events {
 
 inline constexpr double kGravity = 9.81; ///< of the events' scenes [m/s2]
 
-/// A point in the side view: x forward from the sprockets' axle, z up from level ground [m].
-struct SidePoint {
-  double x = 0, z = 0;
-};
-
 /// Lengths and masses of a vehicle as drawn, on level ground.
 struct VehicleShape {
   double rear = 0, front = 0;           ///< how far it reaches behind and before the sprockets' axle [m]
+  double diagonal = 0;                  ///< longest way between two points of a track's outline [m]
   double halfWidth = 0;                 ///< to the outer edge of the pads [m]
   double firstWheel = 0, lastWheel = 0; ///< x of the axles of the rearmost and the foremost road wheel [m]
   SidePoint massCentre;                 ///< of the whole vehicle
@@ -26,23 +20,21 @@ struct VehicleShape {
   double pitchRadius = 0;               ///< [m]
   double mass = 0;                      ///< [kg]
   double friction = 0;                  ///< of shoes on rigid ground [-]
-  std::vector<SidePoint> outline;       ///< of the tracks: corners of the shoes' pads
+  double highestStep = 0;               ///< above which it climbs none (highestStep() of its spec) [m]
 
   double length() const { return rear + front; }
   double groundRun() const { return lastWheel - firstWheel; }
 };
 
-/// Throws base::InputError where its track does not close.
+/// Throws base::InputError where its track does not close or its hull's mesh cannot be read.
 VehicleShape shapeOf(const vehicle::VehicleSpec& spec);
-
-/// Above which no slow vehicle of this shape climbs a step, whatever its grip [m]: at no pitch up to 60 degrees does
-/// the underside of the tracks lie higher below the centre of mass than at its lowest point.
-double highestStep(const VehicleShape& shape);
 
 /// Widths of a gap between two slabs [m].
 struct GapBounds {
   double sure = 0;  ///< crossed level: some road wheel stands on each side of the centre of mass all the time
-  double never = 0; ///< from here on the centre of mass hangs free while the track reaches one side only
+  double level = 0; ///< from here on the centre of mass hangs free while the track, held level, reaches one side only:
+                    ///< the nose falls against the far wall, and grip decides
+  double never = 0; ///< the track's length: it lies on one side alone however it is pitched
 };
 GapBounds gapBounds(const VehicleShape& shape);
 

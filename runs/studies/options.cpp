@@ -45,7 +45,8 @@ void addVehicleStability(CLI::App& stability, std::string& scene, VehicleStabili
   stability
       .add_option("--scene", scene,
                   "grains, or vehicle: maps of the tracked vehicle over tension, grains, stiffness, drop, gravity, "
-                  "masses and inertias, each point against a quarter of its step; exit code 3 if one is silently wrong "
+                  "masses, inertias, speed, reversed drives, bumps and ledges, each point against a quarter of its "
+                  "step; exit code 3 if one is silently wrong "
                   "or stopped for a wrong cause (an hour on one core; with --quick some minutes)")
       ->check(CLI::IsMember({"grains", "vehicle"}))
       ->capture_default_str();
@@ -97,6 +98,24 @@ void addStability(CLI::App& study, GrainStudies& studies) {
     else
       studyGrainStabilityCommand(c);
   });
+}
+
+void addRandomVehicles(CLI::App& study, RandomVehicles& c) {
+  CLI::App* vehicles = study.add_subcommand(
+      "random-vehicles",
+      "Random tracked vehicles on rigid ground and small beds: each ends sound, is refused, or is "
+      "stopped with a cause; exit code 3 if one is silently wrong (100: half an hour or more, one core)");
+  QuickValues quick;
+  quick.instead(vehicles->add_option("--vehicles", c.vehicles, "how many, from the first on")
+                    ->check(support::wholeNumber(1, 1'000'000))
+                    ->capture_default_str(),
+                c.vehicles, 3);
+  vehicles->add_option("--seed", c.seed, "of the vehicles")
+      ->check(support::wholeNumber(0, 1'000'000'000))
+      ->capture_default_str();
+  addPieceOptions(*vehicles, c.pieces);
+  addPlace(*vehicles, c.place, "random_vehicles", "three vehicles, in half a minute");
+  doStudy(*vehicles, c, studyRandomVehicles, quick);
 }
 
 void addPrecision(CLI::App& study, PrecisionCommand& c) {
@@ -212,6 +231,7 @@ void addFeatures(CLI::App& study, FeaturesCommand& c) {
 void addGrainStudies(CLI::App& study, GrainStudies& studies) {
   addImpact(study, studies.impact);
   addStability(study, studies);
+  addRandomVehicles(study, studies.randomVehicles);
   addPrecision(study, studies.precision);
   addPacking(study, studies.packing);
   addCollapse(study, studies.collapse);

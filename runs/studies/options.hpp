@@ -8,6 +8,7 @@
 #include "runs/studies/packing.hpp"
 #include "runs/studies/precision_command.hpp"
 #include "runs/studies/random_stability.hpp"
+#include "runs/studies/random_vehicles.hpp"
 #include "runs/studies/shear.hpp"
 #include "runs/studies/vehicle_stability.hpp"
 
@@ -22,6 +23,7 @@ struct GrainStudies {
   RandomStability randomStability;
   VehicleStability vehicleStability;
   std::string stabilityScene = "grains"; ///< or "vehicle"
+  RandomVehicles randomVehicles;
   PrecisionCommand precision;
   PackingCommand packing;
   CollapseCommand collapse;

@@ -2,9 +2,9 @@
 #include "runs/studies/random_scenes.hpp"
 
 #include "base/math.hpp"
-#include "base/random.hpp"
 #include "base/sphere.hpp"
 #include "base/vec.hpp"
+#include "runs/studies/random_draw.hpp"
 
 #include <fmt/format.h>
 
@@ -19,21 +19,6 @@ using base::Vec3d;
 namespace {
 
 constexpr std::uint64_t kScenesPurpose = base::purpose("study.random_scenes");
-
-/// Numbers of one scene, one after the other.
-class Draw {
-public:
-  Draw(std::uint64_t seed, int number) : seed_(seed), number_(static_cast<std::uint64_t>(number)) {}
-  double in(double low, double high) {
-    return low + (high - low) * base::uniform(seed_, kScenesPurpose, number_, k_++);
-  }
-  double over(double low, double high) { return low * base::exp(in(0, 1) * base::log(high / low)); }
-  bool once(double share) { return in(0, 1) < share; }
-  int of(int low, int high) { return std::min(high, low + static_cast<int>(in(0, 1) * (high - low + 1))); }
-
-private:
-  std::uint64_t seed_, number_, k_ = 0;
-};
 
 /// What the materials of a scene have in common: its scales.
 struct Scales {
@@ -144,7 +129,7 @@ double cohesionOf(const Scales& s, Draw& draw) {
 } // namespace
 
 RandomScene randomScene(std::uint64_t seed, int number) {
-  Draw draw(seed, number);
+  Draw draw(seed, kScenesPurpose, number);
   RandomScene scene;
   scene.number = number;
   scene.kind = kRandomKinds[static_cast<std::size_t>(number) % kRandomKinds.size()];

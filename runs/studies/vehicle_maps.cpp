@@ -34,19 +34,28 @@ struct Drive {
   double until = 0.7; ///< [s]; the last 0.3 s are compared
 };
 
-/// Rigid, level ground, on which the vehicle stands and drives off.
-VehicleCase onRigidGround(const Drive& drive, std::vector<SpecChange> changes = {}, const std::string& run = "") {
+/// Rigid, level ground on which the vehicle is set down from 5 mm. `driver`: what the sprockets are given from
+/// kDriveStart on. `obstacles`: sections.
+VehicleCase setDown(double length, const std::string& driver, const std::string& obstacles, double until,
+                    const std::string& place = "") {
   VehicleCase c;
-  c.run = "threads = 1\n" + run;
+  c.run = "threads = 1\n";
   c.scene = fmt::format(
       "[material.ground]\nstiffness = 1e7\nrestitution = 0.3\nfriction = 0.8\n"
       "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [{:g}, 2.6]\nheight_range = [0, 0.05]\nkind = \"rigid\"\n"
-      "material = \"ground\"\n"
-      "[driver]\nsprocket_speed = {:.9g}\ntension_ramp = 0.05\nweight_ramp = 0.1\ndrive_start = {:g}\n"
-      "drive_ramp = {:g}\n[vehicle]\nsphere_radius = 0.03\n",
-      drive.length, drive.speed, kDriveStart, drive.ramp);
-  c.changes = std::move(changes);
-  c.from = drive.until - 0.3, c.until = drive.until;
+      "material = \"ground\"\n{}[driver]\ntension_ramp = 0.05\nweight_ramp = 0.1\ndrive_start = {:g}\n{}"
+      "[vehicle]\nsphere_radius = 0.03\n{}",
+      length, obstacles, kDriveStart, driver, place);
+  c.from = until - 0.3, c.until = until;
+  return c;
+}
+
+/// The same without obstacles: it drives off.
+VehicleCase onRigidGround(const Drive& drive, std::vector<SpecChange> changes = {}, const std::string& run = "") {
+  VehicleCase c =
+      setDown(drive.length, fmt::format("sprocket_speed = {:.9g}\ndrive_ramp = {:g}\n", drive.speed, drive.ramp), "",
+              drive.until);
+  c.run += run, c.changes = std::move(changes);
   return c;
 }
 
@@ -215,6 +224,60 @@ VehicleMap drop(bool quick, const fs::path& folder) {
                    mapShares(quick), make, folder);
 }
 
+VehicleMap speeds(bool quick, const fs::path& folder) {
+  const VehicleMap map{"speed", "speed, reached in 0.2 s", {"sprocket speed [rad/s]", false}, {kStepAxis}};
+  const auto make = [](double speed) { return onRigidGround({speed, 0.2, 9 + 0.1 * speed, 0.7}); };
+  return overSteps(map, quick ? std::vector<double>{20} : std::vector<double>{0, 5, 10, 20}, mapShares(quick), make,
+                   folder);
+}
+
+/// Forward, and back as quickly a tenth of a second later: what grip cannot do the shoes slide.
+VehicleMap reversal(bool quick, const fs::path& folder) {
+  const VehicleMap map{
+      "reversal", "drives reversed within 0.1 s", {"sprocket speed, forward and back [rad/s]", false}, {kStepAxis}};
+  const auto make = [](double speed) {
+    return setDown(12,
+                   fmt::format("[driver.table]\ntime = [0, 0.2, 0.3, 0.4, 1]\nleft = [0, {0:g}, {0:g}, {1:g}, {1:g}]\n"
+                               "right = [0, {0:g}, {0:g}, {1:g}, {1:g}]\n",
+                               speed, -speed),
+                   "", kDriveStart + 0.8, "position = [5, 0]\n");
+  };
+  return overSteps(map, quick ? std::vector<double>{5} : std::vector<double>{2, 5, 10, 20}, mapShares(quick), make,
+                   folder);
+}
+
+/// Set down with the middle of its left track on a half-round: the right one falls beside it, and it drives off.
+VehicleMap bump(bool quick, const fs::path& folder) {
+  const VehicleMap map{"bump", "one track on a bump", {"radius of the half-round [m]", false}, {kStepAxis}};
+  const auto make = [&folder](double radius) {
+    const vehicle::VehicleSpec spec = shippedSpec(folder);
+    const double start = 2, middle = start + spec.chassis.centre.x;
+    return setDown(8, "sprocket_speed = 2\ndrive_ramp = 0.2\n",
+                   fmt::format("[[cylinder]]\nposition = [{:.6g}, {:.6g}, 0]\naxis = [0, 1, 0]\nradius = {:g}\n"
+                               "length = {:.6g}\nmaterial = \"ground\"\n",
+                               middle, spec.trackOffset, radius, 4 * spec.shoe.padHalfWidth),
+                   0.9, fmt::format("position = [{:g}, 0]\n", start));
+  };
+  return overSteps(map, quick ? std::vector<double>{0.1} : std::vector<double>{0.03, 0.1, 0.2}, mapShares(quick), make,
+                   folder);
+}
+
+/// Off a ledge at 10 rad/s; its centre of mass stands 0.3 m before the edge.
+VehicleMap ledge(bool quick, const fs::path& folder) {
+  const VehicleMap map{"ledge", "driven off a ledge at 10 rad/s", {"height [m]", false}, {kStepAxis}};
+  const auto make = [&folder](double height) {
+    const vehicle::VehicleSpec spec = shippedSpec(folder);
+    const double start = 1, edge = start + spec.chassis.centre.x + 0.3;
+    return setDown(10, "sprocket_speed = 10\ndrive_ramp = 0.2\n",
+                   fmt::format("[[box]]\nposition = [{:.6g}, 0, {:.6g}]\nsize = [{:.6g}, 2.6, {:.6g}]\n"
+                               "material = \"ground\"\n",
+                               0.5 * edge, 0.5 * height, edge, height),
+                   1.8, fmt::format("position = [{:g}, 0]\n", start));
+  };
+  return overSteps(map, quick ? std::vector<double>{0.3} : std::vector<double>{0.1, 0.3, 0.5}, mapShares(quick), make,
+                   folder);
+}
+
 VehicleMap gravity(bool quick, const fs::path& folder) {
   const VehicleMap map{"gravity", "gravity", {"gravity over 9.81 m/s2 [-]", false}, {kStepAxis}};
   const auto make = [](double g) { return onRigidGround({}, {}, fmt::format("gravity = [0, 0, {:.9g}]\n", -g * kG)); };
@@ -255,7 +318,11 @@ const std::vector<std::pair<std::string, Make>>& makers() {
                                                                 {"drop", drop},
                                                                 {"gravity", gravity},
                                                                 {"mass", masses},
-                                                                {"inertia", inertias}};
+                                                                {"inertia", inertias},
+                                                                {"speed", speeds},
+                                                                {"reversal", reversal},
+                                                                {"bump", bump},
+                                                                {"ledge", ledge}};
   return all;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/studies/trial_files.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
@@ -27,60 +28,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kFiner = 4; // the run that judges has so many times as many steps
-
-struct Column {
-  const char* name;
-  double MapFigures::*value;
-};
-constexpr std::array<Column, 11> kFigures{{{"speed [m/s]", &MapFigures::speed},
-                                           {"height [m]", &MapFigures::height},
-                                           {"lowest height [m]", &MapFigures::lowest},
-                                           {"pitch [rad]", &MapFigures::pitch},
-                                           {"power [W]", &MapFigures::power},
-                                           {"tension [N]", &MapFigures::tension},
-                                           {"sinkage [m]", &MapFigures::sinkage},
-                                           {"dissipated [J]", &MapFigures::dissipated},
-                                           {"integration error [J]", &MapFigures::integrationError},
-                                           {"turnover [J]", &MapFigures::turnover},
-                                           {"left over [-]", &MapFigures::leftOver}}};
-
-/// A run is kept as numbers, with its message beside it.
-Table tableOf(const std::vector<VehicleTrial>& trials) {
-  Table table;
-  table.names = {"step [s]", "end", "reached [s]", "wall [s]"};
-  for (const Column& c : kFigures) table.names.emplace_back(c.name);
-  for (const VehicleTrial& t : trials) {
-    std::vector<double> row = {t.step, static_cast<double>(t.end), t.reached, t.wallSeconds};
-    for (const Column& c : kFigures) row.push_back(t.figures.*c.value);
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-fs::path causesOf(const Pieces& pieces, const std::string& name) { return pieces.folder() / "runs" / (name + ".txt"); }
-
-std::vector<VehicleTrial> readTrials(const Pieces& pieces, const std::string& name) {
-  const Table table = pieces.read(name);
-  std::ifstream causes(causesOf(pieces, name));
-  std::vector<VehicleTrial> trials;
-  for (const std::vector<double>& row : table.rows) {
-    const auto value = [&](const char* column) { return row[table.column(column)]; };
-    VehicleTrial t;
-    t.step = value("step [s]"), t.end = static_cast<TrialEnd>(static_cast<int>(value("end")));
-    t.reached = value("reached [s]"), t.wallSeconds = value("wall [s]");
-    for (const Column& c : kFigures) t.figures.*c.value = value(c.name);
-    std::getline(causes, t.cause);
-    trials.push_back(t);
-  }
-  return trials;
-}
-
-void keep(Pieces& pieces, const std::string& name, const std::vector<VehicleTrial>& trials) {
-  std::string causes;
-  for (const VehicleTrial& t : trials) causes += base::oneLine(t.cause) + "\n";
-  support::replaceTextFile(causesOf(pieces, name), causes); // before the table, by which a run is there
-  pieces.keep(name, tableOf(trials));
-}
 
 std::string nameOf(const VehicleMap& map, std::size_t point) { return fmt::format("{}_{}", map.name, point); }
 
@@ -111,7 +58,7 @@ void runAll(const std::vector<VehicleMap>& maps, Pieces& pieces, const PieceOpti
       const TrialPlace place{folder, &beds, &spheres, exec};
       std::vector<VehicleTrial> trials{tryVehicle(p.what, p.step, place)};
       if (trials[0].end != TrialEnd::refused) trials.push_back(tryVehicle(p.what, p.step / kFiner, place));
-      keep(pieces, name, trials);
+      keepTrials(pieces, name, trials);
       fs::remove_all(folder);
     }
   progress.finish(fmt::format("{} of {} points are there", all - pieces.left(), all));
@@ -150,14 +97,14 @@ void writeTables(const std::vector<VehicleMap>& maps, const std::vector<JudgedPo
 
 std::string vehicleMapsCsv(const std::vector<JudgedPoint>& points) {
   std::string text = "map,x axis,x,y axis,y,step [s],verdict,cause,reached [s],reached at a quarter [s],wall [s]";
-  for (const Column& c : kFigures) text += fmt::format(",{0},{0} at a quarter", c.name);
+  for (const FigureColumn& c : kTrialFigures) text += fmt::format(",{0},{0} at a quarter", c.name);
   text += ",end at a quarter\n";
   for (const JudgedPoint& p : points) {
     text += fmt::format("{},{},{:.6g},{},{:.6g},{:.6g},{},{},{:.4g},{:.4g},{:.3g}", p.map->name,
                         support::csvCell(p.map->x.label), p.point->x, support::csvCell(p.map->y.label), p.point->y,
                         p.point->step, wordOf(p.judgement.verdict), support::csvCell(p.judgement.why), p.run.reached,
                         p.finer.reached, p.run.wallSeconds + p.finer.wallSeconds);
-    for (const Column& c : kFigures)
+    for (const FigureColumn& c : kTrialFigures)
       text +=
           fmt::format(",{},{}", support::csvCell(p.run.figures.*c.value), support::csvCell(p.finer.figures.*c.value));
     text += fmt::format(",{}\n", support::csvCell(p.finer.cause));

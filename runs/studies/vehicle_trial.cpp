@@ -49,11 +49,14 @@ std::string specText(const std::vector<SpecChange>& changes) {
 /// `step`: 0 for the automatic one.
 scene::Scene parsed(const VehicleCase& what, double step, const fs::path& folder) {
   fs::create_directories(folder);
-  const fs::path spec = folder / "vehicle.toml";
-  support::writeTextFile(spec, specText(what.changes), "--out");
   std::string text = fmt::format("version = 1\n[run]\nduration = {:.17g}\n{}", what.until, what.run);
   if (step > 0) text += fmt::format("time_step = {:.17g}\n", step);
-  text += fmt::format("{}spec = \"{}\"\n", what.scene, fs::absolute(spec).string());
+  text += what.scene;
+  if (!what.ownVehicle) {
+    const fs::path spec = folder / "vehicle.toml";
+    support::writeTextFile(spec, specText(what.changes), "--out");
+    text += fmt::format("spec = \"{}\"\n", fs::absolute(spec).string());
+  }
   return setup::parseScene(text, folder / "scene.toml");
 }
 

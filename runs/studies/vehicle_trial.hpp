@@ -19,10 +19,11 @@ struct SpecChange {
   std::string section, key, value;
 };
 
-/// A scene of the shipped vehicle.
+/// A scene of the shipped vehicle, or of one that it names itself.
 struct VehicleCase {
-  std::string scene; ///< TOML but for run.time_step and vehicle.spec: ends with the section [vehicle]
-  std::string run;   ///< more keys of [run]
+  std::string scene;       ///< TOML but for run.time_step and vehicle.spec: ends with the section [vehicle]
+  bool ownVehicle = false; ///< it has vehicle.spec, and `changes` none
+  std::string run;         ///< more keys of [run]
   std::vector<SpecChange> changes;
   double from = 0, until = 0; ///< of the window whose means are compared [s]; the run ends with it
 };

@@ -11,6 +11,7 @@
 #include "runs/support/progress.hpp"
 #include "runs/sweeps/overrides.hpp"
 #include "runs/sweeps/run_manifest.hpp"
+#include "runs/sweeps/run_progress.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -105,21 +106,6 @@ std::string reason(int status, const fs::path& log) {
   return fmt::format("ended with exit code {}; see {}", WEXITSTATUS(status), log.string());
 }
 
-/// Share of the simulated time a run has behind it, from the last row it wrote.
-double shareDone(const fs::path& folder, double duration) {
-  std::ifstream file(folder / "timeseries.csv", std::ios::binary | std::ios::ate);
-  if (!file) return 0;
-  const std::streamoff size = file.tellg(), tail = std::min<std::streamoff>(size, 1 << 16);
-  file.seekg(size - tail);
-  std::string text(static_cast<std::size_t>(tail), '\0');
-  file.read(text.data(), tail);
-  const std::size_t end = text.rfind('\n');
-  if (end == std::string::npos) return 0;
-  const std::size_t begin = text.rfind('\n', end - 1), comma = text.find(',', begin == std::string::npos ? 0 : begin);
-  if (begin == std::string::npos || comma >= end) return 0;
-  return std::clamp(std::strtod(text.c_str() + comma + 1, nullptr) / duration, 0.0, 1.0);
-}
-
 /// The runs of a sweep as processes, at most `jobs` at a time.
 class Runner {
 public:
@@ -139,6 +125,7 @@ public:
       }
     }
     todo_ = waiting_.size();
+    for (const std::size_t i : waiting_) due_ += expectedEnd(plan.runs[i]);
   }
 
   const std::vector<SweepOutcome>& outcomes() const { return outcomes_; }
@@ -211,7 +198,7 @@ private:
   }
 
   void finish(std::size_t i, int status, double seconds) {
-    ++ended_;
+    ++ended_, done_ += expectedEnd(plan_.runs[i]);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
       outcomes_[i].status = RunStatus::finished;
       progress_.note(fmt::format("{} finished in {}", title(i), support::Progress::duration(seconds)));
@@ -223,14 +210,13 @@ private:
   }
 
   void report() {
-    double done = static_cast<double>(ended_);
+    double done = done_;
     std::string names;
     for (const auto& [process, run] : running_) {
-      done += shareDone(folder(run.index), plan_.runs[run.index].scene.run.duration);
+      done += std::min(timeReached(folder(run.index)), expectedEnd(plan_.runs[run.index]));
       names += (names.empty() ? "" : "; ") + plan_.runs[run.index].name;
     }
-    progress_.update(done / static_cast<double>(todo_),
-                     fmt::format("{} of {} runs to do ended, now {}", ended_, todo_, names));
+    progress_.update(done / due_, fmt::format("{} of {} runs to do ended, now {}", ended_, todo_, names));
   }
 
   const SweepPlan& plan_;
@@ -240,6 +226,7 @@ private:
   std::vector<std::size_t> waiting_;
   std::map<pid_t, Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
+  double due_ = 0, done_ = 0; ///< simulated time of the runs to do, and of those that have ended [s]
   Clock::time_point begin_ = Clock::now();
   support::Progress progress_;
 };

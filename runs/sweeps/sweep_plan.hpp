@@ -29,6 +29,7 @@ struct SweepRun {
   std::vector<std::string> overrides; ///< "key=value", the swept ones and the fixed ones
   scene::Scene scene;                 ///< with the overrides applied
   std::filesystem::path file{};       ///< of its scene; empty: the plan's
+  double expectedEnd = 0;             ///< simulated time at which it will likely end [s]; 0: run.duration
 };
 
 struct SweepPlan {

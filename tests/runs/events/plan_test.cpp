@@ -4,6 +4,7 @@
 #include "runs/events/event_report.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/sweeps/scene_check.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 namespace grouser::events {
@@ -20,30 +22,56 @@ namespace {
 /// A box of 2 x 0.5 m, its centre of mass `ahead` of its middle and `height` high.
 VehicleShape boxShape(double ahead, double height) {
   VehicleShape s;
-  s.outline = {{-1, 0}, {1, 0}, {1, 0.5}, {-1, 0.5}};
-  s.rear = s.front = 1, s.firstWheel = -0.8, s.lastWheel = 0.8;
+  s.rear = s.front = 1, s.diagonal = 2.06, s.firstWheel = -0.8, s.lastWheel = 0.8;
   s.massCentre = {ahead, height}, s.halfWidth = 0.6;
   return s;
 }
 
-TEST(VehicleShape, StepOfABoxIsThatOfTheClosedForm) {
-  // Pitched by t about its rear edge the underside below the centre of mass, a before the edge and H over the
-  // underside, lies (a cos t - H sin t) tan t over the ground; the best of whole degrees.
-  const VehicleShape box = boxShape(0, 0.45);
-  double best = 0;
-  for (int degrees = 1; degrees <= 60; ++degrees) {
-    const double t = degrees * std::acos(-1.0) / 180;
-    best = std::max(best, (std::cos(t) - 0.45 * std::sin(t)) * std::tan(t));
+TEST(StepBound, LoopsAreAsLongAsBeltsInClosedForm) {
+  const double r = 0.2, apart = 3;
+  const std::vector<SideDisc> two{{{0, 0.1}, r}, {{apart, 0.1}, r}};
+  // Polygons of 96 corners: shorter by pi^2 / (6 96^2) = 1.8e-4 of the arcs, 2.2e-4 of those that turn by less.
+  const double belt = 2 * apart + 2 * base::kPi * r;
+  EXPECT_LE(shortestLoop(two), belt);
+  EXPECT_NEAR(shortestLoop(two), belt, 2e-4 * 2 * base::kPi * r);
+  EXPECT_EQ(shortestLoop(two, {1, -0.3}), shortestLoop(two)) << "below the loop nothing presses it in";
+  // From a point as high as the middles tangents of sqrt(a^2 - r^2) lead to rims acos(r / a) below the line of middles;
+  // from there the arcs go round to the top.
+  const double a = 1.2, b = apart - a;
+  const double arcs = r * (3 * base::kPi - std::acos(r / a) - std::acos(r / b));
+  const double notched = apart + std::sqrt(a * a - r * r) + std::sqrt(b * b - r * r) + arcs;
+  EXPECT_LE(shortestLoop(two, {a, 0.1}), notched + 1e-12);
+  EXPECT_NEAR(shortestLoop(two, {a, 0.1}), notched, 3e-4 * arcs);
+}
+
+TEST(StepBound, IsAboveWhatIsClimbedAndDoesNotForgetTheArms) {
+  EventOptions options;
+  options.only = {"step"}, options.levels = {0.3};
+  const auto boundOf = [&options](const std::vector<std::string>& changes) {
+    options.fixed = changes;
+    return planEvents(options).course.shape.highestStep;
+  };
+  const double free = boundOf({});
+  EXPECT_GT(free, 0.67) << "the light vehicle has climbed that";
+  EXPECT_LT(free, 1.0);
+  std::printf("highest step: %.3f m\n", free);
+  EXPECT_LT(boundOf({"spec.arm.suspension=rigid"}), free - 0.05);
+  EXPECT_GT(boundOf({"spec.chassis.centre=[1.6, 0, 0.10]"}), free);
+  EXPECT_LT(boundOf({"spec.chassis.centre=[1.437, 0, 0.25]"}), free);
+  for (const char* vehicle : {"m113_like", "robot"}) {
+    options.vehicle = vehicle, options.fixed = {};
+    const EventPlan plan = planEvents(options);
+    const VehicleShape& s = plan.course.shape;
+    EXPECT_GT(s.highestStep, 0.3 * s.massCentre.z) << vehicle;
+    EXPECT_LT(s.highestStep, 0.5 * s.length()) << vehicle;
   }
-  EXPECT_NEAR(highestStep(box), best, 1e-12); // round-off
-  EXPECT_GT(highestStep(boxShape(0.3, 0.45)), best);
-  EXPECT_LT(highestStep(boxShape(0, 0.6)), best);
 }
 
 TEST(VehicleShape, GapsAndTippingFollowTheCentreOfMass) {
   const VehicleShape box = boxShape(0.1, 0.4);
   EXPECT_DOUBLE_EQ(gapBounds(box).sure, 0.7);
-  EXPECT_DOUBLE_EQ(gapBounds(box).never, 0.9);
+  EXPECT_DOUBLE_EQ(gapBounds(box).level, 0.9);
+  EXPECT_DOUBLE_EQ(gapBounds(box).never, 2.06);
   EXPECT_DOUBLE_EQ(tippingSlope(box), 1.5);
 }
 
@@ -53,7 +81,8 @@ TEST(EventPlan, EveryEventTakesEveryReadyVehicle) {
     options.vehicle = vehicle;
     const EventPlan plan = planEvents(options); // loads and checks every run's scene
     for (const PlannedTrial& t : plan.trials) EXPECT_FALSE(t.runs.empty());
-    EXPECT_EQ(plan.trials.size(), 25u) << vehicle;
+    EXPECT_EQ(plan.trials.size(), 26u) << vehicle;
+    EXPECT_GT(plan.course.shape.diagonal, plan.course.shape.length());
     EXPECT_TRUE(plan.omitted.contains(Event::softSoil));
     // The scene as it stands, with the vehicle alone changed.
     for (const Event event : allEvents())
@@ -79,6 +108,22 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // of assets/soils/lete_sand.toml
   EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 8, 1e-5); // of a pad's width, in four digits
   EXPECT_TRUE(weak.terrain->granular());
+}
+
+TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
+  EventOptions options;
+  options.only = {"grade"}, options.levels = {0.4};
+  const EventPlan grade = planEvents(options);
+  // 8 m at 1.2 m/s, a fifth more, and 1.2 s before it drives; its limit is 22 s.
+  EXPECT_DOUBLE_EQ(grade.sweep.runs[0].expectedEnd, 1.2 + 1.2 * 8 / 1.2);
+  EXPECT_EQ(grade.sweep.runs[0].scene.run.duration, 22);
+  options.only = {"drawbar"}, options.levels = {0.2, 0.6};
+  const EventPlan drawbar = planEvents(options);
+  const auto driving = [&](std::size_t run) { return drawbar.sweep.runs[run].expectedEnd - 1.2; };
+  EXPECT_NEAR(driving(1), 2 * driving(0), 1e-12) << "half as fast"; // round-off of some seconds
+  options.only = {"pivot_turn"}, options.levels = {};
+  const EventPlan turn = planEvents(options);
+  EXPECT_EQ(turn.sweep.runs[0].expectedEnd, turn.sweep.runs[0].scene.run.duration);
 }
 
 TEST(EventPlan, LeansGravityAndKeepsItsSize) {
