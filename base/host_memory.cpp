@@ -12,19 +12,19 @@ namespace {
 struct Count {
   std::atomic<std::size_t> now{0}, most{0};
 };
-Count count;
+Count held;
 
 } // namespace
 
 void noteTaken(void* memory) noexcept {
-  const std::size_t held = count.now += malloc_usable_size(memory);
-  for (std::size_t before = count.most; held > before && !count.most.compare_exchange_weak(before, held);) {}
+  const std::size_t now = held.now += malloc_usable_size(memory);
+  for (std::size_t before = held.most; now > before && !held.most.compare_exchange_weak(before, now);) {}
 }
 
-void noteGivenBack(void* memory) noexcept { count.now -= malloc_usable_size(memory); }
+void noteGivenBack(void* memory) noexcept { held.now -= malloc_usable_size(memory); }
 
-std::size_t heldOnHost() { return count.now; }
-std::size_t mostHeldOnHost() { return count.most; }
-void restartHostPeak() { count.most = count.now.load(); }
+std::size_t heldOnHost() { return held.now; }
+std::size_t mostHeldOnHost() { return held.most; }
+void restartHostPeak() { held.most = held.now.load(); }
 
 } // namespace grouser::base

@@ -118,13 +118,13 @@ struct Broken {
   const char* message;
 };
 
-class BrokenField : public testing::TestWithParam<Broken> {};
+class BrokenField : public ::testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenField, IsNamedWithPlaceValueAndRemedy) { EXPECT_EQ(complaint(GetParam().text), GetParam().message); }
 
 INSTANTIATE_TEST_SUITE_P(
     Table, BrokenField,
-    testing::Values(
+    ::testing::Values(
         Broken{"OutOfRange", "\nradius = -1",
                "w.toml:4: wheel.radius = -1 [m] is outside (0, 10]; choose a value in that range (rolling radius)"},
         Broken{"AtOpenBound", "radius = 0.0",

@@ -9,14 +9,14 @@
 namespace grouser::multibody::test {
 namespace {
 
-const Mat3d kInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
+const Mat3d kBallInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
 
 TEST(MultibodyJoints, PrismaticSlidesDownAnInclineAsTheDiscreteFall) {
   // Slope 30 degrees: s = g sin(30) dt^2 n (n + 1) / 2 of the symplectic recurrence; reaction m g cos(30) across.
   const double angle = base::kPi / 6, m = 3, dt = 1e-3;
   const Vec3d down{base::cos(angle), 0, -base::sin(angle)};
   Mechanism p;
-  p.model.addBody(makeBody("slider", m, kInertia, {{0, 0, 1}, {}}));
+  p.model.addBody(makeBody("slider", m, kBallInertia, {{0, 0, 1}, {}}));
   p.model.addJointAt("rail", JointType::kPrismatic, kWorld, 0, frameWithZ({0, 0, 1}, down));
   p.start();
   Solver solver(p.model);
@@ -31,7 +31,7 @@ TEST(MultibodyJoints, PrismaticSlidesDownAnInclineAsTheDiscreteFall) {
 
 TEST(MultibodyJoints, PrismaticRailTakesTheTorqueOfALoadBesideIt) {
   Mechanism p;
-  p.model.addBody(makeBody("slider", 2, kInertia, {{0.4, 0, 0}, {}}));
+  p.model.addBody(makeBody("slider", 2, kBallInertia, {{0.4, 0, 0}, {}}));
   p.model.addJointAt("rail", JointType::kPrismatic, kWorld, 0, frameWithZ({0, 0, 0}, kY));
   p.start();
   Solver solver(p.model);
@@ -44,8 +44,8 @@ TEST(MultibodyJoints, PrismaticRailTakesTheTorqueOfALoadBesideIt) {
 TEST(MultibodyJoints, FixedJointsCarryACantileverOfTwoBodies) {
   const double m = 5, g = 9.81;
   Mechanism p;
-  p.model.addBody(makeBody("inner", m, kInertia, {{0.5, 0, 0}, {}}));
-  p.model.addBody(makeBody("outer", m, kInertia, {{1.5, 0, 0}, aboutY(0.3)}));
+  p.model.addBody(makeBody("inner", m, kBallInertia, {{0.5, 0, 0}, {}}));
+  p.model.addBody(makeBody("outer", m, kBallInertia, {{1.5, 0, 0}, aboutY(0.3)}));
   p.model.addJointAt("wall", JointType::kFixed, kWorld, 0, {{0, 0, 0}, {}});
   p.model.addJointAt("splice", JointType::kFixed, 0, 1, {{1, 0, 0}, aboutY(1)});
   p.start();
@@ -85,8 +85,8 @@ TEST(MultibodyJoints, UniversalTurnsTheOutputShaftByHookesLaw) {
   const double bend = 35 * base::kPi / 180, dt = 1e-4;
   const Vec3d outAxis{base::sin(bend), 0, base::cos(bend)};
   Mechanism p;
-  p.model.addBody(makeBody("in", 1, kInertia, {{0, 0, -0.5}, {}}));
-  p.model.addBody(makeBody("out", 1, kInertia, {0.5 * outAxis, aboutY(bend)}));
+  p.model.addBody(makeBody("in", 1, kBallInertia, {{0, 0, -0.5}, {}}));
+  p.model.addBody(makeBody("out", 1, kBallInertia, {0.5 * outAxis, aboutY(bend)}));
   p.model.addJointAt("bearing in", JointType::kRevolute, kWorld, 0, frameWithZX({0, 0, -0.5}, {0, 0, 1}, {1, 0, 0}));
   p.model.addJointAt("bearing out", JointType::kRevolute, kWorld, 1, frameWithZX(0.5 * outAxis, outAxis, kY));
   // Pin of the input along x (z of the joint frame), pin of the output along y (x of the joint frame).

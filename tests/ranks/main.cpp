@@ -15,12 +15,12 @@ const base::Comm& comm() { return *joined; }
 } // namespace grouser::test
 
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
   const grouser::base::Ranks ranks(argc, argv);
   grouser::test::joined = &ranks.comm();
   if (!ranks.comm().first())
-    delete testing::UnitTest::GetInstance()->listeners().Release(
-        testing::UnitTest::GetInstance()->listeners().default_result_printer());
+    delete ::testing::UnitTest::GetInstance()->listeners().Release(
+        ::testing::UnitTest::GetInstance()->listeners().default_result_printer());
   const int failed = RUN_ALL_TESTS();
   return static_cast<int>(ranks.comm().maximumOf(static_cast<std::uint64_t>(failed)));
 }

@@ -19,7 +19,7 @@ namespace {
 
 using base::PeerUse;
 
-class Peers : public testing::Test {
+class Peers : public ::testing::Test {
 protected:
   void SetUp() override {
     if (comm.alone()) GTEST_SKIP() << "one rank has no peers";

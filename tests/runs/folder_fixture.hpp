@@ -24,13 +24,13 @@ inline void put(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 /// A test with an empty folder of its own, which is gone afterwards. Tests of several processes do not meet.
-class FolderTest : public testing::Test {
+class FolderTest : public ::testing::Test {
 protected:
   void SetUp() override {
-    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string("grouser_") + test.test_suite_name() + "_" + test.name();
     std::replace(name.begin(), name.end(), '/', '_');
-    folder_ = std::filesystem::path(testing::TempDir()) / (name + "_" + std::to_string(getpid()));
+    folder_ = std::filesystem::path(::testing::TempDir()) / (name + "_" + std::to_string(getpid()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }

@@ -24,7 +24,7 @@ Vec3d spread(int i) {
 /// A file that is gone with the test.
 struct File {
   std::string path;
-  File(const std::string& name, const std::string& text) : path(testing::TempDir() + name) {
+  File(const std::string& name, const std::string& text) : path(::testing::TempDir() + name) {
     std::ofstream(path) << text;
   }
   ~File() { std::filesystem::remove(path); }

@@ -23,15 +23,15 @@ struct Ready {
 };
 std::ostream& operator<<(std::ostream& out, const Ready& r) { return out << r.name; }
 
-class ReadyVehicle : public testing::TestWithParam<Ready> {
+class ReadyVehicle : public ::testing::TestWithParam<Ready> {
 protected:
   VehicleSpec spec() const { return test::readySpec(GetParam().name); }
 };
 
 INSTANTIATE_TEST_SUITE_P(All, ReadyVehicle,
-                         testing::Values(Ready{"light_tracked", 5018, 1.7832, {}},
-                                         Ready{"m113_like", 10400, 2.668, {6e7, 1e-4}},
-                                         Ready{"robot", 200, 0.62412, {4e6, 5e-5}}),
+                         ::testing::Values(Ready{"light_tracked", 5018, 1.7832, {}},
+                                           Ready{"m113_like", 10400, 2.668, {6e7, 1e-4}},
+                                           Ready{"robot", 200, 0.62412, {4e6, 5e-5}}),
                          [](const auto& ready) { return std::string(ready.param.name); });
 
 TEST_P(ReadyVehicle, HasItsMassAndLengthAndCloses) {

@@ -61,7 +61,7 @@ TEST(ContactSpheres, InsideTheBlockASphereTouchesSixOthers) {
 }
 
 TEST(BenchContacts, FiguresHoldContactsTimesAndBullet) {
-  const fs::path file = fs::path(testing::TempDir()) / "grouser_bench_contacts.json";
+  const fs::path file = fs::path(::testing::TempDir()) / "grouser_bench_contacts.json";
   ContactsBench bench;
   bench.contacts = {3000, 900}, bench.threads = 1, bench.device = "cpu", bench.json = file.string();
   benchContactsCommand(bench);

@@ -345,7 +345,7 @@ TEST_P(BadInput, EndsWithOneLineAndTouchesNothing) {
   EXPECT_EQ(files() == before, true) << "something was written, changed or removed";
 }
 
-INSTANTIATE_TEST_SUITE_P(Mistakes, BadInput, testing::ValuesIn(mistakes()),
+INSTANTIATE_TEST_SUITE_P(Mistakes, BadInput, ::testing::ValuesIn(mistakes()),
                          [](const auto& test) { return test.param.name; });
 
 } // namespace

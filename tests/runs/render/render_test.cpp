@@ -186,7 +186,7 @@ TEST(Picture, ShowsGrainsPartsAndGroundAndIsWritten) {
   frame.partPoses = {{{0.5, 0.5, 0.4}, {}}};
   const Image image = drawFrame(frame, {{"left shoe 0", output::PartKind::shoe, plate}}, {}, 320);
   EXPECT_EQ(image.height, 180);
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "grouser_picture.png";
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "grouser_picture.png";
   writePng(image, file);
   EXPECT_GT(std::filesystem::file_size(file), 5000u);
   std::filesystem::remove(file);

@@ -120,7 +120,7 @@ struct Mistake {
   const char* message;   ///< a part of the error
 };
 
-class MechanismMistakes : public testing::TestWithParam<Mistake> {};
+class MechanismMistakes : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(MechanismMistakes, NamePlaceValueAndRemedy) {
   const auto& [from, to, message] = GetParam();
@@ -203,7 +203,7 @@ constexpr Mistake kMistakes[] = {
     {"[[spring]]", "[material.glass]\n[[grain]]\nposition = [9, 0, 0]\nradius = 0.1\nmaterial = \"glass\"\n[[spring]]",
      "free bodies touch neither ground nor grains"},
 };
-INSTANTIATE_TEST_SUITE_P(All, MechanismMistakes, testing::ValuesIn(kMistakes));
+INSTANTIATE_TEST_SUITE_P(All, MechanismMistakes, ::testing::ValuesIn(kMistakes));
 
 TEST(MechanismScene, DrivesThatContradictEachOtherThroughALoopAreRefusedAtTheirLine) {
   // Both cranks of a parallelogram, at different speeds.

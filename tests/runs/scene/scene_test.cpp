@@ -75,7 +75,7 @@ TEST(Scene, ResolvedCopyLoadsToTheSameScene) {
 }
 
 TEST(Scene, PathsAreFoundBesideTheSceneFirst) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scene_paths";
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "scene_paths";
   std::filesystem::create_directories(folder / "heightmaps");
   std::filesystem::copy_file(std::string(GROUSER_SOURCE_DIR) + "/assets/heightmaps/hills.png",
                              folder / "heightmaps/hills.png", std::filesystem::copy_options::overwrite_existing);
@@ -116,7 +116,7 @@ struct Broken {
   friend void PrintTo(const Broken& b, std::ostream* out) { *out << b.name; }
 };
 
-class BrokenScene : public testing::TestWithParam<Broken> {};
+class BrokenScene : public ::testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenScene, GivesOneErrorWithKeyAndRemedy) {
   const std::string text = replaced(goodScene(), GetParam().from, GetParam().to);
@@ -133,7 +133,7 @@ TEST_P(BrokenScene, GivesOneErrorWithKeyAndRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, BrokenScene,
-    testing::Values(
+    ::testing::Values(
         Broken{"UnknownKey",
                "duration = 2",
                "duraton = 2",

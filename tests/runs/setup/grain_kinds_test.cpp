@@ -19,7 +19,7 @@ namespace grouser::setup {
 namespace {
 
 scene::Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return parseScene("version = 1\n[run]\nduration = 0.02\n" + text, testing::TempDir() + "/scene.toml", overrides);
+  return parseScene("version = 1\n[run]\nduration = 0.02\n" + text, ::testing::TempDir() + "/scene.toml", overrides);
 }
 
 const char* kMixed = R"([material.glass]
@@ -129,7 +129,7 @@ TEST(Blocks, LatticeThatIsShiftedStaysInItsBox) {
 }
 
 TEST(Blocks, FileIsReadAndABrokenLineNamed) {
-  const std::string good = testing::TempDir() + "/places.txt", bad = testing::TempDir() + "/broken.txt";
+  const std::string good = ::testing::TempDir() + "/places.txt", bad = ::testing::TempDir() + "/broken.txt";
   std::ofstream(good) << "# x y z r\n0, 0, 1, 0.1\n0.5 0 1 0.2  # larger\n\n";
   std::ofstream(bad) << "0 0 1 0.1\n0 0 2\n";
   const std::string scene = "[material.a]\n[[grains]]\nform = \"file\"\nmaterial = \"a\"\nfile = ";
@@ -146,7 +146,7 @@ TEST(Blocks, FileIsReadAndABrokenLineNamed) {
 }
 
 TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
-  const std::string file = testing::TempDir() + "/moving.txt";
+  const std::string file = ::testing::TempDir() + "/moving.txt";
   const auto read = [&](const std::string& lines, const std::vector<std::string>& overrides = {}) {
     std::ofstream(file) << lines;
     return parse("[material.a]\n[[grains]]\nform = \"file\"\nmaterial = \"a\"\nvelocity = [0, 0, -1]\n"

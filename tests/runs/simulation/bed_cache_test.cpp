@@ -160,9 +160,9 @@ TEST_F(KeptBed, DamagedOrForeignIsToldAndSettledAnew) {
   flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
   for (const std::string& bad : {flipped, whole.substr(0, whole.size() - 1), std::string("no bed"), std::string()}) {
     std::ofstream(file, std::ios::binary) << bad;
-    testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStderr();
     const Outcome again = runIn(folder_);
-    const std::string told = testing::internal::GetCapturedStderr();
+    const std::string told = ::testing::internal::GetCapturedStderr();
     EXPECT_NE(told.find(file.string()), std::string::npos) << told;
     EXPECT_TRUE(again.settled);
     EXPECT_EQ(again.hash, first.hash);
@@ -177,18 +177,18 @@ TEST_F(KeptBed, OfAnotherNameIsNotTaken) {
   const Outcome other = runIn(folder_, {"run.seed=2"});
   const fs::path two = files().front();
   fs::rename(folder_ / "kept", two); // as if two origins had one hash
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   const Outcome again = runIn(folder_, {"run.seed=2"});
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("another bed"), std::string::npos);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("another bed"), std::string::npos);
   EXPECT_TRUE(again.settled);
   EXPECT_EQ(again.hash, other.hash);
 }
 
 TEST_F(KeptBed, UnusableFolderIsAWarning) {
   std::ofstream(folder_) << "a file where the folder should be";
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   const Outcome o = runIn(folder_ / "below");
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot be kept"), std::string::npos);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("cannot be kept"), std::string::npos);
   EXPECT_EQ(o.hash, run(nullptr).hash);
   EXPECT_NE(o.summary.find("not kept"), std::string::npos);
 }
@@ -246,7 +246,7 @@ TEST_F(KeptBed, FolderComesFromTheSurroundings) {
 }
 
 TEST(FileLock, IsHeldByOneAtATime) {
-  const fs::path file = fs::path(testing::TempDir()) / ("grouser_lock_" + std::to_string(getpid()));
+  const fs::path file = fs::path(::testing::TempDir()) / ("grouser_lock_" + std::to_string(getpid()));
   support::FileLock second;
   {
     support::FileLock first;

@@ -13,7 +13,7 @@
 namespace grouser::simulation {
 namespace {
 
-void quiet(double, double) {}
+void quietly(double, double) {}
 
 scene::Scene sceneOf(const std::string& file, std::vector<std::string> overrides) {
   const std::vector<std::string> ramps = {"driver.tension_ramp=0.01", "driver.weight_ramp=0.01",
@@ -47,8 +47,8 @@ std::vector<std::string> both() {
 
 TEST(DriverModes, CourseByEnginesOnABedIsOneAnswerOnAnyThreadsAndResumed) {
   const scene::Scene scene = freed("coupled.toml", both());
-  Simulation one(setup::simulationSetup(scene), base::cpuExec(1), quiet, {}, sharedBeds(), sharedSpheres());
-  Simulation two(setup::simulationSetup(scene), base::cpuExec(2), quiet, {}, sharedBeds(), sharedSpheres());
+  Simulation one(setup::simulationSetup(scene), base::cpuExec(1), quietly, {}, sharedBeds(), sharedSpheres());
+  Simulation two(setup::simulationSetup(scene), base::cpuExec(2), quietly, {}, sharedBeds(), sharedSpheres());
   while (one.steps() < 700) one.step(), two.step();
   EXPECT_EQ(one.stateHash(), two.stateHash());
   const auto saved = one.save();
@@ -63,7 +63,7 @@ TEST(DriverModes, CourseByEnginesOnABedIsOneAnswerOnAnyThreadsAndResumed) {
 
 TEST(DriverModes, TorquesBeginWithTheDriveAndAreThoseThatAreGiven) {
   std::vector<std::string> overrides = {"driver.drive=torque", "driver.left_torque=3000", "driver.right_torque=1000"};
-  Simulation s(setup::simulationSetup(freed("rigid.toml", overrides)), base::cpuExec(1), quiet, {}, sharedBeds(),
+  Simulation s(setup::simulationSetup(freed("rigid.toml", overrides)), base::cpuExec(1), quietly, {}, sharedBeds(),
                sharedSpheres());
   while (s.time() < 0.0195) s.step();
   EXPECT_NEAR(s.vehicle()->observe().tracks[0].sprocketSpeed, 0, 1e-9) << "held until then";

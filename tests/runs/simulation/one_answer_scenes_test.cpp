@@ -23,7 +23,7 @@ struct Golden {
 };
 std::ostream& operator<<(std::ostream& out, const Golden& g) { return out << g.scene; }
 
-class OneAnswerScenes : public testing::TestWithParam<Golden> {};
+class OneAnswerScenes : public ::testing::TestWithParam<Golden> {};
 
 Simulation begin(const Golden& g, int threads, const std::vector<std::string>& overrides = {}) {
   return Simulation(setup::simulationSetup(setup::loadScene(testScene(std::string(g.scene) + ".toml"), overrides)),
@@ -63,14 +63,14 @@ TEST(OneAnswerBed, TwentyThousandGrainsOverTenThousandSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OneAnswerScenes,
-                         testing::Values(Golden{"rigs", 1900, "6cb95c122f442e47", {"run.skin=0.6"}},
-                                         Golden{"chute", 4000, "5a9fa64e8fdd3ca7", {"run.skin=0.6"}},
-                                         Golden{"moving", 4000, "858daf9fbde2f86e", {"run.skin=0.6"}},
-                                         Golden{"rain", 5000, "245e5d2a7169fea8", {"run.skin=0.7"}},
-                                         Golden{"mixture", 1500, "fef0375713db4e20", {"run.skin=0.5"}},
-                                         Golden{"cohesive", 4000, "dc7cb6305b291fad", {"run.skin=0.5"}},
-                                         Golden{"bed", 500, "b0b64439decac9fa", {"run.skin=0.6"}}),
-                         [](const testing::TestParamInfo<Golden>& each) { return std::string(each.param.scene); });
+                         ::testing::Values(Golden{"rigs", 1900, "6cb95c122f442e47", {"run.skin=0.6"}},
+                                           Golden{"chute", 4000, "5a9fa64e8fdd3ca7", {"run.skin=0.6"}},
+                                           Golden{"moving", 4000, "858daf9fbde2f86e", {"run.skin=0.6"}},
+                                           Golden{"rain", 5000, "245e5d2a7169fea8", {"run.skin=0.7"}},
+                                           Golden{"mixture", 1500, "fef0375713db4e20", {"run.skin=0.5"}},
+                                           Golden{"cohesive", 4000, "dc7cb6305b291fad", {"run.skin=0.5"}},
+                                           Golden{"bed", 500, "b0b64439decac9fa", {"run.skin=0.6"}}),
+                         [](const ::testing::TestParamInfo<Golden>& each) { return std::string(each.param.scene); });
 
 } // namespace
 } // namespace grouser::simulation

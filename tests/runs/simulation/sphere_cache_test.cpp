@@ -17,7 +17,7 @@
 
 namespace grouser::simulation {
 
-using namespace test; // fixtures
+using namespace grouser::test; // fixtures
 
 namespace {
 
@@ -115,9 +115,9 @@ TEST_F(KeptSpheres, DamagedOrForeignFileIsToldAndCutAnew) {
   for (const std::string& bad :
        {flipped, version, whole.substr(0, whole.size() - 1), whole + "x", std::string("no set"), std::string()}) {
     put(file, bad);
-    testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStderr();
     const auto [set, says] = cut(part());
-    const std::string told = testing::internal::GetCapturedStderr();
+    const std::string told = ::testing::internal::GetCapturedStderr();
     EXPECT_EQ(told.rfind("grouser: warning: " + file.string(), 0), 0u) << told;
     EXPECT_EQ(told.find("warning", 20), std::string::npos) << "told once: " << told;
     EXPECT_TRUE(wasCut(says)) << says;
@@ -132,9 +132,9 @@ TEST_F(KeptSpheres, OfAnotherOriginAreNotTaken) {
   fs::rename(one, folder_ / "kept");
   cut(part(0.013));
   fs::rename(folder_ / "kept", files().at(0)); // as if two origins had one hash
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   const auto [set, says] = cut(part(0.013));
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("another set"), std::string::npos);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("another set"), std::string::npos);
   EXPECT_TRUE(wasCut(says));
   expectSame(set, cutAlone(part(0.013)));
 }

@@ -57,7 +57,7 @@ struct Case {
   const char* more = "run.seed=1"; ///< a key besides
 };
 
-class Tolerance : public testing::TestWithParam<Case> {};
+class Tolerance : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Tolerance, ErrorAtTheEndGoesWithIt) {
   const Case& c = GetParam();
@@ -79,10 +79,10 @@ TEST_P(Tolerance, ErrorAtTheEndGoesWithIt) {
 
 // A pendulum; a squeezer that runs away; a door that is blown against a damped stop.
 INSTANTIATE_TEST_SUITE_P(Mechanisms, Tolerance,
-                         testing::Values(Case{"pendulum.toml", 5, 1e-3, 6, 1e-3, 3},
-                                         Case{"andrews.toml", 0.03, 1e-1, 6, 2e-6, 1e-3},
-                                         Case{"door.toml", 1.5, 1e-4, 2, 1e-5, 2, "joint.0.limits=[-0.1, 0.5]"}),
-                         [](const testing::TestParamInfo<Case>& one) {
+                         ::testing::Values(Case{"pendulum.toml", 5, 1e-3, 6, 1e-3, 3},
+                                           Case{"andrews.toml", 0.03, 1e-1, 6, 2e-6, 1e-3},
+                                           Case{"door.toml", 1.5, 1e-4, 2, 1e-5, 2, "joint.0.limits=[-0.1, 0.5]"}),
+                         [](const ::testing::TestParamInfo<Case>& one) {
                            const std::string name = one.param.scene;
                            return name.substr(0, name.find('.'));
                          });

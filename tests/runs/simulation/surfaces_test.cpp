@@ -353,7 +353,7 @@ TEST(Surfaces, OfThePairsMaterialFollowOverrides) {
 
 /// A cube with edges of 2, of the file's units, about its origin.
 std::string cubeFile() {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "grouser_surfaces_cube.obj";
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "grouser_surfaces_cube.obj";
   std::ofstream(path) << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                          "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\n"
                          "f 4 1 5\nf 4 5 8\n";

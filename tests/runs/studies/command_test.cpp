@@ -173,7 +173,7 @@ TEST_F(PieceStudy, RefusesPlatesAndBedsThatCannotBe) {
 
 INSTANTIATE_TEST_SUITE_P(
     Grains, StudyCommand,
-    testing::Values(
+    ::testing::Values(
         StudyCall{
             "impact",
             "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",

@@ -59,7 +59,7 @@ TEST(StudyReference, FilesHoldARowForEverySample) {
       ASSERT_EQ(c.reference(std::round(t / c.sample) * c.sample).size(), c.probes.size()) << c.name;
 }
 
-class StudyAccuracy : public testing::TestWithParam<const char*> {};
+class StudyAccuracy : public ::testing::TestWithParam<const char*> {};
 
 /// RATTLE has order 2; the second of two steps, a quarter of the first, shows it within a tenth.
 TEST_P(StudyAccuracy, ErrorFallsWithTheSquareOfTheStep) {
@@ -73,8 +73,8 @@ TEST_P(StudyAccuracy, ErrorFallsWithTheSquareOfTheStep) {
   EXPECT_LT(points[2].velocityDrift, 1e-9);
 }
 INSTANTIATE_TEST_SUITE_P(All, StudyAccuracy,
-                         testing::Values("pendulum", "revolute", "fixed", "prismatic", "torsion", "andrews", "top_free",
-                                         "ring46"),
+                         ::testing::Values("pendulum", "revolute", "fixed", "prismatic", "torsion", "andrews",
+                                           "top_free", "ring46"),
                          [](const auto& claim) { return std::string(claim.param); });
 
 /// Imposed motions and constant accelerations: what is left is round-off over the steps.
