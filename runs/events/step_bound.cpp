@@ -22,7 +22,6 @@ constexpr int kLeastPitch = 2, kMostPitch = 80;     // degrees, in steps of
 constexpr int kPitchStep = 2;                       // the maximum is flat
 constexpr double kDepthStep = 5e-3, kDeepest = 0.6; // m, of the edge below the hull
 constexpr int kHalvings = 16;
-constexpr double kG = 9.81; // m/s2
 
 double cross(const SidePoint& o, const SidePoint& a, const SidePoint& b) {
   return (a.x - o.x) * (b.z - o.z) - (a.z - o.z) * (b.x - o.x);
@@ -113,12 +112,12 @@ Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap) {
   f.first = s.roadWheel.firstX - f.wheel;
   f.last = s.roadWheel.firstX + (s.roadWheel.count - 1) * s.roadWheel.spacing + f.wheel;
   // Between two wheels the pins rise by the folds that the plates leave, straight under one wheel not at all.
-  const double between = s.shoe.pitch * base::sin(s.shoe.maximumFold), half = 0.5 * s.totalMass() * kG;
+  const double between = s.shoe.pitch * base::sin(s.shoe.maximumFold), half = 0.5 * s.totalMass() * kGravity;
   f.hanging = f.drawn;
   double pressed = between;
   if (!f.rigid) {
     const double bar = s.arm.preload * f.arm * base::cos(f.drawn);
-    f.hanging += (bar + (s.roadWheel.mass + 0.5 * s.arm.mass) * kG * f.arm) / s.arm.stiffness;
+    f.hanging += (bar + (s.roadWheel.mass + 0.5 * s.arm.mass) * kGravity * f.arm) / s.arm.stiffness;
     const auto rise = [&](double load) {
       const double turn = std::max(0.0, (load * f.arm - bar) / s.arm.stiffness);
       return f.arm * (base::sin(f.drawn) - base::sin(std::max(f.drawn - turn, -0.5 * base::kPi)));

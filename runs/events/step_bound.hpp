@@ -8,6 +8,8 @@
 /// The highest step that a vehicle can climb by its shape, its wheels free to move on their arms.
 namespace grouser::events {
 
+inline constexpr double kGravity = 9.81; ///< of the events' scenes [m/s2]
+
 /// A point in the side view: x forward from the sprockets' axle, z up [m].
 struct SidePoint {
   double x = 0, z = 0;

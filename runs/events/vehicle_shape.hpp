@@ -6,8 +6,6 @@
 /// What a vehicle can pass by its shape alone: for the sizes of obstacles, and to compare with what runs have shown.
 namespace grouser::events {
 
-inline constexpr double kGravity = 9.81; ///< of the events' scenes [m/s2]
-
 /// Lengths and masses of a vehicle as drawn, on level ground.
 struct VehicleShape {
   double rear = 0, front = 0;           ///< how far it reaches behind and before the sprockets' axle [m]

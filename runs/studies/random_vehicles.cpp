@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/studies/common.hpp"
 #include "runs/studies/random_draw.hpp"
 #include "runs/support/locations.hpp"
 #include "vehicle/spec_file.hpp"
@@ -17,7 +18,6 @@ namespace grouser::studies {
 namespace {
 
 constexpr std::uint64_t kPurpose = base::purpose("study.random_vehicles");
-constexpr double kG = 9.81;                                   // [m/s2]
 constexpr double kStart = 0.12, kUntil = 0.4, kWindow = 0.15; // [s]
 constexpr double kLightPad = 0.28, kLightRadius = 0.2451; // of the light vehicle, whose grains and speeds are scaled
 constexpr double kLightMass = 5018;
@@ -83,7 +83,7 @@ std::string driver(Draw& draw, const vehicle::VehicleSpec& s, const std::string&
   const double omega = draw.over(0.5, 10) * std::sqrt(kLightRadius / s.pitchRadius()), side = draw.in(0.2, 0.9);
   if (kind == "torque") // up to what makes the tracks slide
     return text + fmt::format("drive = \"torque\"\ntorque = {:.6g}\ndrive_ramp = 0.1\n",
-                              draw.in(-1, 1) * 0.4 * s.totalMass() * kG * s.pitchRadius());
+                              draw.in(-1, 1) * 0.4 * s.totalMass() * kGravity * s.pitchRadius());
   if (kind == "reversal")
     return text +
            fmt::format("[driver.table]\ntime = [0, 0.1, 0.15, 1]\nleft = [0, {0:.5g}, {1:.5g}, {1:.5g}]\nright = "
@@ -138,7 +138,7 @@ RandomVehicle randomVehicle(std::uint64_t seed, int number) {
   changes += masses(draw, spec), changes += springs(draw, spec, random.rigidArms);
   double start = 0;
   const std::string around = ground(draw, spec, random, start), drives = driver(draw, spec, random.drive);
-  const double g = kG * (draw.once(0.25) ? draw.in(0, 3) : 1);
+  const double g = kGravity * (draw.once(0.25) ? draw.in(0, 3) : 1);
   const double lean = !random.onBed && draw.once(0.3) ? draw.in(-0.3, 0.3) : 0, down = 1 / std::sqrt(1 + lean * lean);
   random.stepShare = draw.once(0.5) ? 0 : draw.in(0.4, 1.1);
   random.what.ownVehicle = true;

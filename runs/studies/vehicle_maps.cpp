@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/setup/vehicle_setup.hpp"
+#include "runs/studies/common.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kG = 9.81;         // [m/s2]
 constexpr double kStep = 1e-4;      // of maps whose axes are not steps: the automatic one on rigid ground [s]
 constexpr double kDriveStart = 0.2; // [s]
 constexpr double kHardStart = 0.05; // [s]
@@ -175,7 +175,7 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   PredictedLine pressed{"a grain alone under a road wheel is pressed to its middle", {}, {}};
   const double wheels = 2.0 * spec.roadWheel.count;
   for (const double radius : between(radii.front(), radii.back(), kLinePoints)) {
-    const double weight = 1e6 * radius * wheels / (spec.totalMass() * kG);
+    const double weight = 1e6 * radius * wheels / (spec.totalMass() * kGravity);
     if (weight >= weights.front() && weight <= weights.back()) pressed.x.push_back(radius), pressed.y.push_back(weight);
   }
   map.lines = {pressed};
@@ -216,7 +216,7 @@ VehicleMap drop(bool quick, const fs::path& folder) {
               "kind = \"rigid\"\nmaterial = \"ground\"\n"
               "[driver]\nsprocket_speed = 0\ntension_ramp = 0.05\nweight_ramp = 0\ndrive_start = 0.05\n" +
               fmt::format("[vehicle]\nposition = [2.5, 0]\nclearance = {:.9g}\nsphere_radius = 0.03\n", height);
-    const double lands = 0.05 + std::sqrt(2 * height / kG);
+    const double lands = 0.05 + std::sqrt(2 * height / kGravity);
     c.from = lands + 0.2, c.until = lands + 0.5;
     return c;
   };
@@ -280,7 +280,9 @@ VehicleMap ledge(bool quick, const fs::path& folder) {
 
 VehicleMap gravity(bool quick, const fs::path& folder) {
   const VehicleMap map{"gravity", "gravity", {"gravity over 9.81 m/s2 [-]", false}, {kStepAxis}};
-  const auto make = [](double g) { return onRigidGround({}, {}, fmt::format("gravity = [0, 0, {:.9g}]\n", -g * kG)); };
+  const auto make = [](double g) {
+    return onRigidGround({}, {}, fmt::format("gravity = [0, 0, {:.9g}]\n", -g * kGravity));
+  };
   return overSteps(map, quick ? std::vector<double>{0, 10} : std::vector<double>{0, 0.17, 1, 3, 6, 10},
                    mapShares(quick), make, folder);
 }
