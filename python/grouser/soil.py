@@ -31,7 +31,7 @@ class PlateCurve:
     plate: str  #: "small" or "large"
     breadth: float  #: [m]
     seed: int
-    phase: numpy.ndarray  #: [points] 0 down, 1 up, 2 down again
+    phase: numpy.ndarray  #: [points] 0 down, 3 held there, 1 up, 2 down again
     sinkage: numpy.ndarray  #: [points] [m]
     pressure: numpy.ndarray  #: [points] [Pa]
 

@@ -21,13 +21,25 @@ constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high 
 constexpr double kFall = 0.5;              // [s] simulated for a lift, for the time left only
 constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
 
+/// Of two grains pressed together by a force, as if they were elastic [m].
+double overlapUnder(const TestedSoil& soil, double force) {
+  if (soil.young == 0) return force / numberOf(soil, "stiffness", 0);
+  const double modulus = 0.5 * soil.young / (1 - soil.poisson * soil.poisson), radius = 0.5 * soil.grainRadius;
+  return base::pow(0.5625 * force * force / (modulus * modulus * radius), 1.0 / 3);
+}
+
+/// Of a bed whose contacts carry what a column of grains would under the track's pressure [Pa]. Real beds have fewer
+/// contacts and slide besides: it is an upper bound, for a plate to begin with.
+double modulusOfColumns(const TestedSoil& soil) {
+  const double d = 2 * soil.grainRadius;
+  return kTrackPressure * d / overlapUnder(soil, kTrackPressure * d * d);
+}
+
 /// An impact whose deepest overlap is that of a contact in the chains of a bed under `pressure`: so stiff are its
 /// contacts, and for that their step is chosen. A contact carries about pressure times d^2, in chains twice that.
 double impactLikePressure(const TestedSoil& soil, double pressure) {
   if (soil.young == 0) return 0;
-  const double d = 2 * soil.grainRadius, force = 2 * pressure * d * d;
-  const double modulus = 0.5 * soil.young / (1 - soil.poisson * soil.poisson), radius = 0.5 * soil.grainRadius;
-  const double overlap = base::pow(0.5625 * force * force / (modulus * modulus * radius), 1.0 / 3);
+  const double d = 2 * soil.grainRadius, force = 2 * pressure * d * d, overlap = overlapUnder(soil, force);
   // Energy of a Hertz contact: 2/5 F overlap = m_eff v^2 / 2.
   return std::sqrt(0.8 * force * overlap / (0.5 * base::sphereMass(soil.density, soil.grainRadius)));
 }
@@ -39,7 +51,8 @@ double volumeOf(const studies::Soil& soil, const PlateSinkage& plate) {
 
 double plateCost(const studies::Soil& soil, const PlateSinkage& plate) {
   const double lifts = plate.strip.depth * plate.strip.breadth / plate.lift;
-  const double push = 1.2 * plate.strip.sinkage * plate.strip.breadth * soil.grains.diameter() / plate.speed(soil);
+  const double push = 1.2 * plate.strip.sinkage * plate.strip.breadth * soil.grains.diameter() /
+                      std::sqrt(plate.pace(soil).first() * plate.fastest(soil));
   return volumeOf(soil, plate) / soil.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0) *
          (0.6 * kFall * std::max(1.0, lifts) + push);
 }
@@ -100,7 +113,7 @@ PlanOptions coarsePlan() {
   PlanOptions o;
   o.coarse = true;
   o.plateGrains = 8, o.bin = 4, o.depth = 1.5, o.thickness = 6, o.gradedThickness = 9;
-  o.inertialNumber = 5e-3, o.shearInertialNumber = 4e-3, o.shearStrain = 0.3;
+  o.plateWaves = 0.1, o.inertialNumber = 5e-3, o.shearInertialNumber = 4e-3, o.shearStrain = 0.3;
   o.seeds = 3, o.largeSeeds = 3, o.wide = false;
   return o;
 }
@@ -125,6 +138,7 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   small.breadth = options.plateGrains, small.bin = options.bin, small.depth = options.depth;
   small.thickness = options.thickness, small.inertialNumber = options.inertialNumber;
   plan.small.mostPressure = options.mostPressure;
+  plan.small.added = options.plateWaves * kTrackPressure, plan.small.firstModulus = modulusOfColumns(soil);
   plan.wide = plan.large = plan.small;
   plan.wide.strip.bin *= 2;
   plan.large.strip.breadth *= options.plateRatio;
@@ -163,6 +177,7 @@ nlohmann::ordered_json TestPlan::recipe() const {
           {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
           {"most_pressure_Pa", options.mostPressure},
           {"inertial_number", options.inertialNumber},
+          {"plate_waves", options.plateWaves},
           {"steps_per_contact", options.stepsPerContact},
           {"shear_length_d", cell.length},
           {"shear_width_d", cell.width},

@@ -27,6 +27,7 @@ struct PlanOptions {
   double thickness = 12;                                      ///< [d] of beds along the strips
   double gradedThickness = 16;                                ///< [d] of graded beds
   double inertialNumber = 1.8e-3, shearInertialNumber = 8e-4; ///< [-]
+  double plateWaves = 0.04;                                   ///< of the track's pressure, that waves add to a plate's
   double stepsPerContact = 20;                                ///< of the shortest contact
   double shearStrain = 0.4;                                   ///< [-]
   double shearHeight = 0.14;                                  ///< [m] of a sheared sample, at least ten grains

@@ -24,7 +24,7 @@ using studies::BedGrains;
 using studies::Soil;
 using studies::Table;
 
-constexpr double kExpectedAngle = 24 * base::kPi / 180, kExpectedSolid = 0.59; // for the speed only
+constexpr double kExpectedAngle = 24 * base::kPi / 180, kExpectedSolid = 0.59; // for the speeds only
 constexpr double kSlow = 0.1;                      // [m/s] for the step of Hertz' contacts, unless a plate is faster
 constexpr int kRows = 1200;                        // of the loading, if it goes to the greatest sinkage
 constexpr int kFiner = 4;                          // rows of unloading are so many times closer
@@ -32,6 +32,9 @@ constexpr std::size_t kSmooth = 8;                 // rows whose mean says that 
 constexpr double kUnloaded = 0.02;                 // of the greatest pressure
 constexpr double kBack = 0.1;                      // [breadths] that a plate is lifted at most
 constexpr double kBedShare = 0.5;                  // of a run's time, about
+constexpr std::size_t kShows = 32;                 // latest rows that show the bed's modulus
+constexpr int kHeldRows = 16, kSettledRows = 4;    // of the plate that is held; the last of them
+constexpr double kHeld = 2;                        // times that the bed's waves take to the floor and back
 constexpr double kSlopeFrom = 0.2, kSlopeTo = 0.8; // of the greatest pressure, between which stiffnesses are taken
 
 /// A plate with the bed below it, that goes up and down without losing what contacts remember.
@@ -39,12 +42,13 @@ class Press {
 public:
   Press(const Soil& soil, const PlateSinkage& test, const studies::BedPreparation& preparation, double surface,
         double bottom, std::int64_t seed, const std::filesystem::path& folder, const base::Exec& exec)
-      : exec_(exec), area_(test.strip.area(soil)), surface_(surface), bottom_(bottom), speed_(test.speed(soil)) {
+      : exec_(exec), area_(test.strip.area(soil)), surface_(surface), bottom_(bottom),
+        velocity_(test.pace(soil).first()) {
     const std::string text =
         soil.scene(1, seed, soil.grains.friction, {0, 0, -studies::kGravity},
-                   preparation.size.run() +
-                       fmt::format("impact_speed = {:.17g}\n", std::max({kSlow, 2 * speed_, soil.impactSpeed}))) +
-        studies::floorSections(soil, preparation, seed) + studies::plateSection(soil, test.strip, bottom, speed_) +
+                   preparation.size.run() + fmt::format("impact_speed = {:.17g}\n",
+                                                        std::max({kSlow, 2 * test.fastest(soil), soil.impactSpeed}))) +
+        studies::floorSections(soil, preparation, seed) + studies::plateSection(soil, test.strip, bottom, velocity_) +
         "[[grains]]\nform = \"file\"\nfile = \"bed.txt\"\nmaterial = \"grain\"\n";
     setup_ = setup::simulationSetup(setup::parseScene(text, folder / "push.toml"));
     simulation_ = std::make_unique<simulation::Simulation>(setup_, exec_, [](double, double) {});
@@ -57,9 +61,11 @@ public:
     double sinkage, pressure; ///< [m], [Pa], means over the way
   };
   /// Goes on by about `way` [m].
-  Row go(double way) {
-    const std::int64_t from = simulation_->steps();
-    const std::int64_t until = from + std::max<std::int64_t>(1, std::llround(way / speed_ / simulation_->timeStep()));
+  Row go(double way) { return wait(way / std::fabs(velocity_)); }
+  /// Goes on for about `time` [s].
+  Row wait(double time) {
+    const std::int64_t until =
+        simulation_->steps() + std::max<std::int64_t>(1, std::llround(time / simulation_->timeStep()));
     const double before = sinkage();
     while (simulation_->steps() < until) {
       studies::stopStudyIfAsked();
@@ -69,19 +75,21 @@ public:
     simulation_->restartMeans();
     return {0.5 * (before + sinkage()), force / area_};
   }
-  /// From here on down (1) or up (-1).
-  void turn(int direction) {
+  /// From here on at so many m/s downwards.
+  void move(double velocity) {
     simulation_->checkEnergy();
     const simulation::SimulationState state = simulation_->save();
     setup::SurfaceSetup& plate = setup_.ground.surfaces[plate_];
     const Vec3d centre = simulation_->surfaces()->pose(plate_, simulation_->steps()).position;
     setup::SurfaceMotionLaw law;
-    law.pivot = centre, law.velocity = {0, 0, -direction * speed_}, law.start = simulation_->time();
+    law.pivot = centre, law.velocity = {0, 0, -velocity}, law.start = simulation_->time();
     plate.motion = setup::SurfaceMotion(law, centre);
     simulation_.reset();
     simulation_ = std::make_unique<simulation::Simulation>(setup_, exec_, state);
     simulation_->restartMeans();
+    velocity_ = velocity;
   }
+  double velocity() const { return velocity_; } ///< downwards [m/s]
   double sinkage() const { return surface_ - bottom_ + height_ - plateHeight(); }
   std::int64_t steps() const { return simulation_->steps(); }
   void check() { simulation_->checkEnergy(); }
@@ -90,7 +98,7 @@ private:
   double plateHeight() const { return simulation_->surfaces()->pose(plate_, simulation_->steps()).position.z; }
 
   base::Exec exec_;
-  double area_, surface_, bottom_, speed_;
+  double area_, surface_, bottom_, velocity_;
   double height_ = 0; ///< [m] of the plate's centre at the start
   std::size_t plate_ = 0;
   setup::SimulationSetup setup_;
@@ -98,35 +106,77 @@ private:
 };
 
 /// Mean pressure of the last rows of a phase.
-double recentPressure(const std::vector<std::vector<double>>& rows, double phase) {
+double recentPressure(const std::vector<std::vector<double>>& rows, double phase, std::size_t last = kSmooth) {
   double sum = 0;
   std::size_t count = 0;
-  for (std::size_t k = rows.size(); k > 0 && count < kSmooth && rows[k - 1][0] == phase; --k)
+  for (std::size_t k = rows.size(); k > 0 && count < last && rows[k - 1][0] == phase; --k)
     sum += rows[k - 1][2], ++count;
-  return count == kSmooth ? sum / static_cast<double>(count) : std::nan("");
+  return count == last ? sum / static_cast<double>(count) : std::nan("");
 }
 
-std::vector<std::vector<double>> pushed(Press& press, const PlateSinkage& test, double breadth,
-                                        const studies::PlateProgress& tell) {
-  std::vector<std::vector<double>> rows;
-  const double deepest = test.strip.sinkage * breadth, step = deepest / kRows;
-  const auto record = [&](double phase, const Press::Row& row) { rows.push_back({phase, row.sinkage, row.pressure}); };
-  double reached = 0;
-  while (press.sinkage() < deepest && !(reached >= test.mostPressure)) {
-    record(0, press.go(step));
-    reached = recentPressure(rows, 0);
-    const double share = std::max(press.sinkage() / deepest, reached / test.mostPressure);
-    tell(kBedShare + (1 - kBedShare) * 0.9 * std::clamp(share, 0.0, 1.0), "loading");
+/// A plate on its way down, held, up and down again, as fast as its bed bears.
+class Course {
+public:
+  Course(Press& press, const PlateSinkage& test, const PlatePace& pace, const studies::PlateProgress& tell)
+      : press_(press), pace_(pace), tell_(tell), most_(test.mostPressure), deepest_(test.strip.sinkage * pace.breadth),
+        step_(deepest_ / kRows) {}
+
+  std::vector<std::vector<double>> rows() {
+    load();
+    const double most = recentPressure(rows_, 0), turned = press_.sinkage();
+    hold();
+    begin(-1);
+    while (press_.sinkage() > turned - kBack * pace_.breadth && !(recentPressure(rows_, 1) < kUnloaded * most))
+      row(1, step_ / kFiner), tell_(1 - 0.07 * (1 - kBedShare), "unloading");
+    begin(1);
+    while (press_.sinkage() < turned + step_) row(2, step_ / kFiner), tell_(1, "reloading");
+    press_.check();
+    return std::move(rows_);
   }
-  const double most = recentPressure(rows, 0), turned = press.sinkage();
-  press.turn(-1);
-  while (press.sinkage() > turned - kBack * breadth && !(recentPressure(rows, 1) < kUnloaded * most))
-    record(1, press.go(step / kFiner)), tell(1 - 0.07 * (1 - kBedShare), "unloading");
-  press.turn(1);
-  while (press.sinkage() < turned + step) record(2, press.go(step / kFiner)), tell(1, "reloading");
-  press.check();
-  return rows;
-}
+
+private:
+  void load() {
+    double reached = 0;
+    while (press_.sinkage() < deepest_ && !(reached >= most_)) {
+      row(0, step_);
+      reached = recentPressure(rows_, 0);
+      const double share = std::max(press_.sinkage() / deepest_, reached / most_);
+      tell_(kBedShare + (1 - kBedShare) * 0.9 * std::clamp(share, 0.0, 1.0), "loading");
+    }
+  }
+
+  void hold() {
+    const double time = kHeld * pace_.wavesBack(shown());
+    press_.move(0);
+    for (int k = 0; k < kHeldRows; ++k) {
+      const Press::Row held = press_.wait(time / kHeldRows);
+      rows_.push_back({3, held.sinkage, held.pressure});
+    }
+  }
+
+  void begin(int direction) {
+    press_.move(direction * pace_.first());
+    sinkage_.clear(), pressure_.clear();
+  }
+
+  void row(double phase, double way) {
+    const Press::Row next = press_.go(way);
+    rows_.push_back({phase, next.sinkage, next.pressure});
+    sinkage_.push_back(next.sinkage), pressure_.push_back(next.pressure);
+    if (sinkage_.size() % kSmooth != 0) return;
+    const double now = std::fabs(press_.velocity()), speed = pace_.next(now, shown());
+    if (speed != now) press_.move(std::copysign(speed, press_.velocity()));
+  }
+
+  double shown() const { return shownModulus(sinkage_, pressure_, pace_.breadth, kShows); }
+
+  Press& press_;
+  PlatePace pace_;
+  const studies::PlateProgress& tell_;
+  double most_, deepest_, step_;
+  std::vector<std::vector<double>> rows_;
+  std::vector<double> sinkage_, pressure_; ///< of the phase
+};
 
 /// Slope of the pressure over the sinkage in one phase, between two shares of `most`.
 double slopeOf(const Table& run, double phase, double most) {
@@ -140,12 +190,19 @@ double slopeOf(const Table& run, double phase, double most) {
 
 } // namespace
 
-double PlateSinkage::speed(const Soil& soil) const {
+double PlateSinkage::fastest(const Soil& soil) const {
   const double b = strip.breadth * soil.grains.diameter();
   const double bears =
       studies::bearingPressure(strip.shape, kExpectedAngle, kExpectedSolid * soil.grains.density * studies::kGravity, b,
                                0.5 * strip.sinkage * b);
-  return strip.inertialNumber * strip.breadth * std::sqrt(std::min(pace, bears) / soil.grains.density);
+  return strip.inertialNumber * strip.breadth * std::sqrt(std::min(quiet, bears) / soil.grains.density);
+}
+
+PlatePace PlateSinkage::pace(const Soil& soil) const {
+  PlatePace p;
+  p.density = kExpectedSolid * soil.grains.density, p.breadth = strip.breadth * soil.grains.diameter();
+  p.depth = strip.bed(soil).depth, p.added = added, p.fastest = fastest(soil), p.firstModulus = firstModulus;
+  return p;
 }
 
 studies::BedPreparation PlateSinkage::preparation(const Soil& soil) const {
@@ -174,7 +231,7 @@ Table pushStrip(const Soil& soil, const PlateSinkage& test, std::int64_t seed, c
   Press press(soil, test, preparation, surface, bottom, seed, folder, exec);
   Table table;
   table.names = kSinkageColumns;
-  table.rows = pushed(press, test, b, tell);
+  table.rows = Course(press, test, test.pace(soil), tell).rows();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (std::vector<double>& row : table.rows)
     for (const double same : {1 - solid, static_cast<double>(bed.grains.size()), static_cast<double>(bed.steps),
@@ -189,6 +246,13 @@ SinkageCurve loadingCurve(const Table& run) {
   for (const std::vector<double>& row : run.rows)
     if (row[phase] == 0) curve.sinkage.push_back(row[z]), curve.pressure.push_back(row[p]);
   return curve;
+}
+
+double addedByMotion(const Table& run) {
+  std::vector<std::vector<double>> before, held;
+  for (const std::vector<double>& row : run.rows)
+    if (row[0] == 0 || row[0] == 3) (row[0] == 0 ? before : held).push_back(row);
+  return 1 - recentPressure(held, 3, kSettledRows) / recentPressure(before, 0);
 }
 
 Unloading unloadingOf(const Table& run) {

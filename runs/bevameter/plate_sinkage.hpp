@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/bevameter/plate_pace.hpp"
 #include "runs/bevameter/pressure_sinkage.hpp"
 #include "runs/studies/plate_test.hpp"
 
-/// A rough strip pushed into a bed to a pressure or a sinkage, whichever comes first, lifted until it carries nothing,
-/// and pushed down again.
+/// A rough strip pushed into a bed to a pressure or a sinkage, whichever comes first, held until the bed's waves are
+/// gone, lifted until it carries nothing, and pushed down again.
 namespace grouser::bevameter {
 
 struct PlateSinkage {
   studies::PlateTest strip;
   double mostPressure = 100e3; ///< [Pa] at which loading ends, if strip.sinkage does not come first
   double lift = 12;            ///< [d] thickness in which beds are rained, alike for all breadths
-  double pace = 20e3;          ///< [Pa] pressure that strip.inertialNumber is meant at
+  double quiet = 20e3;         ///< [Pa] pressure that strip.inertialNumber is meant at
+  double added = 2e3;          ///< [Pa] that waves may add to the pressure (PlatePace)
+  double firstModulus = 1e6;   ///< [Pa] of the bed, that the plate's speed begins with
 
-  double speed(const studies::Soil& soil) const; ///< [m/s]
+  double fastest(const studies::Soil& soil) const; ///< [m/s] by strip.inertialNumber
+  PlatePace pace(const studies::Soil& soil) const;
   studies::BedPreparation preparation(const studies::Soil& soil) const;
 };
 
-/// Columns of a run's table; from "porosity" on the same in all rows. Phases: 0 loading, 1 unloading, 2 reloading.
+/// Columns of a run's table; from "porosity" on the same in all rows. Phases: 0 loading, 1 unloading, 2 reloading, and
+/// between the first two 3, held where it is.
 inline const std::vector<std::string> kSinkageColumns = {
     "phase",       "sinkage [m]",         "pressure [Pa]", "porosity [-]",         "grains",
     "bed's steps", "bed's wall time [s]", "plate's steps", "plate's wall time [s]"};
@@ -28,6 +33,10 @@ inline const std::vector<std::string> kSinkageColumns = {
 studies::Table pushStrip(const studies::Soil& soil, const PlateSinkage& test, std::int64_t seed,
                          const std::filesystem::path& folder, const base::Exec& exec,
                          const studies::PlateProgress& tell);
+
+/// What waves and grains on the move had added to the pressure at the end of the loading: share of it that is gone when
+/// the plate has been held [-]; not a number where no row is of that.
+double addedByMotion(const studies::Table& run);
 
 /// The loading part of a run.
 SinkageCurve loadingCurve(const studies::Table& run);

@@ -51,17 +51,18 @@ Estimate beddingOf(const TestPlan& plan, const std::vector<Table>& runs) {
 }
 
 void addUnloading(SoilResults& r, std::size_t i, const std::vector<Table>& runs) {
-  std::vector<double> stiffness, reloading, from;
+  std::vector<double> stiffness, reloading, from, added;
   for (const Table& run : runs) {
     const Unloading u = unloadingOf(run);
     if (std::isfinite(u.stiffness)) stiffness.push_back(1e-3 * u.stiffness);
     if (std::isfinite(u.reloading)) reloading.push_back(1e-3 * u.reloading);
-    from.push_back(1e-3 * u.from);
+    from.push_back(1e-3 * u.from), added.push_back(addedByMotion(run));
   }
   const auto over = [](const std::vector<double>& values) {
     return values.empty() ? Estimate{std::nan(""), INFINITY} : studies::interval95(values);
   };
   r.unloading[i] = over(stiffness), r.reloading[i] = over(reloading), r.unloadedFrom[i] = over(from);
+  r.addedByMotion[i] = over(added);
 }
 
 /// Mean pressure of a loading between two sinkages.

@@ -33,6 +33,7 @@ struct SoilResults {
   std::map<Quantity, support::Estimate> atGivenN; ///< k_c and k_phi with that n
   std::array<support::Estimate, 2> unloading, reloading; ///< k_u [kN/m3]; interval over the tests
   std::array<support::Estimate, 2> unloadedFrom;         ///< [kPa]
+  std::array<support::Estimate, 2> addedByMotion;        ///< share of that, gone when the plate is held [-]
   std::optional<support::Estimate> wider; ///< mean pressure of the wide bin over that of the other, less 1 [-]
   support::Estimate stability;            ///< angle at which a tilted bed begins to flow [deg]
   int reposeTests = 0;

@@ -77,6 +77,13 @@ std::string slipText(const SoilResults& r) {
                          : "");
 }
 
+/// A plate that falls off much when it is held has measured waves and impacts besides the soil.
+std::string motionText(const Estimate& added) {
+  constexpr double kMuch = 0.1;
+  return fmt::format("held, it carries {} % less{}\n", studies::valueText({100 * added.value, 100 * added.halfWidth}),
+                     added.value > kMuch ? ": what is measured is in part its motion; take less of --plate-waves" : "");
+}
+
 std::string pad() { return std::string(43, ' '); }
 
 } // namespace
@@ -120,8 +127,9 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
       text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
                           studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
     text += fmt::format("origin {} mm below the mean surface; ", studies::valueText(r.bedding[i]));
-    text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded\n", studies::valueText(r.unloading[i]),
-                        studies::valueText(r.unloadedFrom[i]), studies::valueText(r.reloading[i]));
+    text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded; ", studies::valueText(r.unloading[i]),
+                        studies::valueText(r.unloadedFrom[i]), studies::valueText(r.reloading[i])) +
+            motionText(r.addedByMotion[i]);
   }
   if (r.wider)
     text +=
@@ -219,7 +227,8 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
                                 {"origin", estimateJson(r.bedding[i], "mm")},
                                 {"k_u", estimateJson(r.unloading[i], "kN/m3")},
                                 {"k_reloading", estimateJson(r.reloading[i], "kN/m3")},
-                                {"unloaded_from", estimateJson(r.unloadedFrom[i], "kPa")}});
+                                {"unloaded_from", estimateJson(r.unloadedFrom[i], "kPa")},
+                                {"added_by_motion", estimateJson(r.addedByMotion[i], "-")}});
   }
   if (r.wider) json["wide_over_small_less_one"] = estimateJson(*r.wider, "-");
   if (r.hasShear())

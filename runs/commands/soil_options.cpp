@@ -63,6 +63,8 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
            "to which plates are pushed, unless they sink 0.3 breadths before [Pa]");
   keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
            "of the plates: speed/breadth d sqrt(density/pressure) [-]");
+  keys.add(soil, "--plate-waves", &PlanOptions::plateWaves, support::between(1e-4, 10),
+           "pressure that the waves of a moving plate add, over the track's: as slowly plates go in firm soil [-]");
   keys.add(soil, "--shear-inertial-number", &PlanOptions::shearInertialNumber, support::between(1e-6, 0.1),
            "of the shear: rate d sqrt(density/stress) [-]");
   keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),
