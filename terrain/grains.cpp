@@ -97,7 +97,7 @@ void Grains::replaceLaws(const GrainModel& other) {
   for (std::size_t k = 0; alike && k < model.materials.grains.size(); ++k)
     alike = other.materials.grains[k].features() == model.materials.grains[k].features();
   if (!alike) throw std::logic_error("other laws of grains with other features than those that they began with");
-  model.law = other.law, model.materials.grains = other.materials.grains;
+  model.law = other.law, model.materials.grains = other.materials.grains, model.gravity = other.gravity;
   system_.laws.replacePairs(system_.exec, system_.constants);
   stepper_.forgetGraph();
 }

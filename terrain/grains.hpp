@@ -64,8 +64,8 @@ public:
   std::int64_t advance(std::int64_t most);
   std::int64_t steps() const { return system_.steps; } ///< taken; local
   void setSteps(std::int64_t steps) { system_.steps = steps; }
-  /// From the next step on grains touch each other with the laws of `other`, a model of the same grains whose laws have
-  /// the same features. Throws std::logic_error where they have not.
+  /// From the next step on grains touch each other with the laws of `other`, and fall with its gravity: a model of the
+  /// same grains whose laws have the same features. Throws std::logic_error where they have not.
   void replaceLaws(const GrainModel& other);
   /// Forgets velocities and spins: grains brought to rest where they are.
   void stop() { system_.arrays.stop(); }

@@ -90,6 +90,12 @@ void box(const Course& c, Trial& trial, int number, double x, double end, double
   if (!c.rigid) trial.overrides.push_back(key + "material=" + c.soil);
 }
 
+/// A grain of coarse soil that a track presses on the edge of something rigid carries a good part of the vehicle: it
+/// may be squeezed as far as grains below parts may be.
+void squeezed(const Course& c, Trial& trial) {
+  if (!c.rigid) trial.overrides.push_back(set("run.max_overlap", 1.0));
+}
+
 /// One cosine wave whose steepest slope is `level`. The height-map is as long as the course behind its ditch asks for.
 void ditch(const Course& c, Trial& trial, double level) {
   const double approach = 0.4 * scaleOf(c), ends = 2 * kEnd + (c.rigid ? 0 : c.margin);
@@ -273,6 +279,7 @@ Trial trialOf(Event event, double level, const Course& c) {
   case Event::step: {
     const Straight s = straight(c, trial, 0, 0.3 * scale, 0);
     box(c, trial, 0, s.obstacle, s.length, s.width, level);
+    squeezed(c, trial);
     break;
   }
   case Event::gap: {
@@ -291,6 +298,7 @@ Trial trialOf(Event event, double level, const Course& c) {
     trial.overrides.push_back(set("cylinder.0.radius", level));
     trial.overrides.push_back(set("cylinder.0.length", s.width));
     if (!c.rigid) trial.overrides.push_back("cylinder.0.material=" + c.soil);
+    squeezed(c, trial);
     break;
   }
   case Event::drawbar:

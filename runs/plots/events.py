@@ -26,7 +26,9 @@ def limits(axis, rows):
     """Marks of each level in the order of the events."""
     for place, row in enumerate(rows):
         axis.barh(place, 1, color=COLOURS.get(word(row), "#bbbbbb"))
-        axis.text(0.02, place, f"{row['verdict']}: {row['why']}", va="center", fontsize=7, color="white")
+        text = axis.text(0.02, place, f"{row['verdict']}: {row['why']}", va="center", fontsize=7, color="white",
+                         clip_on=True)
+        text.set_in_layout(False)  # messages of runs that failed are longer than any figure is wide
     axis.set_yticks(range(len(rows)), [label(row) for row in rows], fontsize=7)
     axis.set_xticks([])
     axis.set_xlim(0, 1)

@@ -59,11 +59,12 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSet
   return plan;
 }
 
-/// A piece of the bed as a scene of its own, level, without all that is not bed. `layers`: of a lattice; `depth` [m]:
-/// of a random bed.
+/// A piece of the bed as a scene of its own, level, under gravity straight down, without all that is not bed. `layers`:
+/// of a lattice; `depth` [m]: of a random bed.
 scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, const std::array<double, 2>& size) {
   scene::Scene piece = scene;
   piece.run.periodic = {true, true};
+  piece.run.gravity = {0, 0, -norm(scene.run.gravity)}; // where it leans, nothing would hold the piece back
   piece.grains.clear(), piece.fills.clear(), piece.sources.clear();
   piece.planes.clear(), piece.boxes.clear(), piece.cylinders.clear(), piece.meshes.clear();
   piece.vehicle.reset(), piece.mechanism = {}, piece.parallel = {};

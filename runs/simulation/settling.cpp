@@ -110,6 +110,8 @@ void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, dou
   };
   prepare(prepared.law);
   for (contact::ContactLaw& law : prepared.materials.grains) prepare(law);
+  // Where gravity leans, a bed of so little friction would flow: it leans when the grains have their own again.
+  prepared.gravity = {0, 0, -norm(own.gravity)};
   grains.replaceLaws(prepared);
   setup::SettleSetup nearly = bed.settle;
   nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset();

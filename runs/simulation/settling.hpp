@@ -40,7 +40,8 @@ struct SettleReport {
 void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wanted, terrain::Grains& grains, double fall,
                      const SettleProgress& progress, SettleReport& report);
 
-/// Lets a loose bed come to rest with `friction` [-] between its grains, and then with their own.
+/// Lets a loose bed come to rest with `friction` [-] between its grains, under gravity of its strength straight down,
+/// and then with their own friction and gravity.
 void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, double friction,
                         const SettleProgress& progress, SettleReport& report);
 

@@ -25,7 +25,7 @@ constexpr const char* kSand =
 constexpr const char* kSmall =
     " --quick --seeds 2 --large-seeds 2 --plate-grains 5 --plate-ratio 1.5 "
     "--thickness 4.5 --bin 3 --pressure 20000 --inertial-number 0.05 --shear-loads 5000 10000 "
-    "--shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu";
+    "--plate-waves 10 --shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu";
 
 class SoilCommandTest : public ProgramTest {};
 

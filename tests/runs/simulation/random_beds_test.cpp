@@ -107,6 +107,17 @@ TEST(RandomBeds, FixedGrainsHoldTheFloor) {
   EXPECT_THROW(simulated(randomBed({slope, "terrain.floor_grains=false"})), base::SimulationError);
 }
 
+TEST(RandomBeds, ArePreparedLevelAndLeanWithTheFrictionOfTheirGrains) {
+  // The friction that makes them dense would let them flow down this slope without end.
+  const std::string slope = "run.gravity=[3.43, 0, -9.81]";
+  const auto level = simulated(randomBed({"terrain.porosity=0.39"}));
+  const auto leaning = simulated(randomBed({"terrain.porosity=0.39", slope}));
+  EXPECT_LT(leaning->settled().friction, 0.2);
+  EXPECT_NEAR(structure(*leaning).porosity, structure(*level).porosity, 0.005);
+  const auto tiled = simulated(randomBed({"terrain.porosity=0.39", "terrain.tile=[0.6, 0.6]", slope}));
+  EXPECT_NEAR(structure(*tiled).porosity, structure(*level).porosity, 0.01);
+}
+
 TEST(RandomBeds, GradedBedKeepsItsFineGrainsAbove) {
   const auto s =
       simulated(randomBed({"terrain.grain_radius=0.015", "terrain.fine_depth=0.08", "terrain.coarsening=0.15",
