@@ -22,8 +22,8 @@ sys.dont_write_bytecode = True
 import packages
 
 WRONG, NOT_WRITTEN = 2, 4
-KINDS = (("check.json", "check"), ("events.json", "series of events"), ("soil.json", "soil's tests"),
-         ("summary.csv", "sweep"), ("results.h5", "run"))
+KINDS = (("check.json", "check"), ("events.json", "series of events"), ("calibration.json", "calibration"),
+         ("soil.json", "soil's tests"), ("summary.csv", "sweep"), ("results.h5", "run"))
 
 
 def kind_of(folder):
@@ -32,13 +32,14 @@ def kind_of(folder):
 
 
 def contents(folder, kind, options):
+    import calibration_page
     import check_page
     import events_page
     import run_page
     import soil_page
     import sweep_page
     write = {"check": check_page.page, "soil's tests": soil_page.page, "sweep": sweep_page.page, "run": run_page.page,
-             "series of events": events_page.page}
+             "series of events": events_page.page, "calibration": calibration_page.page}
     return write[kind](folder, options)
 
 

@@ -17,7 +17,7 @@ from page import esc, facts, folded, number, table, with_bar
 
 MOST_CURVES = 7
 MOST_SPACES = 16  # runs that can be chosen in space
-MOST_LEDGERS = 6  # columns of a table
+MOST_LEDGERS = 100
 MOST_FILMS = 6e6  # bytes
 
 
@@ -77,7 +77,7 @@ def plots(made, sweep, program):
             for mean in means:
                 rest = text_of({k: v for k, v in mean.keys.items() if k != key})
                 groups.setdefault(rest, []).append((float(mean.keys[key]), mean.mean.value, mean.mean.half_width))
-            caption = "Mean over the seeds, with its 95 % interval."
+            caption = "Mean over the seeds; bar: its 95 % interval."
         else:
             for run in sweep.runs:
                 rest = text_of({k: v for k, v in run.keys.items() if k != key})
@@ -93,7 +93,7 @@ def plots(made, sweep, program):
                 drawn.append((label if len(groups) > 1 else name, *columns))
         if drawn:
             more = f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
-            inner.append(made.plot(name[:1].upper() + name[1:], across, axis, drawn, caption + more))
+            inner.append(made.plot(name[:1].upper() + name[1:], across, axis, drawn, caption + more, marks=True))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
@@ -131,7 +131,7 @@ def runs_table(sweep):
 
 
 def opened(folders):
-    """The runs of folders that hold some, up to MOST_SPACES."""
+    """The runs of folders that hold some."""
     for folder in folders:
         try:
             yield grouser.open_run(folder)
@@ -143,13 +143,13 @@ def add_runs(made, folders, options, words):
     """Of runs that are there: films, the view in space of one after the other, their ledgers; of the first what was on
     and off, its scene, its machine. `folders`: whose runs are told; `words`: which these are."""
     with contextlib.ExitStack() as stack:
-        runs = [stack.enter_context(run) for run in itertools.islice(opened(folders), MOST_SPACES)]
+        runs = [stack.enter_context(run) for run in itertools.islice(opened(folders), MOST_LEDGERS)]
         made.section("films", "Films", films(folders, options))
         if not runs:
             return
-        view = space.section(made, runs, options)
+        view = space.section(made, runs[:MOST_SPACES], options)
         made.section("space", "In space", f"<p>{esc(words)}</p>{view}" if view else "")
-        made.section("ledger", "Energy ledgers", run_page.ledger(runs[:MOST_LEDGERS]))
+        made.section("ledger", "Energy ledgers", run_page.ledger(runs))
         name = esc(runs[0].folder.name)
         made.section("switches", "What was on and off",
                      f"<p>In the run <code>{name}</code>.</p>{run_page.switches(runs[0].manifest)}")

@@ -183,6 +183,17 @@ TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {
   EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go is none to rely on
 }
 
+TEST(EventRow, TellsWhyOfTheRunThatDecides) {
+  EventRow row;
+  EXPECT_EQ(row.why(), "");
+  row.each = {{"step=1,seed=1", "pending", ""}, {"step=1,seed=2", "failed", "energy"}};
+  EXPECT_EQ(row.why(), "energy");
+  row.each.push_back({"step=1,seed=3", "go", "5.0 m in 6 s"});
+  EXPECT_EQ(row.why(), "5.0 m in 6 s");
+  row.each.push_back({"step=1,seed=4", "no-go", "throws a track"});
+  EXPECT_EQ(row.why(), "throws a track") << "one no-go makes the level none to rely on";
+}
+
 } // namespace
 
 } // namespace grouser::events
