@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from .check import read_json
 from .errors import FileError
+from .files import read_json
 from .series import Estimate, number
 from .soil import SoilTest
 
@@ -41,7 +41,7 @@ class Calibration:
         self.folder: Path = Path(folder)
         file = self.folder / "calibration.json"
         self.json: dict = read_json(file, "a calibration")  #: all of calibration.json
-        if not isinstance(self.json, dict) or "trials" not in self.json or "targets" not in self.json:
+        if "trials" not in self.json or "targets" not in self.json:
             raise FileError(f"{file}: is no file of a calibration")
         self.name: str = self.json["soil"]
         self.grain_radius: float = self.json["grain_radius_m"]  #: [m]

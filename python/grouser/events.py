@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from .check import read_json
 from .errors import FileError
+from .files import read_json
 from .run import Run
 from .series import Estimate, number, split_unit
 
@@ -65,7 +65,7 @@ class Events:
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
         self.json: dict = read_json(self.folder / "events.json", "events")  #: all of events.json
-        if not isinstance(self.json, dict) or "rows" not in self.json:
+        if "rows" not in self.json:
             raise FileError(f"{self.folder / 'events.json'}: is no file of events")
         self.vehicle: str = self.json.get("vehicle", "")
         self.soil: str = self.json.get("soil", "")

@@ -128,6 +128,8 @@ def soil_file(found):
 
 def page(folder, options):
     found = grouser.open_calibration(folder)
+    if not len(found):
+        raise grouser.FileError(f"{folder}: no trial of this calibration has ended yet; --resume goes on with it")
     made = pages.Page(f"{found.name} (calibration)", "calibration of a soil", folder)
     care = '<p class="bad">Coarse: made with <code>--quick</code>.</p>' if found.coarse else ""
     made.section("targets", "Wanted and reached", state(found) + care + targets(found))

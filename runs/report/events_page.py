@@ -113,6 +113,9 @@ def page(folder, options):
     events = opened.json
     made = pages.Page(f"{folder.resolve().name} (events)", "series of mobility events", folder)
     rows = events["rows"]
+    if not any(row["runs"] or row.get("failed") for row in rows):
+        raise grouser.FileError(f"{folder}: none of the runs of these events has ended yet; --resume of grouser events "
+                                "goes on with them")
     left_out = "".join(f"<p>Left out: {esc(event)}: {esc(why)}</p>" for event, why in events.get("left_out", {}).items())
     coarse = '<p class="bad">Coarse: made with <code>--quick</code>.</p>' if events.get("quick") else ""
     made.section("figures", "Go or no-go", coarse + verdicts(rows) + left_out)

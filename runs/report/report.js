@@ -50,11 +50,17 @@ report.rows = function (curves) {
   return { bars, rows: [...rows.values()].sort((a, b) => a[0] - b[0]) };
 };
 
-/** At an axis: no more digits than the ticks need. */
-function tick(value) {
-  const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return value.toExponential(1).replace("-", "\u2212");
-  return Number(value.toPrecision(6)).toString().replace("-", "\u2212");
+/** At an axis whose largest number is `most`: no more digits than the ticks need, all written alike. */
+function tick(value, most) {
+  const size = most || Math.abs(value), rounded = Number(value.toPrecision(6));
+  const isPlain = rounded === 0 || (size < 1e6 && size >= 1e-3);
+  const text = isPlain ? rounded.toString() : Number(value.toPrecision(3)).toExponential().replace("e+", "e");
+  return text.replace(/-/g, "\u2212");
+}
+
+/** The greatest magnitude of some numbers. */
+function greatest(values) {
+  return values.reduce((most, v) => (Number.isFinite(v) ? Math.max(most, Math.abs(v)) : most), 0);
 }
 
 /** At an axis that counts: nothing between whole numbers. */
@@ -144,16 +150,18 @@ class Plot {
           plotter: drawMarked });
     });
     const log = this.entry.log || "";
+    const most = { x: log.includes("x") ? 0 : greatest(rows.map((row) => row[0])),
+                   y: log.includes("y") ? 0 : greatest(this.entry.range || rows.flatMap((row) => row.slice(1).flat())) };
     const window_ = kept || (log.includes("x") && rows.length ? [rows[0][0], rows[rows.length - 1][0]] : null);
     this.graph = new Dygraph(this.place, rows, {
       labels, series, customBars: bars, xlabel: this.entry.x, ylabel: this.entry.y, gridLineColor: line,
       axisLineColor: line, strokeWidth: this.entry.points ? 0 : 1.6, drawPoints: !!this.entry.points,
-      pointSize: 3.5, highlightCircleSize: 5, connectSeparatedPoints: true, fillAlpha: 0.22, legend: "never",
+      pointSize: 3.5, rightGap: 30, highlightCircleSize: 5, connectSeparatedPoints: true, fillAlpha: 0.22, legend: "never",
       yRangePad: 8, xRangePad: log.includes("x") ? 0 : this.entry.marks ? 16 : 4,
       logscale: log.includes("y"), dateWindow: window_, animatedZooms: false,
       valueRange: this.entry.range || null,
-      axes: { x: { logscale: log.includes("x"), axisLabelWidth: 60, axisLabelFormatter: this.entry.whole ? wholeTick : tick },
-              y: { axisLabelWidth: 68, axisLabelFormatter: tick } },
+      axes: { x: { logscale: log.includes("x"), axisLabelWidth: 60, axisLabelFormatter: this.entry.whole ? wholeTick : (v) => tick(v, most.x) },
+              y: { axisLabelWidth: 78, axisLabelFormatter: (v) => tick(v, most.y) } },
       highlightCallback: (event, x, points, row) => this.tell(row),
       unhighlightCallback: () => this.tell(-1),
     });

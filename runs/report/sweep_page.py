@@ -179,6 +179,9 @@ def page(folder, options):
     sweep = grouser.open_sweep(folder)
     made = pages.Page(f"{sweep.folder.resolve().name} (sweep)", "sweep", folder)
     ended = [run.status for run in sweep.runs]
+    if all(status in ("pending", "running") for status in ended):
+        raise grouser.FileError(f"{folder}: none of the {len(ended)} runs of this sweep has ended yet; the same call of "
+                                "grouser sweep goes on with it")
     bad = [run for run in sweep.runs if run.status not in ("finished", "pending")]
     told = facts([("varied", ", ".join(f"<code>{esc(k)}</code>: {esc(', '.join(dict.fromkeys(r.keys[k] for r in sweep.runs)))}"
                                        for k in sweep.keys)),

@@ -64,6 +64,8 @@ class PageTest(FolderTest):
         self.assertEqual(asked, [f"file://{page}"])
         self.assertEqual(self.browser.errors, [])
         self.plots_are_drawn()
+        if self.browser.value("!!report.space"):
+            self.assertTrue(self.browser.value("report.space.isInView()"), "the label of the scale is cut off")
         if kept := os.environ.get("GROUSER_REPORT_PICTURES"):  # for the eye
             self.browser.picture(f"{kept}/{self.id().rpartition('.')[2]}_{folder}.png", 4000)
         return self.browser

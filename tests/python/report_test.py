@@ -28,13 +28,37 @@ class Refused(FolderTest):
         (self.folder / "empty").mkdir()
         self.refuses("empty", ["holds no results", "results.h5"])
         self.assertEqual(list((self.folder / "empty").iterdir()), [])
+        (self.folder / "above/drive").mkdir(parents=True)
+        (self.folder / "above/drive/results.h5").write_text("")
+        self.refuses("above", ["holds no results", "above/drive"])
+        (self.folder / "file").write_text("")
+        self.refuses("file", ["is no folder"])
+
+    def test_what_has_no_numbers_yet(self):
+        """Nothing has ended: one line says so, and what goes on with it."""
+        head = "run,k,status,message,wall time [s],steps,simulated time [s],state hash,commit\n"
+        row = {"event": "step", "title": "Up a step", "level": 0.2, "level_is": "height [m]", "verdict": "pending",
+               "runs": 0, "go": 0, "failed": 0, "pending": 2, "why": "", "figures": []}
+        found = {"soil": "sand", "care": "full", "status": "unfinished", "grain_radius_m": 0.01, "targets": [],
+                 "trials": []}
+        for name, text, words in (
+                ("summary.csv", head, ["holds no run"]),
+                ("summary.csv", head + "k=1,1,pending,,,,,,\nk=2,2,running,,,,,,\n", ["none of the 2 runs", "goes on"]),
+                ("events.json", json.dumps({"rows": [row]}), ["none of the runs", "--resume"]),
+                ("events.json", json.dumps({"rows": []}), ["none of the runs"]),
+                ("calibration.json", json.dumps(found), ["no trial", "--resume"])):
+            place = self.folder / name.replace(".", "_")
+            place.mkdir(exist_ok=True)
+            (place / name).write_text(text)
+            self.refuses(place, [place.name, *words])
+            self.assertEqual([file.name for file in place.iterdir()], [name])
 
     def test_what_is_damaged(self):
         for name in ("results.h5", "check.json", "soil.json", "summary.csv", "events.json", "calibration.json"):
             place = self.folder / name.replace(".", "_")
             place.mkdir()
-            for text in ("", "\0{[damaged", '{"figures": 1}'):
-                (place / name).write_text(text)
+            for text in (b"", b"\0{[damaged", b'{"figures": 1}', b"[1]", b"run,\xff\xfe\n"):
+                (place / name).write_bytes(text)
                 self.refuses(place, [place.name])
                 self.assertEqual([file.name for file in place.iterdir()], [name])
 
@@ -56,6 +80,12 @@ class Refused(FolderTest):
         for size in (len(results) // 2, 2000, 100):
             (self.folder / "run/results.h5").write_bytes(results[:size])
             self.refuses("run", ["run"], "--out", "damaged.html")
+        (self.folder / "run/results.h5").write_bytes(results)
+        for name in ("manifest.json", "frames.h5"):
+            whole = (self.folder / "run" / name).read_bytes()
+            (self.folder / "run" / name).write_bytes(whole[:len(whole) // 2])
+            self.refuses("run", [name], "--out", "damaged.html")
+            (self.folder / "run" / name).write_bytes(whole)
         self.assertFalse((self.folder / "damaged.html").exists())
         self.assertEqual(list(self.folder.glob("**/*.part")), [])
 
