@@ -78,7 +78,15 @@ private:
     studies::Pieces pieces("soil " + soil_.name + ", " + name, place, pieceOptions, plan.recipe());
     record_.begun();
     takeOver(plan, pieces);
-    if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) throw Unfinished{name, missing};
+    if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
+      if (const std::string unsound = unsoundTests(plan, pieces); !unsound.empty()) {
+        record_.stopped(name, missing);
+        throw base::SimulationError(fmt::format("tests of {} have ended unsoundly (--steps-per-contact makes a step "
+                                                "smaller, in a folder of its own):{}",
+                                                name, unsound));
+      }
+      throw Unfinished{name, missing};
+    }
     results = resultsOf(plan, pieces);
     if (look) look(plan, pieces);
     done_.emplace_back(soil_.keys, pieces);

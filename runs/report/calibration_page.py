@@ -11,6 +11,8 @@ from page import esc, facts, folded, number, table, with_bar
 
 #: What trials measure: (name, what stands above its column).
 MEASURED = (("phi", "phi"), ("c", "c"), ("K", "K"), ("pressure", "pressure of the small plate"))
+MEANING = {**soil_page.MEANING, "k": "k_c / b + k_phi", "b": "breadth that k is meant at",
+           "pressure": "of the small plate at the sinkage that n and k, or k_c and k_phi, give at the track's mean pressure"}
 VERDICTS = {"reached": "reached", "not reached": "not reached: the nearest that was", "not sought": "not sought, follows"}
 
 
@@ -26,17 +28,35 @@ def wanted_of(found):
     return wanted
 
 
+def aim(wanted, tolerance, name):
+    """What is wanted, to all its digits, and within what."""
+    within = f" \u00b1 {number(tolerance, '', f'{name} wanted bar')}" if math.isfinite(tolerance) else ""
+    return f'<span class="nowrap">{number(wanted, "", f"{name} wanted")}{within}</span>'
+
+
+def doubt(outcome):
+    """What the bar says of a verdict that goes by the value alone."""
+    bar = outcome.reached.half_width
+    if outcome.verdict != "reached" or bar <= outcome.tolerance:
+        return ""
+    return "; the bar is wider than the tolerance" if math.isfinite(bar) else "; of one seed, without a bar"
+
+
 def targets(found):
     if found.outcomes:
-        rows = [[esc(o.what), with_bar(o.wanted, o.tolerance if math.isfinite(o.tolerance) else None, "", f"{o.what} wanted"),
+        rows = [[esc(o.what), aim(o.wanted, o.tolerance, o.what),
                  with_bar(o.reached.value, bar_of(o.reached), "", f"{o.what} reached"), esc(o.reached.unit),
-                 f"<strong>{esc(VERDICTS.get(o.verdict, o.verdict))}</strong>"] for o in found.outcomes]
+                 f"<strong>{esc(VERDICTS.get(o.verdict, o.verdict))}</strong>{doubt(o)}"] for o in found.outcomes]
         return table(["target", "wanted \u00b1 tolerance", "reached \u00b1 bar", "unit", "verdict"], rows,
                      "Bar: half of the 95 % interval over the tests. Reached: the value lies within the tolerance. "
                      "The large plate is held back: the search never sees it.", numeric=(1, 2))
-    rows = [[esc(one["quantity"]), with_bar(one["wanted"], one["tolerance"], "", f"{one['quantity']} wanted"),
-             esc(one["unit"])] for one in found.json["targets"]]
-    return table(["target", "wanted \u00b1 tolerance", "unit"], rows, numeric=(1,))
+    aims = [*found.json["targets"]]
+    if pressure := found.json.get("pressure"):
+        aims.append({"quantity": "pressure", **pressure})
+    rows = [[f"<em>{esc(one['quantity'])}</em>", esc(MEANING.get(one["quantity"], "")),
+             aim(one["wanted"], math.nan if one["tolerance"] is None else one["tolerance"], one["quantity"]), esc(one["unit"])] for one in aims]
+    return table(["target", "what it is", "wanted \u00b1 tolerance", "unit"], rows,
+                 "What has no tolerance is compared only, or says where the pressure is wanted.", numeric=(2,))
 
 
 def state(found):
@@ -103,8 +123,9 @@ def search_plots(made, found, program):
             aim, tolerance = wanted[name]
             curves.append(("wanted", across, [aim] * 2, [tolerance or 0.0] * 2))
             told += " Band: the tolerance." if tolerance else " It is compared only, not sought."
-        inner.append(made.plot(words[:1].upper() + words[1:], "trial [-]", f"{words} [{values[0].unit}]", curves, told,
-                               marks=["measured"], whole=True))
+        title = f"{name}: {MEANING[name]}" if name == words else words[:1].upper() + words[1:]
+        inner.append(made.plot(title, "trial [-]", f"{words} [{values[0].unit}]", curves, told, marks=["measured"],
+                               whole=True))
     for key in varied(found)[0]:
         numbers, values = over_trials(found, lambda trial: trial.parameters.get(key)
                                       if isinstance(trial.parameters.get(key), (int, float)) else None)

@@ -109,10 +109,9 @@ def plots(made, rows):
 
 
 def page(folder, options):
-    opened = grouser.open_events(folder)
-    events = opened.json
+    events = grouser.open_events(folder).json
     made = pages.Page(f"{folder.resolve().name} (events)", "series of mobility events", folder)
-    rows = events["rows"]
+    rows = [row for _, _, of in by_event(events["rows"]) for row in of]
     if not any(row["runs"] or row.get("failed") for row in rows):
         raise grouser.FileError(f"{folder}: none of the runs of these events has ended yet; --resume of grouser events "
                                 "goes on with them")
@@ -120,13 +119,14 @@ def page(folder, options):
     coarse = '<p class="bad">Coarse: made with <code>--quick</code>.</p>' if events.get("quick") else ""
     made.section("figures", "Go or no-go", coarse + verdicts(rows) + left_out)
     made.section("limits", "Limits", limits(events.get("limits", []), {row["event"]: row["title"] for row in rows}))
-    made.section("pictures", "Pictures", pages.pictures([
+    made.section("pictures", "Pictures", "".join(  # one below the other: they are wide
         pages.picture(folder / name, words) for name, words in (("pictures.png", "Every event"),
                                                                 ("events.png", "Figures over the levels"),
-                                                                ("drawbar.png", "Drawbar pull over slip"))]))
+                                                                ("drawbar.png", "Drawbar pull over slip"))))
     made.section("numbers", "Figures", figures(rows))
     made.section("plots", "Plots", plots(made, rows))
-    sweep_page.add_runs(made, [row.folder for row in opened if row.folder], options, "The first run of each level.")
+    folders = [folder / row["picture"].rpartition("/")[0] for row in rows if row.get("picture")]
+    sweep_page.add_runs(made, folders, options, "The first run of each level.")
     made.section("provenance", "Where it comes from", facts([
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),
         ("soil", esc(events.get("soil", ""))), ("seeds", esc(str(events.get("seeds", "")))),

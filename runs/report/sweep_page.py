@@ -25,15 +25,21 @@ def text_of(keys):
     return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in keys.items()) or "as the scene says"
 
 
+def follows(sweep, name):
+    """Whether a figure only follows from what was varied: seeds make no difference to it, but for rounding."""
+    means = [m.mean for m in sweep.means.get(name, []) if math.isfinite(m.mean.half_width)]
+    return bool(means) and all(m.half_width <= 1e-9 * abs(m.value) for m in means)
+
+
 def lively(sweep):
-    """Figures that are there and that change."""
+    """Figures that are there and that change; last those that only follow from what was varied."""
     found = []
     for name in sweep.units:
         values = sweep[name].value
         there = values[numpy.isfinite(values)]
         if len(there) and (numpy.ptp(there) > 0 or len(sweep.runs) == 1):
             found.append(name)
-    return found
+    return sorted(found, key=lambda name: follows(sweep, name))
 
 
 def varied(sweep):
@@ -107,6 +113,8 @@ def means_table(sweep):
     def half(estimate):
         return estimate.half_width if math.isfinite(estimate.half_width) else None
     words = "Means over the seeds, \u00b1 half of the 95 % interval."
+    if max(m.seeds for m in sweep.means[names[0]]) == 2:
+        words += " Of two seeds that is 12.7 standard errors: three or more tell more."
     if len(combinations) <= 6:
         rows = [[esc(n), esc(sweep.units[n]), *(with_bar(m.mean.value, half(m.mean), "", f"{n} {text_of(m.keys)}")
                                                 for m in sweep.means[n])] for n in names]

@@ -115,8 +115,8 @@ class Pages(PageTest):
         self.assertEqual((shown["grade 0.1 speed"], shown["grade 0.1 speed bar"]), (0.4987654321, 0.0123456789))
         self.assertEqual(self.browser.value("Array.from(report.plots[0].curves[0].columns[1])"), [0.4987654321, 0.31])
         rows = self.browser.value("[...document.querySelectorAll('#figures tbody tr')].map(r => r.innerText)")
-        self.assertIn("seed 1: go, 5.0 m in 6.2 s\nseed 2: no-go, throws a <track>", rows[1])
-        self.assertIn("throws a <track>", rows[0], "of a file that does not tell of each run")
+        self.assertIn("seed 1: go, 5.0 m in 6.2 s\nseed 2: no-go, throws a <track>", rows[0])
+        self.assertIn("throws a <track>", rows[1], "of a file that does not tell of each run")
         self.assertEqual(self.browser.value("[...document.querySelectorAll('#numbers th')].map(h => h.textContent)"),
                          ["figure", "unit", "0.1", "0.2"], "levels in their order")
         self.runs_are_chosen([folder / "grade=0.2", folder / "grade=0.1"])
@@ -171,6 +171,7 @@ class Pages(PageTest):
             self.assertIn(words, self.browser.value(text))
         found.update(status="finished", soil_file="sand.toml", tests="final", outcomes=[
             {"what": "phi", "wanted": 31.1, "tolerance": 1.0, "reached": value(31.50123, 0.61, "deg"), "verdict": "reached"},
+            {"what": "c", "wanted": 1.25, "tolerance": 0.5, "reached": value(1.5, 0.9, "kPa"), "verdict": "reached"},
             {"what": "K", "wanted": 12.0, "tolerance": None, "reached": value(1.5, 0.2, "mm"), "verdict": "not sought"}])
         del found["missing"]
         found["trials"].append(trial("plate", "plate_2", 0.314159265, 3e8, pressure=value(49.0, 4.5, "kPa"),
@@ -190,19 +191,23 @@ class Pages(PageTest):
         self.assertNotIn("shear_1 K bar", shown)
         self.assertNotIn("shear_1 friction", shown, "it is the same in all trials")
         text = self.browser.value("document.querySelector('main').textContent")
+        rows = self.browser.value("[...document.querySelectorAll('#targets tbody tr')].map(r => r.innerText)")
+        self.assertTrue(rows[0].endswith("reached"), rows[0])
+        self.assertIn("1.25 \u00b1 0.5", rows[1])
+        self.assertTrue(rows[1].endswith("the bar is wider than the tolerance"), rows[1])
         for words in ('title = "of <sand>"', "grouser soil --calibrate wanted.toml", "not sought", "hertz"):
             self.assertIn(words, text)
         self.assertNotIn("has not ended", text)
         plots = self.browser.value("report.plots.map(p => [p.entry.title, p.entry.y, p.curves.map(c => "
                                    "c.columns.map(a => Array.from(a)))])")
         plots = {title: (axis, curves) for title, axis, curves in plots}
-        self.assertEqual(plots["Phi"], ("phi [deg]", [[[1, 2], [27.123456789, 31.5], [0.7, 0.6]],
+        self.assertEqual(plots["phi: angle of internal friction"], ("phi [deg]", [[[1, 2], [27.123456789, 31.5], [0.7, 0.6]],
                                                       [[0.5, 4.5], [31.1, 31.1], [1, 1]]]))
         self.assertEqual(plots["Young"], ("young [Pa]", [[[1, 2, 3, 4], [8e7, 8e7, 8e7, 3e8]]]))
         self.assertEqual(plots["Pressure of the small plate"][1][0], [[3, 4], [25.5, 49.0], [3.25, 4.5]])
         self.assertIn("Plates", plots, "those of the soil that was found")
         # The bar of the first trial is there to be seen, upright at its place.
-        marked = self.browser.value("""(() => { const g = report.plots.find(p => p.entry.title === "Phi").graph;
+        marked = self.browser.value("""(() => { const g = report.plots.find(p => p.entry.title.startsWith("phi")).graph;
           const c = g.hidden_.getContext("2d"), scale = g.hidden_.width / g.hidden_.clientWidth;
           const [x, y] = g.toDomCoords(1, 27.123456789 - 0.5);
           const p = c.getImageData(Math.round(x * scale) - 1, Math.round(y * scale), 3, 1).data;

@@ -117,7 +117,7 @@ TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
   // 8 m at 1.2 m/s, a fifth more, and 1.2 s before it drives; its limit is 22 s.
   EXPECT_DOUBLE_EQ(grade.sweep.runs[0].expectedEnd, 1.2 + 1.2 * 8 / 1.2);
   EXPECT_EQ(grade.sweep.runs[0].scene.run.duration, 22);
-  options.only = {"drawbar"}, options.levels = {0.2, 0.6};
+  options.only = {"drawbar"}, options.levels = {0.6, 0.2}; // from the easiest on, however they are given
   const EventPlan drawbar = planEvents(options);
   const auto driving = [&](std::size_t run) { return drawbar.sweep.runs[run].expectedEnd - 1.2; };
   EXPECT_NEAR(driving(1), 2 * driving(0), 1e-12) << "half as fast"; // round-off of some seconds
