@@ -11,9 +11,10 @@
 SI units and radians throughout. docs/python.md is the guide; python/examples/ has three worked examples.
 """
 from .bed import Bed, kept_beds, open_bed
+from .calibration import Calibration, Outcome, Trial, open_calibration
 from .check import AxisError, BarredSeries, Check, CheckFigure, open_check
 from .errors import DeviceError, FileError, GrouserError, InputError, SimulationError, StoppedError
-from .events import EventLimit, EventRow, Events, open_events
+from .events import EventLimit, EventRow, EventRun, Events, open_events
 from .frames import UNITS, Frame, Frames, Mesh, open_frames, rotation
 from .program import Job, Progress, call, find_program
 from .run import Run, Surface, open_run
@@ -23,9 +24,10 @@ from .soil import Constant, PlateCurve, ShearCurve, SoilTest, open_soil
 from .sweep import Sweep, SweepMean, SweepRun, open_sweep
 
 __all__ = [
-    "AxisError", "BarredSeries", "Bed", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate", "EventLimit",
-    "EventRow", "Events", "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job", "Mesh", "PlateCurve",
-    "Progress", "Quantity", "Run", "Scene", "Series", "ShearCurve", "SimulationError", "SoilTest", "StoppedError",
-    "Surface", "Sweep", "SweepMean", "SweepRun", "UNITS", "call", "find_program", "kept_beds", "measure_soil",
-    "open_bed", "open_check", "open_events", "open_frames", "open_run", "open_soil", "open_sweep", "rotation",
+    "AxisError", "BarredSeries", "Bed", "Calibration", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate",
+    "EventLimit", "EventRow", "EventRun", "Events", "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job",
+    "Mesh", "Outcome", "PlateCurve", "Progress", "Quantity", "Run", "Scene", "Series", "ShearCurve", "SimulationError",
+    "SoilTest", "StoppedError", "Surface", "Sweep", "SweepMean", "SweepRun", "Trial", "UNITS", "call", "find_program",
+    "kept_beds", "measure_soil", "open_bed", "open_calibration", "open_check", "open_events", "open_frames", "open_run",
+    "open_soil", "open_sweep", "rotation",
 ]

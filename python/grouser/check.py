@@ -2,7 +2,6 @@
 """The results of a check: figures and series with their error bars, and what each case cost."""
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,18 +11,9 @@ from pathlib import Path
 import numpy
 
 from .errors import FileError
+from .files import read_csv, read_json
 from .series import Estimate, Series, number, split_unit
-from .sweep import read_csv, value_of
-
-
-def read_json(file: Path, what: str) -> dict:
-    """FileError where the file is missing or broken."""
-    try:
-        return json.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FileError(f"{file}: cannot be read as {what}: {error.strerror}") from error
-    except ValueError as error:
-        raise FileError(f"{file}: cannot be read as {what}: {error}") from error
+from .sweep import value_of
 
 
 @dataclass(frozen=True, eq=False)

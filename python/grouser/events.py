@@ -7,10 +7,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from .check import read_json
 from .errors import FileError
+from .files import read_json
 from .run import Run
 from .series import Estimate, number, split_unit
+
+
+@dataclass(frozen=True, eq=False)
+class EventRun:
+    """One run of an event at a level."""
+
+    verdict: str  #: "go", "no-go", "failed" (for another cause than the vehicle's), "pending"
+    why: str
+    folder: Path
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,8 +31,9 @@ class EventRow:
     level: float  #: NaN for an event without levels
     level_is: str  #: what the level is, with its unit
     verdict: str  #: "go", "no-go", "pending"..., as events.txt has it
-    why: str
+    why: str  #: of the first run that is no go; where all are, of the first
     runs: int  #: that have ended
+    each: tuple[EventRun, ...]  #: all of them, by seed; empty in files of versions that did not write it
     figures: dict[str, Estimate]  #: means with half of the 95 % interval over the seeds; NaN where there is one
     overrides: tuple[str, ...]  #: keys of this level, "key=value", laid over `scene`
     scene: str  #: of the event
@@ -55,7 +65,7 @@ class Events:
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
         self.json: dict = read_json(self.folder / "events.json", "events")  #: all of events.json
-        if not isinstance(self.json, dict) or "rows" not in self.json:
+        if "rows" not in self.json:
             raise FileError(f"{self.folder / 'events.json'}: is no file of events")
         self.vehicle: str = self.json.get("vehicle", "")
         self.soil: str = self.json.get("soil", "")
@@ -71,8 +81,9 @@ class Events:
             name, unit = split_unit(figure["name"])
             figures[name] = Estimate(number(figure["mean"]), number(figure["half_width"]), unit, name)
         picture = one.get("picture")
+        each = tuple(EventRun(run["verdict"], run["why"], self.folder / run["run"]) for run in one.get("each", []))
         return EventRow(one["event"], one["title"], number(one["level"]), one["level_is"], one["verdict"], one["why"],
-                        one["runs"], figures, tuple(one.get("overrides", ())), one.get("scene", ""),
+                        one["runs"], each, figures, tuple(one.get("overrides", ())), one.get("scene", ""),
                         self.folder / Path(picture).parent if picture else None)
 
     def __getitem__(self, event: str) -> list[EventRow]:

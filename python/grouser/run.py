@@ -2,7 +2,6 @@
 """The results of one run."""
 from __future__ import annotations
 
-import json
 import os
 import tomllib
 from collections.abc import Iterator
@@ -15,6 +14,7 @@ import numpy
 
 from .bed import Bed, open_bed
 from .errors import FileError
+from .files import read_json
 from .frames import Frames
 from .series import Quantity, Series
 
@@ -166,7 +166,7 @@ class Run:
     def manifest(self) -> dict:
         """manifest.json: status, program, machine, times, figures, files; {} where it is missing."""
         file = self.folder / "manifest.json"
-        return json.loads(file.read_text()) if file.is_file() else {}
+        return read_json(file, "the manifest of a run") if file.is_file() else {}
 
     @property
     def status(self) -> str:

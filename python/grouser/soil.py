@@ -8,10 +8,9 @@ from pathlib import Path
 
 import numpy
 
-from .check import read_json
 from .errors import FileError
+from .files import read_csv, read_json
 from .series import Estimate, number
-from .sweep import read_csv
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,6 @@
 """The results of a sweep: one row a run, and means with intervals over seeds."""
 from __future__ import annotations
 
-import csv
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,21 +10,13 @@ from pathlib import Path
 import numpy
 
 from .errors import FileError
+from .files import read_csv
 from .run import Run
 from .series import Estimate, Quantity, number, split_unit
 
 #: Columns of summary.csv between the swept keys and the figures.
 _ABOUT = ("status", "message", "wall time [s]", "steps", "simulated time [s]")
 _BEHIND = ("state hash", "commit")
-
-
-def read_csv(file: Path) -> list[dict[str, str]]:
-    """The rows of a CSV file by the names of their columns. FileError where it cannot be read."""
-    try:
-        with open(file, newline="", encoding="utf-8") as text:
-            return list(csv.DictReader(text))
-    except OSError as error:
-        raise FileError(f"{file}: cannot be read: {error.strerror}") from error
 
 
 def value_of(text: str) -> float:
@@ -70,6 +61,8 @@ class Sweep:
         self.folder: Path = Path(folder)
         rows = read_csv(self.folder / "summary.csv")
         columns = list(rows[0]) if rows else []
+        if not rows and (self.folder / "summary.csv").read_text(encoding="utf-8").startswith("run,"):
+            raise FileError(f"{self.folder / 'summary.csv'}: holds no run")
         if not rows or columns[0] != "run" or any(name not in columns for name in _ABOUT):
             raise FileError(f"{self.folder / 'summary.csv'}: is no summary of a sweep")
         first = columns.index("status")

@@ -97,7 +97,8 @@ std::filesystem::path noteOf(const studies::Pieces& pieces, const PlannedTest& t
   return pieces.folder() / "runs" / (test.name + ".unsound.txt");
 }
 
-/// What the tests say that have ended unsoundly, a line each.
+} // namespace
+
 std::string unsoundTests(const TestPlan& plan, const studies::Pieces& pieces) {
   std::string text;
   for (const PlannedTest& test : plan.tests)
@@ -105,8 +106,6 @@ std::string unsoundTests(const TestPlan& plan, const studies::Pieces& pieces) {
       text += fmt::format("\n  {}: {}", test.name, std::string(std::istreambuf_iterator<char>(note), {}));
   return text;
 }
-
-} // namespace
 
 int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions& options, int jobs) {
   Device device(options, jobs);

@@ -2,7 +2,7 @@
 // `grouser soil --calibrate`: shear first, then pressure and sinkage, then all constants of what was found.
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "runs/bevameter/calibration.hpp"
+#include "runs/bevameter/calibration_record.hpp"
 #include "runs/bevameter/soil_report.hpp"
 #include "runs/output/output.hpp"
 #include "runs/studies/estimate.hpp"
@@ -31,15 +31,27 @@ constexpr double kBeds = 0.75;          // tensile strength over w / r where all
 
 /// Time is up before all tests of a trial are there.
 struct Unfinished {
+  std::string trial;
   int missing;
 };
 
 class Calibration {
 public:
   Calibration(const CalibrationCommand& command, CalibrationTargets targets, std::filesystem::path folder)
-      : command_(command), targets_(std::move(targets)), folder_(std::move(folder)), soil_(targets_.start) {}
+      : command_(command), targets_(std::move(targets)), folder_(std::move(folder)), soil_(targets_.start),
+        record_(command, targets_, folder_) {}
 
   void run() {
+    try {
+      search();
+    } catch (const Unfinished& unfinished) {
+      record_.stopped(unfinished.trial, unfinished.missing);
+      fmt::print("{} tests of this trial are missing: call again with --resume\n", unfinished.missing);
+    }
+  }
+
+private:
+  void search() {
     seekStrength();
     // Stiff grains have a little more friction: whether phi and c are still there is looked at once more, and costs
     // nothing where they are, for the tests at the end are the same.
@@ -47,7 +59,6 @@ public:
     finish();
   }
 
-private:
   /// Does the tests of some kinds with the soil as it is, in a folder of their own.
   TestPlan tested(const std::string& name, const std::function<bool(const PlannedTest&)>& wanted, SoilResults& results,
                   const std::function<void(const TestPlan&, const studies::Pieces&)>& look = {}) {
@@ -60,13 +71,22 @@ private:
     pieceOptions.resume = true;
     if (command_.pieces.seconds > 0) {
       pieceOptions.seconds = command_.pieces.seconds - spent();
-      if (pieceOptions.seconds <= 0) throw Unfinished{static_cast<int>(plan.tests.size())};
+      if (pieceOptions.seconds <= 0) throw Unfinished{name, static_cast<int>(plan.tests.size())};
     }
     studies::StudyPlace place = command_.place;
     place.folder = folder_ / name;
     studies::Pieces pieces("soil " + soil_.name + ", " + name, place, pieceOptions, plan.recipe());
+    record_.begun();
     takeOver(plan, pieces);
-    if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) throw Unfinished{missing};
+    if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
+      if (const std::string unsound = unsoundTests(plan, pieces); !unsound.empty()) {
+        record_.stopped(name, missing);
+        throw base::SimulationError(fmt::format("tests of {} have ended unsoundly (--steps-per-contact makes a step "
+                                                "smaller, in a folder of its own):{}",
+                                                name, unsound));
+      }
+      throw Unfinished{name, missing};
+    }
     results = resultsOf(plan, pieces);
     if (look) look(plan, pieces);
     done_.emplace_back(soil_.keys, pieces);
@@ -102,8 +122,10 @@ private:
     while (goesOn) {
       setStrength(search.at(), mu);
       SoilResults r;
+      const std::string name = fmt::format("shear_{}", ++shearTrials_);
       tested(
-          fmt::format("shear_{}", ++shearTrials_), [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
+          name, [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
+      record_.shear(name, soil_, r.measured);
       const Estimate foundAngle = r.measured.at(Quantity::frictionAngle),
                      foundCohesion = r.measured.at(Quantity::cohesion);
       fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa; K {} mm\n",
@@ -148,11 +170,13 @@ private:
     for (int trial = 1;; ++trial) {
       SoilResults r;
       Estimate pressure;
-      tested(
-          fmt::format("plate_{}", trial), [](const PlannedTest& t) { return t.kind == TestKind::small; }, r,
+      const std::string name = fmt::format("plate_{}", trial);
+      const TestPlan done = tested(
+          name, [](const PlannedTest& t) { return t.kind == TestKind::small; }, r,
           [&](const TestPlan& plan, const studies::Pieces& pieces) {
             pressure = pressureThere(plan, pieces, TestKind::small);
           });
+      record_.plate(name, soil_, pressure, sinkageOf(done, TestKind::small));
       trials.push_back({base::log(stiffness), base::log(pressure.value)});
       fmt::print("          {} {:.4g}: {} kPa where {:g} are wanted\n", springKey(), stiffness,
                  studies::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
@@ -166,9 +190,14 @@ private:
     return trials.size() > 1 && std::fabs(found / start - 1) > kSameStiffness;
   }
 
+  /// Where a plate is to carry the track's pressure [m].
+  double sinkageOf(const TestPlan& plan, TestKind kind) const {
+    return targets_.sinkageAt(targets_.breadth.value_or(plan.breadth(kind)));
+  }
+
   /// Mean pressure of a plate where it is to carry the track's [Pa]: a curve that ends before carries what it did then.
   Estimate pressureThere(const TestPlan& plan, const studies::Pieces& pieces, TestKind kind) const {
-    const double z = targets_.sinkageAt(targets_.breadth.value_or(plan.breadth(kind)));
+    const double z = sinkageOf(plan, kind);
     const double window = std::max(0.05 * z, 2e-3 * plan.breadth(kind));
     std::vector<double> pressures;
     for (const studies::Table& run : runsOf(plan, pieces, kind)) {
@@ -182,33 +211,21 @@ private:
     return studies::interval95(pressures);
   }
 
-  std::string line(const std::string& what, const Estimate& reached, const std::string& unit, double wanted,
-                   double tolerance) const {
-    const bool isThere = std::fabs(reached.value - wanted) <= tolerance;
-    return fmt::format("  {:<22} {:>20} {:<11} wanted {:g} +- {:g}: {}\n", what, studies::valueText(reached), unit,
-                       wanted, tolerance, isThere ? "reached" : "not reached, this is the nearest");
-  }
-
-  std::string verdicts(const SoilResults& r, const Estimate& small, const Estimate& large) const {
-    std::string text = fmt::format("\n{}targets and what is reached\n", command_.place.quick ? "coarse: " : "");
+  std::vector<TargetOutcome> outcomes(const SoilResults& r, const Estimate& small, const Estimate& large) const {
+    std::vector<TargetOutcome> all;
     for (const auto& [q, wanted] : targets_.wanted) {
       const auto found = r.measured.find(q);
       if (found == r.measured.end()) continue;
-      if (q == Quantity::frictionAngle || q == Quantity::cohesion)
-        text += line(symbolOf(q), found->second, unitOf(q), wanted,
-                     q == Quantity::cohesion ? targets_.cohesionTolerance : targets_.angleTolerance);
-      else
-        text += fmt::format("  {:<22} {:>20} {:<11} wanted {:g}: not sought, it follows\n", symbolOf(q),
-                            studies::valueText(found->second), unitOf(q), wanted);
+      std::optional<double> tolerance;
+      if (q == Quantity::cohesion) tolerance = targets_.cohesionTolerance;
+      if (q == Quantity::frictionAngle) tolerance = targets_.angleTolerance;
+      all.push_back({symbolOf(q), unitOf(q), wanted, tolerance, found->second});
     }
-    if (targets_.wantsSinkage()) {
-      const double p = 1e-3 * kTrackPressure;
-      text += line("pressure, small plate", {1e-3 * small.value, 1e-3 * small.halfWidth}, "kPa", p,
-                   targets_.stiffnessTolerance * p);
-      text += line("held back, large plate", {1e-3 * large.value, 1e-3 * large.halfWidth}, "kPa", p,
-                   targets_.stiffnessTolerance * p);
-    }
-    return text;
+    if (!targets_.wantsSinkage()) return all;
+    const double p = 1e-3 * kTrackPressure, within = targets_.stiffnessTolerance * p;
+    all.push_back({"pressure, small plate", "kPa", p, within, {1e-3 * small.value, 1e-3 * small.halfWidth}});
+    all.push_back({"held back, large plate", "kPa", p, within, {1e-3 * large.value, 1e-3 * large.halfWidth}});
+    return all;
   }
 
   void finish() {
@@ -221,14 +238,17 @@ private:
           if (!targets_.wantsSinkage()) return;
           small = pressureThere(all, pieces, TestKind::small), large = pressureThere(all, pieces, TestKind::large);
         });
-    const std::string text = verdicts(r, small, large);
+    const std::vector<TargetOutcome> found = outcomes(r, small, large);
+    const std::string text = outcomesText(found, command_.place.quick);
     fmt::print("{}", text);
     const std::string call = fmt::format("grouser soil --calibrate {}{}", targets_.start.file.filename().string(),
                                          command_.place.quick ? " --quick" : "");
     support::writeTextFile(folder_ / "calibration.txt", text, "--out");
-    support::replaceTextFile(folder_ / (soil_.name + ".toml"),
+    const std::string file = soil_.name + ".toml";
+    support::replaceTextFile(folder_ / file,
                              soilFileText(soil_, fmt::format("calibrated by {} ({})", call, plan.care()), r, call));
-    fmt::print("soil      {}\n", (folder_ / (soil_.name + ".toml")).string());
+    record_.ended(found, file, "final");
+    fmt::print("soil      {}\n", (folder_ / file).string());
   }
 
   double spent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
@@ -237,6 +257,7 @@ private:
   CalibrationTargets targets_;
   std::filesystem::path folder_;
   TestedSoil soil_;
+  CalibrationRecord record_;
   int shearTrials_ = 0;
   std::vector<std::pair<decltype(TestedSoil::keys), studies::Pieces>> done_; ///< the soil of each trial that is whole
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -283,11 +304,7 @@ void calibrateCommand(const CalibrationCommand& command) {
   output::checkOutputFolder(folder, command.place.force || command.pieces.resume);
   if (!command.pieces.resume) removeTrials(folder);
   const support::StopSignals signals;
-  try {
-    Calibration(command, std::move(targets), folder).run();
-  } catch (const Unfinished& unfinished) {
-    fmt::print("{} tests of this trial are missing: call again with --resume\n", unfinished.missing);
-  }
+  Calibration(command, std::move(targets), folder).run();
 }
 
 } // namespace grouser::bevameter

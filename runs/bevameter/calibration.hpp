@@ -98,6 +98,7 @@ struct CalibrationCommand {
   studies::PieceOptions pieces;
   int jobs = 1;
   PlanOptions plan;
+  std::string words; ///< the whole command line
 };
 void calibrateCommand(const CalibrationCommand& command);
 

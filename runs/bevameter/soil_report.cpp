@@ -26,10 +26,6 @@ nlohmann::ordered_json number(double x) {
   return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }
 
-nlohmann::ordered_json estimateJson(const Estimate& e, const std::string& unit) {
-  return {{"value", number(e.value)}, {"half_width", number(e.halfWidth)}, {"unit", unit}};
-}
-
 nlohmann::ordered_json publishedJson(const TestedSoil& soil, Quantity quantity) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const PublishedValue& p : soil.published) {
@@ -87,6 +83,10 @@ std::string motionText(const Estimate& added) {
 std::string pad() { return std::string(43, ' '); }
 
 } // namespace
+
+nlohmann::ordered_json estimateJson(const Estimate& e, const std::string& unit) {
+  return {{"value", number(e.value)}, {"half_width", number(e.halfWidth)}, {"unit", unit}};
+}
 
 std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
   std::string text =

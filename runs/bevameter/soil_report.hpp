@@ -14,6 +14,8 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& results);
 std::string constantsCsv(const TestPlan& plan, const SoilResults& results);
 std::string platesCsv(const TestPlan& plan, const studies::Pieces& pieces);
 std::string shearCsv(const TestPlan& plan, const studies::Pieces& pieces);
+/// Of numbers that are none null.
+nlohmann::ordered_json estimateJson(const support::Estimate& estimate, const std::string& unit);
 nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& results, int missing);
 
 /// Prints the tables, writes soil.json, soil.txt, constants.csv, plates.csv and shear.csv, and draws.

@@ -48,7 +48,9 @@ void addRender(CLI::App& app, const Invocation& invocation) {
   RenderCommand& c = *command;
   c.comm = invocation.ranks.comm();
   CLI::App* render = app.add_subcommand("render", "Pictures and a film of a run's frames, without a display");
-  render->add_option("frames", c.frames, "frames.h5 of a run")->required();
+  render->add_option("frames", c.frames, "frames.h5 of a run, or the run's folder")
+      ->required()
+      ->transform(support::orItsFolder("frames.h5"));
   render->add_option("--out", c.folder, "folder of the pictures; default: pictures/ beside the file");
   render->add_option("--film", c.film, "make the pictures into this film: .mp4, .mkv or .mov; needs ffmpeg");
   render->add_option("--fps", c.framesPerSecond, "pictures a second of the film")

@@ -2,6 +2,7 @@
 #include "runs/commands/command_entry.hpp"
 
 #include "runs/commands/commands.hpp"
+#include "runs/support/option_checks.hpp"
 
 #include <memory>
 
@@ -11,7 +12,9 @@ void addHash(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<HashCommand>();
   HashCommand& c = *command;
   CLI::App* hash = app.add_subcommand("hash", "Hash of the state in a checkpoint, as run --hash prints it");
-  hash->add_option("checkpoint", c.checkpoint, "checkpoint.h5 of a run")->required();
+  hash->add_option("checkpoint", c.checkpoint, "checkpoint.h5 of a run, or the run's folder")
+      ->required()
+      ->transform(support::orItsFolder("checkpoint.h5"));
   hash->callback([command] { hashCommand(*command); });
 }
 
@@ -19,7 +22,9 @@ void addSinkage(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<SinkageCommand>();
   SinkageCommand& s = *command;
   CLI::App* sinkage = app.add_subcommand("sinkage", "Sinkage of every shoe over time [m], as CSV and as a plot");
-  sinkage->add_option("results", s.results, "results.h5 of a run")->required();
+  sinkage->add_option("results", s.results, "results.h5 of a run, or the run's folder")
+      ->required()
+      ->transform(support::orItsFolder("results.h5"));
   sinkage->add_option("--out", s.folder, "folder; default: beside the results");
   sinkage->add_option("--shoes", s.shoes,
                       "single shoes, counted from 0: 10-13,20; writes sinkage_shoes.csv, and draws their heights and "

@@ -76,18 +76,18 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
            "of the sheared layer, at least ten grains [m]");
 }
 
-void doSoil(const bevameter::SoilCommand& c, const std::string& targets) {
+void doSoil(const bevameter::SoilCommand& c, const std::string& targets, const std::string& words) {
   if (c.soil.empty() == targets.empty())
     throw base::InputError("soil: give either a soil to test or --calibrate with a file of targets");
   if (targets.empty())
     bevameter::soilCommand(c);
   else
-    bevameter::calibrateCommand({targets, c.grainRadius, c.place, c.pieces, c.jobs, c.plan});
+    bevameter::calibrateCommand({targets, c.grainRadius, c.place, c.pieces, c.jobs, c.plan, words});
 }
 
 } // namespace
 
-void addSoil(CLI::App& app, const Invocation&) {
+void addSoil(CLI::App& app, const Invocation& invocation) {
   const auto command = std::make_shared<bevameter::SoilCommand>();
   bevameter::SoilCommand& c = *command;
   const auto targets = std::make_shared<std::string>();
@@ -109,9 +109,9 @@ void addSoil(CLI::App& app, const Invocation&) {
   soil->add_option("--out,--output", c.place.folder,
                    "folder of the results; default: out/soil_NAME, or out/calibrate_NAME");
   soil->add_flag("--force", c.place.force, "overwrite what is in that folder");
-  soil->callback([command, keys, targets] {
+  soil->callback([command, keys, targets, words = invocation.words] {
     if (command->place.quick) keys->takeQuick();
-    doSoil(*command, *targets);
+    doSoil(*command, *targets, words);
   });
 }
 

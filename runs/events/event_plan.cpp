@@ -135,6 +135,13 @@ std::vector<Event> chosen(const EventOptions& options) {
   return {asked.begin(), asked.end()};
 }
 
+/// Levels as a user gives them, in the order of all tables.
+std::vector<double> fromTheEasiest(Event event, std::vector<double> levels) {
+  std::sort(levels.begin(), levels.end());
+  if (event == Event::softSoil) std::reverse(levels.begin(), levels.end());
+  return levels;
+}
+
 void checkLevels(const EventOptions& options, const std::vector<Event>& events) {
   if (options.levels.empty()) return;
   if (events.size() != 1 || options.only.empty() || levelText(events[0]).empty())
@@ -169,7 +176,7 @@ EventPlan planEvents(const EventOptions& options) {
       continue;
     }
     const std::vector<double> levels =
-        options.levels.empty() ? levelsOf(event, plan.course, options.quick) : options.levels;
+        options.levels.empty() ? levelsOf(event, plan.course, options.quick) : fromTheEasiest(event, options.levels);
     for (const double level : levels) {
       PlannedTrial planned{event, level, trialOf(event, level, plan.course), {}};
       for (int seed = 1; seed <= plan.seeds; ++seed) {

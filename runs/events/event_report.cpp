@@ -86,6 +86,13 @@ std::string limitText(const EventLimit& limit) {
 
 } // namespace
 
+std::string EventRow::why() const {
+  for (const char* verdict : {"no-go", "go", "failed"})
+    for (const RunVerdict& r : each)
+      if (r.verdict == verdict) return r.why;
+  return "";
+}
+
 std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
                                 const fs::path& folder) {
   const sweeps::SweepFigures steady = sweeps::sweepFigures(plan.sweep, outcomes, folder);
@@ -97,21 +104,22 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
     for (const std::size_t run : planned.runs) {
       const sweeps::SweepOutcome& outcome = outcomes[run];
       const fs::path at = folder / plan.sweep.runs[run].name;
-      std::string why;
+      RunVerdict said{plan.sweep.runs[run].name, "pending", ""};
       if (outcome.status == output::RunStatus::finished) {
         const Verdict verdict = finishedRun(planned, plan.course, at, gathered);
-        ++row.runs, row.gos += verdict.go, why = verdict.why;
+        ++row.runs, row.gos += verdict.go;
+        said.verdict = verdict.go ? "go" : "no-go", said.why = verdict.why;
         for (std::size_t c = 0; isSteady(planned.event) && c < steady.columns.size(); ++c)
           if (std::find(std::begin(kSteady), std::end(kSteady), steady.columns[c]) != std::end(kSteady))
             gathered.add(steady.columns[c], steady.values[run][c]);
       } else if (outcome.status == output::RunStatus::failed) {
         const FailureVerdict failure = judgeFailure(outcome.message);
         failure.known ? ++row.runs : ++row.unknown;
-        why = failure.why;
+        said.verdict = failure.known ? "no-go" : "failed", said.why = failure.why;
       } else {
         ++row.pending;
       }
-      if (row.why.empty()) row.why = why;
+      row.each.push_back(said);
       std::error_code error;
       if (row.picture.empty() && fs::exists(at / "picture.png", error))
         row.picture = (fs::path(plan.sweep.runs[run].name) / "picture.png").string();
@@ -158,7 +166,7 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
                        const EventPlan& plan) {
   std::string text;
   for (const EventRow& row : rows) {
-    text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row), goText(row), row.why);
+    text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row), goText(row), row.why());
     if (row.unknown > 0)
       text += fmt::format("{:<18}{} of its runs failed for a cause that is not the vehicle's\n", "", row.unknown);
     if (row.pending > 0) text += fmt::format("{:<18}{} of its runs are still to be done\n", "", row.pending);
@@ -181,7 +189,7 @@ std::string eventsCsv(const std::vector<EventRow>& rows) {
   for (const EventRow& row : rows) {
     const std::string head =
         fmt::format("{},{},{},{},{},{}", base::wordOf(row.event), levelCell(row),
-                    support::csvCell(levelText(row.event)), row.runs, row.gos, support::csvCell(row.why));
+                    support::csvCell(levelText(row.event)), row.runs, row.gos, support::csvCell(row.why()));
     if (row.figures.empty()) text += head + ",,,,\n";
     for (const FigureOverSeeds& f : row.figures)
       text += fmt::format("{},{},{},{},{}\n", head, support::csvCell(f.name), f.runs,
@@ -207,10 +215,13 @@ nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::
                   {"go", row.gos},
                   {"failed", row.unknown},
                   {"pending", row.pending},
-                  {"why", row.why},
+                  {"why", row.why()},
+                  {"each", Json::array()},
                   {"picture", row.picture},
                   {"scene", plan.sweep.runs[plan.trials[i].runs.front()].file.filename().string()},
                   {"overrides", plan.sweep.runs[plan.trials[i].runs.front()].overrides}};
+    for (const RunVerdict& r : row.each)
+      entry["each"].push_back({{"run", r.run}, {"verdict", r.verdict}, {"why", r.why}});
     entry["figures"] = Json::array();
     for (const FigureOverSeeds& f : row.figures)
       entry["figures"].push_back({{"name", f.name},

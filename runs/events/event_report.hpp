@@ -21,6 +21,13 @@ struct FigureOverSeeds {
   support::Estimate estimate; ///< mean with the half width of its 95 % interval, infinite for one run
 };
 
+/// What one run says.
+struct RunVerdict {
+  std::string run;     ///< name of its folder
+  std::string verdict; ///< "go", "no-go", "failed" (for another cause than the vehicle's), "pending"
+  std::string why;
+};
+
 /// A level of an event, over its seeds.
 struct EventRow {
   Event event{};
@@ -29,9 +36,12 @@ struct EventRow {
   int gos = 0;     ///< of these
   int unknown = 0; ///< runs that failed for another cause than the vehicle's
   int pending = 0;
-  std::string why; ///< of the first run
+  std::vector<RunVerdict> each;
   std::vector<FigureOverSeeds> figures;
   std::string picture; ///< of the first run, from the folder; empty where there is none
+
+  /// Of the first run that is no go, since that decides; else of the first that has ended.
+  std::string why() const;
 };
 
 /// Between which levels an event's limit lies.

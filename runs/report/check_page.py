@@ -115,7 +115,7 @@ def costs(made, check):
 def cheapest(check):
     """The settings that would bring each figure's bar down to 10, 5 and 1 %, and the wall time of all their runs."""
     file = check.folder / "costs.json"
-    told = grouser.check.read_json(file, "costs of a check").get("cheapest", [])
+    told = grouser.files.read_json(file, "costs of a check").get("cheapest", [])
     percents = list(dict.fromkeys(key for row in told for key in row if key != "figure"))
     if not percents:
         return ""
@@ -157,7 +157,7 @@ def first_runs(check):
 
 def machine_of(check):
     file = check.folder / "costs.json"
-    return grouser.check.read_json(file, "costs of a check").get("machine", "") if file.is_file() else ""
+    return grouser.files.read_json(file, "costs of a check").get("machine", "") if file.is_file() else ""
 
 
 def provenance(check):

@@ -17,37 +17,74 @@ def known(value):
     return math.nan if value is None else value
 
 
+def causes(row):
+    """What each run came to and why, a line a run; of files that do not tell it, of the row as a whole."""
+    more = [f"{row[what]} {what}" for what in ("failed", "pending") if row.get(what)]
+    if not row.get("each"):
+        return esc("; ".join([row["why"], *more] if row["why"] else more))
+    if len(row["each"]) == 1:
+        return esc(row["each"][0]["why"])
+    return "<br>".join(f"{esc(seed_of(run['run']))}: {esc(run['verdict'])}{', ' if run['why'] else ''}{esc(run['why'])}"
+                       for run in row["each"])
+
+
+def seed_of(run):
+    """"seed 2" of the folder "step=0.3,seed=2"."""
+    word = run.rpartition(",")[2]
+    return word.replace("=", " ") if word.startswith("seed=") else run
+
+
 def verdicts(rows):
-    lines = []
-    for row in rows:
-        more = [f"{row[what]} {what}" for what in ("failed", "pending") if row.get(what)]
-        lines.append([esc(row["title"]), level_of(row), esc(row["level_is"]), f"<strong>{esc(row['verdict'])}</strong>",
-                      str(row["runs"]), esc("; ".join([row["why"], *more] if row["why"] else more))])
-    return table(["event", "level", "level is", "verdict", "runs", "why"], lines, "Go: how many of the runs pass it.",
-                 numeric=(1, 4))
+    lines = [[esc(row["title"]), level_of(row), esc(row["level_is"]), f"<strong>{esc(row['verdict'])}</strong>",
+              causes(row)] for row in rows]
+    return table(["event", "level", "level is", "verdict", "runs, and why"], lines,
+                 "Go 2/3: two of three runs, which differ in the seed of their bed, pass. Partly: some do, some do not.",
+                 numeric=(1,))
 
 
 def limits(found, titles):
     lines = [[esc(titles.get(limit["event"], limit["event"])), esc(limit["level_is"]), number(limit["go"]),
               number(limit["no_go"]), esc(limit["reference"] or ""),
               "" if limit["agrees"] is None else "agrees" if limit["agrees"] else "does not agree"] for limit in found]
-    return table(["event", "level is", "go up to", "no-go from", "expected", "and it"], lines,
-                 "The hardest level that all runs pass, and the easiest that some do not.", numeric=(2, 3)) if lines \
-        else ""
+    return table(["event", "level is", "hardest go", "easiest no-go", "by geometry and friction", "runs and that"], lines,
+                 "The hardest level that all runs pass, none that is easier failed by any, and the easiest that some run "
+                 "fails; none: no such level among those that were run.", numeric=(2, 3)) if lines else ""
+
+
+def by_event(rows):
+    """[(title, what the level is, rows by level)], in the order of the file."""
+    found = {}
+    for row in rows:
+        found.setdefault((row["event"], row["title"], row["level_is"]), []).append(row)
+    return [(title, level, sorted(of, key=lambda row: row["level"] if row["level"] is not None else 0))
+            for (_, title, level), of in found.items()]
 
 
 def figures(rows):
-    lines = []
-    for row in rows:
-        for figure in row["figures"]:
-            name, unit = grouser.series.split_unit(figure["name"])
-            half = known(figure["half_width"])
-            label = f"{row['event']} {'' if row['level'] is None else row['level']} {name}"
-            lines.append([esc(row["title"]), level_of(row), esc(name),
-                          with_bar(figure["mean"], half if math.isfinite(half) else None, "", label), esc(unit),
-                          str(figure["runs"])])
-    return table(["event", "level", "figure", "mean", "unit", "runs"], lines,
-                 "\u00b1 half of the 95 % interval over the seeds, where there are several.", numeric=(1, 3, 5))
+    """A table an event: figures down, levels across."""
+    inner = []
+    for title, level, of in by_event(rows):
+        names = list(dict.fromkeys(figure["name"] for row in of for figure in row["figures"]))
+        if not names:
+            continue
+        lines = []
+        for heading in names:
+            name, unit = grouser.series.split_unit(heading)
+            cells = []
+            for row in of:
+                figure = next((f for f in row["figures"] if f["name"] == heading), None)
+                label = f"{row['event']} {'' if row['level'] is None else row['level']} {name}"
+                half = known(figure["half_width"]) if figure else math.nan
+                cells.append(with_bar(figure["mean"], half if math.isfinite(half) else None, "", label) if figure else "")
+            lines.append([esc(name), esc(unit), *cells])
+        across = [f"{row['level']:g}" if row["level"] is not None else "measured" for row in of]
+        seeds = sorted({figure["runs"] for row in of for figure in row["figures"]})
+        told = f"Levels: {esc(level)}. " if level else ""
+        told += f"\u00b1 half of the 95 % interval over {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
+            "One run each: no bars."
+        inner.append(f"<h3>{esc(title)}</h3>" + table(["figure", "unit", *across], lines, told,
+                                                     numeric=range(2, 2 + len(of))))
+    return "".join(inner)
 
 
 def plots(made, rows):
@@ -66,26 +103,30 @@ def plots(made, rows):
             across = level if "[" in level else f"{level} [-]"
             inner.append(made.plot(f"{title}: {grouser.series.split_unit(name)[0]}", across,
                                    name if "[" in name else f"{name} [-]", [(name, *columns)],
-                                   "Mean over the runs of a level; band: its 95 % interval, where there are several."))
+                                   "Mean over the runs of a level; bar: its 95 % interval, where there are several.",
+                                   marks=True))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
 def page(folder, options):
-    opened = grouser.open_events(folder)
-    events = opened.json
+    events = grouser.open_events(folder).json
     made = pages.Page(f"{folder.resolve().name} (events)", "series of mobility events", folder)
-    rows = events["rows"]
+    rows = [row for _, _, of in by_event(events["rows"]) for row in of]
+    if not any(row["runs"] or row.get("failed") for row in rows):
+        raise grouser.FileError(f"{folder}: none of the runs of these events has ended yet; --resume of grouser events "
+                                "goes on with them")
     left_out = "".join(f"<p>Left out: {esc(event)}: {esc(why)}</p>" for event, why in events.get("left_out", {}).items())
     coarse = '<p class="bad">Coarse: made with <code>--quick</code>.</p>' if events.get("quick") else ""
     made.section("figures", "Go or no-go", coarse + verdicts(rows) + left_out)
     made.section("limits", "Limits", limits(events.get("limits", []), {row["event"]: row["title"] for row in rows}))
-    made.section("pictures", "Pictures", pages.pictures([
+    made.section("pictures", "Pictures", "".join(  # one below the other: they are wide
         pages.picture(folder / name, words) for name, words in (("pictures.png", "Every event"),
                                                                 ("events.png", "Figures over the levels"),
-                                                                ("drawbar.png", "Drawbar pull over slip"))]))
+                                                                ("drawbar.png", "Drawbar pull over slip"))))
     made.section("numbers", "Figures", figures(rows))
     made.section("plots", "Plots", plots(made, rows))
-    sweep_page.add_runs(made, [row.folder for row in opened if row.folder], options, "The first run of each level.")
+    folders = [folder / row["picture"].rpartition("/")[0] for row in rows if row.get("picture")]
+    sweep_page.add_runs(made, folders, options, "The first run of each level.")
     made.section("provenance", "Where it comes from", facts([
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),
         ("soil", esc(events.get("soil", ""))), ("seeds", esc(str(events.get("seeds", "")))),

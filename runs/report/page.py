@@ -138,7 +138,8 @@ class Page:
     def plot(self, title, x, y, curves, caption="", **more):
         """HTML of an interactive plot. `x`, `y`: what stands at the axes, with units. `curves`: [(label, x, y)], or
         with half widths of bars [(label, x, y, half)], or with both ends [(label, x, y, low, high)]. `more`: `points`
-        (no lines), `log` ("x", "y", "xy")."""
+        (no lines), `marks` (True, or the labels of curves whose points are marked, with upright bars), `whole` (x counts
+        something), `log` ("x", "y", "xy")."""
         self.need(PLOTS)
         index = len(self.data["plots"])
         entry = {"title": title, "x": x, "y": y, "curves": [], **more}

@@ -50,14 +50,25 @@ report.rows = function (curves) {
   return { bars, rows: [...rows.values()].sort((a, b) => a[0] - b[0]) };
 };
 
-/** At an axis: no more digits than the ticks need. */
-function tick(value) {
-  const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e6 || size < 1e-4)) return value.toExponential(1).replace("-", "\u2212");
-  return Number(value.toPrecision(6)).toString().replace("-", "\u2212");
+/** At an axis whose largest number is `most`: no more digits than the ticks need, all written alike. */
+function tick(value, most) {
+  const size = most || Math.abs(value), rounded = Number(value.toPrecision(6));
+  const isPlain = rounded === 0 || (size < 1e6 && size >= 1e-3);
+  const text = isPlain ? rounded.toString() : Number(value.toPrecision(3)).toExponential().replace("e+", "e");
+  return text.replace(/-/g, "\u2212");
 }
 
-function sample(colour, dash, points) {
+/** The greatest magnitude of some numbers. */
+function greatest(values) {
+  return values.reduce((most, v) => (Number.isFinite(v) ? Math.max(most, Math.abs(v)) : most), 0);
+}
+
+/** At an axis that counts: nothing between whole numbers. */
+function wholeTick(value) {
+  return Number.isInteger(value) ? tick(value) : "";
+}
+
+function sample(colour, dash, points, marked) {
   const ns = "http://www.w3.org/2000/svg";
   const svg = document.createElementNS(ns, "svg");
   svg.setAttribute("width", 34);
@@ -70,7 +81,34 @@ function sample(colour, dash, points) {
   line.setAttribute("stroke-width", 2);
   if (dash && !points) line.setAttribute("stroke-dasharray", dash.join(" "));
   svg.append(line);
+  if (marked) {
+    const mark = document.createElementNS(ns, "circle");
+    for (const [key, value] of Object.entries({ cx: 17, cy: 5, r: 3.5, fill: colour })) mark.setAttribute(key, value);
+    svg.append(mark);
+  }
   return svg;
+}
+
+/** Points that stand each for itself, with upright bars where they have some. */
+function drawMarked(e) {
+  const pen = e.drawingContext;
+  pen.save();
+  pen.strokeStyle = e.color;
+  pen.lineWidth = 1.3;
+  for (const point of e.points) {
+    const ends = [point.y_top, point.y_bottom].map((y) => e.plotArea.y + y * e.plotArea.h);
+    if (!ends.every(Number.isFinite) || ends[0] === ends[1]) continue;
+    pen.beginPath();
+    pen.moveTo(point.canvasx, ends[0]);
+    pen.lineTo(point.canvasx, ends[1]);
+    for (const y of ends) {
+      pen.moveTo(point.canvasx - 4, y);
+      pen.lineTo(point.canvasx + 4, y);
+    }
+    pen.stroke();
+  }
+  pen.restore();
+  Dygraph.Plotters.linePlotter(e);
 }
 
 class Plot {
@@ -81,6 +119,11 @@ class Plot {
     this.curves = entry.curves.map((c) => ({ label: c.label, columns: c.columns.map((n) => report.arrays[n]) }));
     this.place.addEventListener("keydown", (event) => this.key(event));
     this.draw();
+  }
+
+  /** Whether a curve's points stand each for itself: they are drawn, with upright bars. */
+  isMarked(label) {
+    return this.entry.marks === true || (this.entry.marks || []).includes(label);
   }
 
   draw() {
@@ -96,23 +139,29 @@ class Plot {
     // Curves of one name look alike; dygraphs wants every name once.
     this.names = [...new Set(this.curves.map((c) => c.label))];
     this.looks = this.names.map((_, k) => (
-      { colour: colours[k % colours.length], dash: report.dashes[k % report.dashes.length] }));
+      { colour: colours[k % colours.length], marked: this.isMarked(this.names[k]),
+        dash: this.isMarked(this.names[k]) ? [2, 2] : report.dashes[k % report.dashes.length] }));
     const labels = ["x", ...this.curves.map((c, k) => c.label + "\u200b".repeat(k))];
     this.curves.forEach((c, k) => {
       const look = this.looks[this.names.indexOf(c.label)];
       series[labels[k + 1]] = { color: look.colour, strokePattern: look.dash };
+      if (this.isMarked(c.label))
+        Object.assign(series[labels[k + 1]], { drawPoints: true, strokeWidth: 1, strokePattern: [2, 2],
+          plotter: drawMarked });
     });
     const log = this.entry.log || "";
+    const most = { x: log.includes("x") ? 0 : greatest(rows.map((row) => row[0])),
+                   y: log.includes("y") ? 0 : greatest(this.entry.range || rows.flatMap((row) => row.slice(1).flat())) };
     const window_ = kept || (log.includes("x") && rows.length ? [rows[0][0], rows[rows.length - 1][0]] : null);
     this.graph = new Dygraph(this.place, rows, {
       labels, series, customBars: bars, xlabel: this.entry.x, ylabel: this.entry.y, gridLineColor: line,
       axisLineColor: line, strokeWidth: this.entry.points ? 0 : 1.6, drawPoints: !!this.entry.points,
-      pointSize: 3.5, highlightCircleSize: 5, connectSeparatedPoints: true, fillAlpha: 0.22, legend: "never",
-      yRangePad: 8, xRangePad: log.includes("x") ? 0 : 4,
+      pointSize: 3.5, rightGap: 30, highlightCircleSize: 5, connectSeparatedPoints: true, fillAlpha: 0.22, legend: "never",
+      yRangePad: 8, xRangePad: log.includes("x") ? 0 : this.entry.marks ? 16 : 4,
       logscale: log.includes("y"), dateWindow: window_, animatedZooms: false,
       valueRange: this.entry.range || null,
-      axes: { x: { logscale: log.includes("x"), axisLabelWidth: 60, axisLabelFormatter: tick },
-              y: { axisLabelWidth: 68, axisLabelFormatter: tick } },
+      axes: { x: { logscale: log.includes("x"), axisLabelWidth: 60, axisLabelFormatter: this.entry.whole ? wholeTick : (v) => tick(v, most.x) },
+              y: { axisLabelWidth: 78, axisLabelFormatter: (v) => tick(v, most.y) } },
       highlightCallback: (event, x, points, row) => this.tell(row),
       unhighlightCallback: () => this.tell(-1),
     });
@@ -126,7 +175,7 @@ class Plot {
     const add = (text, look) => {
       const entry = document.createElement("span");
       entry.className = "entry";
-      if (look) entry.append(sample(look.colour, look.dash, this.entry.points));
+      if (look) entry.append(sample(look.colour, look.dash, this.entry.points, look.marked));
       entry.append(text);
       this.legend.append(entry);
     };

@@ -22,8 +22,8 @@ sys.dont_write_bytecode = True
 import packages
 
 WRONG, NOT_WRITTEN = 2, 4
-KINDS = (("check.json", "check"), ("events.json", "series of events"), ("soil.json", "soil's tests"),
-         ("summary.csv", "sweep"), ("results.h5", "run"))
+KINDS = (("check.json", "check"), ("events.json", "series of events"), ("calibration.json", "calibration"),
+         ("soil.json", "soil's tests"), ("summary.csv", "sweep"), ("results.h5", "run"))
 
 
 def kind_of(folder):
@@ -31,14 +31,29 @@ def kind_of(folder):
     return next((kind for file, kind in KINDS if (folder / file).is_file()), None)
 
 
+def instead(folder):
+    """What to say of a folder without results: which of those in it have some, or what makes them."""
+    try:
+        there = sorted(inner for inner in folder.iterdir() if inner.is_dir() and kind_of(inner))
+    except OSError as error:
+        return f"it cannot be read: {error.strerror}"
+    if there:
+        more = f" and {len(there) - 3} more" if len(there) > 3 else ""
+        return (f"these in it do: {', '.join(str(inner) for inner in there[:3])}{more} (sweeps, checks, events and soils "
+                "have a page of their own when their tables are written)")
+    return ("a folder of a run, a sweep, a check, events, a calibration or a soil's tests has one of "
+            f"{', '.join(file for file, _ in KINDS)}")
+
+
 def contents(folder, kind, options):
+    import calibration_page
     import check_page
     import events_page
     import run_page
     import soil_page
     import sweep_page
     write = {"check": check_page.page, "soil's tests": soil_page.page, "sweep": sweep_page.page, "run": run_page.page,
-             "series of events": events_page.page}
+             "series of events": events_page.page, "calibration": calibration_page.page}
     return write[kind](folder, options)
 
 
@@ -76,9 +91,7 @@ def main():
                               "PYTHONPATH to the folder that it lies in")
     kind = kind_of(options.folder)
     if kind is None:
-        names = ", ".join(file for file, _ in KINDS)
-        end(WRONG, f"{options.folder}: holds no results; a folder of a run, a sweep, a check or a soil's tests has one "
-                   f"of {names}")
+        end(WRONG, f"{options.folder}: holds no results; {instead(options.folder)}")
     try:
         options.figures = json.loads(options.figures.read_text(encoding="utf-8")) if options.figures else {}
         made = contents(options.folder, kind, options)
@@ -86,7 +99,10 @@ def main():
         end(WRONG, str(error).replace("\n", " "))
     except FileNotFoundError as error:
         end(packages.MISSING if "javascript" in str(error.filename) else WRONG, f"{error.filename}: {error.strerror}")
-    except (OSError, KeyError, ValueError, RuntimeError, IndexError) as error:
+    except KeyError as error:
+        end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version: they lack {error}")
+    except (OSError, ValueError, RuntimeError, IndexError, TypeError,
+            AttributeError) as error:
         words = " ".join(str(error).split())
         end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version: {words}")
     text = made.html()

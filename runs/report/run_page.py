@@ -12,6 +12,7 @@ import space
 from page import esc, exact, facts, folded, number, table, with_bar
 
 LARGEST_FILM = 4e6  # bytes that lie in the page; larger ones stay beside it
+MOST_BESIDE = 4  # ledgers that stand beside each other
 FILMS = {".mp4": "video/mp4", ".webm": "video/webm", ".mov": "video/mp4"}
 
 # Plots of what a run has: title, label of y, names of series. SIDE: left and right.
@@ -38,6 +39,10 @@ CURVES = (
 LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissipated_damping", "dissipated_friction",
           "dissipated_rolling", "dissipated_yielding", "dissipated_crushing", "dissipated_parts", "dissipated_joints",
           "integration_error", "residual", "turnover")
+#: What is said of a run by its status, unless it is finished.
+ENDED = {"running": "This run is still going on, or was killed: what is told here is what it had written by then.",
+         "failed": "This run has failed.", "stopped": "This run was stopped before its end; --resume goes on with it.",
+         "unknown": "How this run has ended is not known: it has no manifest.json."}
 SPREADS = (("Sinkage of the shoes on the ground run", "sinkage [m]", "sinkage"),
            ("Track tension", "tension [N]", "tension"),
            ("Ground pressure under the shoes", "pressure [Pa]", "ground_pressure"))
@@ -189,23 +194,32 @@ def constants(run):
 
 
 def ledger(runs):
-    """The energy ledger at the end of a run, or of several beside each other: does it close?"""
+    """The energy ledger at the end of a run, or of several: beside each other, many of them below each other. Does it
+    close?"""
     runs = [run for run in runs if len(run.time)]
     ends = [{name: run[name] for name in run.names("ledger.") if run[name].value.ndim == 1} for run in runs]
     names = list(dict.fromkeys(name for end in ends for name in end))
     first = [f"ledger.{word}" for word in LEDGER if f"ledger.{word}" in names]
-    rows = []
-    for name in first + [name for name in names if name not in first]:
-        series = next(end[name] for end in ends if name in end)
-        values = [number(float(end[name].value[-1]), "", f"{run.folder.name + ' ' if len(runs) > 1 else ''}{name} at the end")
-                  if name in end else "" for run, end in zip(runs, ends)]
-        rows.append([esc(short(name)), *values, esc(series.unit), esc(series.help)])
-    if not rows:
+    names = first + [name for name in names if name not in first]
+    if not names:
         return ""
+
+    def cell(run, end, name):
+        of = f"{run.folder.name} " if len(runs) > 1 else ""
+        return number(float(end[name].value[-1]), "", f"{of}{name} at the end") if name in end else ""
+
+    words = ("Changes since the first step of the run, at its end. Kinetic, potential, elastic and dissipated energy with "
+             "the integration error make the work of the drives, to the residual.")
+    series = {name: next(end[name] for end in ends if name in end) for name in names}
+    if len(runs) > MOST_BESIDE:
+        rows = [[f"<code>{esc(run.folder.name)}</code>", *(cell(run, end, name) for name in names)]
+                for run, end in zip(runs, ends)]
+        return table(["run", *(f"{short(name)} [{series[name].unit}]" for name in names)], rows, words,
+                     numeric=range(1, 1 + len(names)))
+    rows = [[esc(short(name)), *(cell(run, end, name) for run, end in zip(runs, ends)), esc(series[name].unit),
+             esc(series[name].help)] for name in names]
     headings = [run.folder.name for run in runs] if len(runs) > 1 else ["at the end"]
-    return table(["term", *headings, "unit", "what it is"], rows, "Changes since the first step of the run, at its end. "
-                 "Kinetic, potential, elastic and dissipated energy with the integration error make the work of the "
-                 "drives, to the residual.", numeric=range(1, 1 + len(runs)))
+    return table(["term", *headings, "unit", "what it is"], rows, words, numeric=range(1, 1 + len(runs)))
 
 
 def switches(manifest):
@@ -277,8 +291,7 @@ def page(folder, options):
     made = pages.Page(f"{run.folder.resolve().name} (run)", "run", folder)
     failed = ""
     if run.status != "finished":
-        failed = (f'<p class="bad">This run has not ended well: {esc(run.status)}. '
-                  f'{esc(run.manifest.get("message", ""))}</p>')
+        failed = f'<p class="bad">{esc(ENDED.get(run.status, run.status))} {esc(run.manifest.get("message", ""))}</p>'
     made.section("figures", "Figures", failed + figures(run, options) + folded("Constants of the run", constants(run)))
     made.section("space", "In space", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([

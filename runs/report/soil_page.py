@@ -131,23 +131,28 @@ def beside(soil):
         "several.", numeric=(2,)), opened=True) if rows else ""
 
 
-def page(folder, options):
-    soil = grouser.open_soil(folder)
-    made = pages.Page(f"{soil.name} (soil)", "soil's tests", folder)
+def add_tests(made, soil, provenance=()):
+    """Sections of all that was measured of a soil; `provenance`: what stands before that of its tests."""
+    folder, j = soil.folder, soil.json
     care = '<p class="bad">Coarse: measured with <code>--quick</code>.</p>' if soil.coarse else ""
     made.section("figures", "Constants", care + constants(soil) + beside(soil))
     inner = present(plate_plots, made, soil) + present(shear_plots, made, soil)
     made.section("plots", "Plots", f'<div class="plots">{"".join(inner)}</div>' if inner else "")
     made.section("tests", "Tests", details(soil))
-    j = soil.json
     made.section("scene", "What was tested", folded("Grains, law and tests, as they were", "<pre>" + esc(json.dumps(
         {key: value for key, value in j.items() if key in ("recipe", "shear", "plates", "track_sinkage")}, indent=2)) +
         "</pre>"))
     seeds = sorted({c.seed for c in [*(soil.plates() if (folder / "plates.csv").is_file() else []),
                                      *(soil.shear() if (folder / "shear.csv").is_file() else [])]})
     made.section("provenance", "Where it comes from", facts([
-        ("soil", esc(soil.name)), ("grain radius", number(soil.grain_radius, "m", "grain_radius_m")),
+        *provenance, ("soil", esc(soil.name)), ("grain radius", number(soil.grain_radius, "m", "grain_radius_m")),
         ("care", esc(j["care"])), ("seeds", ", ".join(map(str, seeds))),
         ("program", f"grouser {esc(j.get('version', ''))}, commit <code>{esc(j.get('commit', ''))}</code>"),
         ("machine", esc(j.get("machine", "")))]))
+
+
+def page(folder, options):
+    soil = grouser.open_soil(folder)
+    made = pages.Page(f"{soil.name} (soil)", "soil's tests", folder)
+    add_tests(made, soil)
     return made

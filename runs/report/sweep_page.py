@@ -17,7 +17,7 @@ from page import esc, facts, folded, number, table, with_bar
 
 MOST_CURVES = 7
 MOST_SPACES = 16  # runs that can be chosen in space
-MOST_LEDGERS = 6  # columns of a table
+MOST_LEDGERS = 100
 MOST_FILMS = 6e6  # bytes
 
 
@@ -25,15 +25,21 @@ def text_of(keys):
     return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in keys.items()) or "as the scene says"
 
 
+def follows(sweep, name):
+    """Whether a figure only follows from what was varied: seeds make no difference to it, but for rounding."""
+    means = [m.mean for m in sweep.means.get(name, []) if math.isfinite(m.mean.half_width)]
+    return bool(means) and all(m.half_width <= 1e-9 * abs(m.value) for m in means)
+
+
 def lively(sweep):
-    """Figures that are there and that change."""
+    """Figures that are there and that change; last those that only follow from what was varied."""
     found = []
     for name in sweep.units:
         values = sweep[name].value
         there = values[numpy.isfinite(values)]
         if len(there) and (numpy.ptp(there) > 0 or len(sweep.runs) == 1):
             found.append(name)
-    return found
+    return sorted(found, key=lambda name: follows(sweep, name))
 
 
 def varied(sweep):
@@ -77,7 +83,7 @@ def plots(made, sweep, program):
             for mean in means:
                 rest = text_of({k: v for k, v in mean.keys.items() if k != key})
                 groups.setdefault(rest, []).append((float(mean.keys[key]), mean.mean.value, mean.mean.half_width))
-            caption = "Mean over the seeds, with its 95 % interval."
+            caption = "Mean over the seeds; bar: its 95 % interval."
         else:
             for run in sweep.runs:
                 rest = text_of({k: v for k, v in run.keys.items() if k != key})
@@ -93,7 +99,7 @@ def plots(made, sweep, program):
                 drawn.append((label if len(groups) > 1 else name, *columns))
         if drawn:
             more = f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
-            inner.append(made.plot(name[:1].upper() + name[1:], across, axis, drawn, caption + more))
+            inner.append(made.plot(name[:1].upper() + name[1:], across, axis, drawn, caption + more, marks=True))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
@@ -107,6 +113,8 @@ def means_table(sweep):
     def half(estimate):
         return estimate.half_width if math.isfinite(estimate.half_width) else None
     words = "Means over the seeds, \u00b1 half of the 95 % interval."
+    if max(m.seeds for m in sweep.means[names[0]]) == 2:
+        words += " Of two seeds that is 12.7 standard errors: three or more tell more."
     if len(combinations) <= 6:
         rows = [[esc(n), esc(sweep.units[n]), *(with_bar(m.mean.value, half(m.mean), "", f"{n} {text_of(m.keys)}")
                                                 for m in sweep.means[n])] for n in names]
@@ -131,7 +139,7 @@ def runs_table(sweep):
 
 
 def opened(folders):
-    """The runs of folders that hold some, up to MOST_SPACES."""
+    """The runs of folders that hold some."""
     for folder in folders:
         try:
             yield grouser.open_run(folder)
@@ -143,13 +151,13 @@ def add_runs(made, folders, options, words):
     """Of runs that are there: films, the view in space of one after the other, their ledgers; of the first what was on
     and off, its scene, its machine. `folders`: whose runs are told; `words`: which these are."""
     with contextlib.ExitStack() as stack:
-        runs = [stack.enter_context(run) for run in itertools.islice(opened(folders), MOST_SPACES)]
+        runs = [stack.enter_context(run) for run in itertools.islice(opened(folders), MOST_LEDGERS)]
         made.section("films", "Films", films(folders, options))
         if not runs:
             return
-        view = space.section(made, runs, options)
+        view = space.section(made, runs[:MOST_SPACES], options)
         made.section("space", "In space", f"<p>{esc(words)}</p>{view}" if view else "")
-        made.section("ledger", "Energy ledgers", run_page.ledger(runs[:MOST_LEDGERS]))
+        made.section("ledger", "Energy ledgers", run_page.ledger(runs))
         name = esc(runs[0].folder.name)
         made.section("switches", "What was on and off",
                      f"<p>In the run <code>{name}</code>.</p>{run_page.switches(runs[0].manifest)}")
@@ -179,6 +187,9 @@ def page(folder, options):
     sweep = grouser.open_sweep(folder)
     made = pages.Page(f"{sweep.folder.resolve().name} (sweep)", "sweep", folder)
     ended = [run.status for run in sweep.runs]
+    if all(status in ("pending", "running") for status in ended):
+        raise grouser.FileError(f"{folder}: none of the {len(ended)} runs of this sweep has ended yet; the same call of "
+                                "grouser sweep goes on with it")
     bad = [run for run in sweep.runs if run.status not in ("finished", "pending")]
     told = facts([("varied", ", ".join(f"<code>{esc(k)}</code>: {esc(', '.join(dict.fromkeys(r.keys[k] for r in sweep.runs)))}"
                                        for k in sweep.keys)),

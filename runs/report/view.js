@@ -154,6 +154,7 @@ class Space {
     sprite.scale.set(size, size / 4, 1);
     sprite.position.set(low[0] + 0.5 * length, y - 0.07 * wide, low[2]);
     this.scene.add(bar, sprite);
+    this.scaleLabel = sprite;
     this.scaleLength = length;
   }
 
@@ -167,8 +168,30 @@ class Space {
     this.camera.near = size / 500;
     this.camera.far = 20 * size;
     this.followed = null;
+    this.camera.lookAt(this.controls.target);
+    for (let k = 0; k < 40 && !this.isInView(); ++k) this.retreat(1.05);
     this.controls.update();
     this.follow();
+  }
+
+  /** Whether the whole box and the label of the scale are in the picture. */
+  isInView() {
+    if (this.canvas.clientHeight) this.camera.aspect = this.canvas.clientWidth / this.canvas.clientHeight;
+    this.camera.updateMatrixWorld();
+    this.camera.updateProjectionMatrix();
+    const [low, high] = this.data.box;
+    const places = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new THREE.Vector3(
+      k & 1 ? high[0] : low[0], k & 2 ? high[1] : low[1], k & 4 ? high[2] : low[2]));
+    const label = this.scaleLabel;
+    for (const side of [-0.5, 0.5])
+      for (const up of [-0.5, 0.5])
+        places.push(new THREE.Vector3(side * label.scale.x, up * label.scale.y, 0)
+          .applyQuaternion(this.camera.quaternion).add(label.position));
+    return places.every((p) => Math.max(Math.abs(p.project(this.camera).x), Math.abs(p.y)) < 0.98);
+  }
+
+  retreat(factor) {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
   }
 
   key(event) {
@@ -199,7 +222,7 @@ class Space {
   }
 
   dolly(factor) {
-    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.retreat(factor);
     this.controls.update();
     this.render();
   }

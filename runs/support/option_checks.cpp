@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,15 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
                  const auto n = numberIn<std::int64_t>(text);
                  return n && *n >= low && *n <= high;
                });
+}
+
+CLI::Validator orItsFolder(const std::string& file) {
+  return {[=](std::string& text) {
+            std::error_code error;
+            if (std::filesystem::is_directory(text, error)) text = (std::filesystem::path(text) / file).string();
+            return std::string();
+          },
+          ""};
 }
 
 CLI::Validator positive(const std::string& what) {

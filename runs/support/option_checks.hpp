@@ -24,6 +24,9 @@ CLI::Validator notNegative(const std::string& what);
 /// A finite number in [low, high].
 CLI::Validator between(double low, double high);
 
+/// Of an option that names a file of a run, for transform(): in the place of a folder the file of this name in it.
+CLI::Validator orItsFolder(const std::string& file);
+
 /// An option that takes one of the words of an enum; help shows its default.
 template <base::HasWords E>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const std::string& help) {

@@ -144,10 +144,10 @@ class Calls(FolderTest):
 class Files(FolderTest):
     def test_that_are_something_else_are_said_to_be_so(self):
         (self.folder / "results.h5").write_text("no HDF5")
-        for name in ("summary.csv", "check.json", "soil.json", "events.json"):
+        for name in ("summary.csv", "check.json", "soil.json", "events.json", "calibration.json"):
             (self.folder / name).write_text('{"other": 1}\n')
         openers = (grouser.open_run, grouser.open_sweep, grouser.open_check, grouser.open_soil, grouser.open_bed,
-                   grouser.open_events, grouser.open_frames)
+                   grouser.open_events, grouser.open_frames, grouser.open_calibration)
         for opener in openers:
             with self.assertRaises(grouser.FileError, msg=opener.__name__):
                 opener(self.folder)
@@ -181,7 +181,7 @@ class Files(FolderTest):
         grouser.Scene(MINIMAL).run("step=0.2")
         def row(event, level, mean, picture):
             return {"event": event, "title": "up a step", "level": level, "level_is": "height [m]", "verdict": "go",
-                    "runs": 1, "why": "5.0 m", "picture": picture, "scene": "event_step.toml", "overrides": ["run.seed=1"],
+                    "runs": 1, "why": "5.0 m", "each": [{"run": picture.split("/")[0], "verdict": "go", "why": "5.0 m"}], "picture": picture, "scene": "event_step.toml", "overrides": ["run.seed=1"],
                     "figures": [{"name": "greatest pitch [deg]", "runs": 1, "mean": mean, "half_width": None}]}
         (self.folder / "events.json").write_text(json.dumps({
             "vehicle": "light", "soil": "rigid", "rows": [row("step", 0.2, 11.5, "step=0.2/picture.png"),
@@ -195,6 +195,8 @@ class Files(FolderTest):
         self.assertEqual((step.level, pitch.value, pitch.unit), (0.2, 11.5, "deg"))
         self.assertTrue(numpy.isnan(pitch.half_width) and numpy.isnan(events["turn"][0].level))
         self.assertEqual(step.open().status, "finished")
+        self.assertEqual([(run.verdict, run.why, run.folder) for run in step.each],
+                         [("go", "5.0 m", self.folder / "step=0.2")])
         self.assertEqual((events.limits["step"].go, events.limits["step"].agrees), (0.2, True))
         with self.assertRaisesRegex(KeyError, "step, turn"):
             events["gap"]

@@ -22,16 +22,18 @@ constexpr const char* kSand =
     "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
     "value = 25\nunit = \"deg\"\nsource = \"a book\"\n";
 /// The smallest tests that are tests.
-constexpr const char* kSmall =
-    " --quick --seeds 2 --large-seeds 2 --plate-grains 5 --plate-ratio 1.5 "
+constexpr const char* kSmallest =
+    " --quick --plate-grains 5 --plate-ratio 1.5 "
     "--thickness 4.5 --bin 3 --pressure 20000 --inertial-number 0.05 --shear-loads 5000 10000 "
     "--plate-waves 10 --shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu";
+
+const std::string kSmall = std::string(kSmallest) + " --seeds 2 --large-seeds 2";
 
 class SoilCommandTest : public ProgramTest {};
 
 TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   put(folder_ / "sand.toml", kSand);
-  const std::string words = std::string("soil sand.toml --out results") + kSmall;
+  const std::string words = "soil sand.toml --out results" + kSmall;
   const Outcome part = call(words + " --part 2/3");
   ASSERT_EQ(part.code, 0) << part.errors;
   EXPECT_FALSE(fs::exists(folder_ / "results" / "soil.json")) << "a part writes no tables";
@@ -62,10 +64,48 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
 }
 
+/// What a search has tried stands in calibration.json as soon as a trial is whole, and a call that goes on tells the
+/// same trials again.
+TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
+  put(folder_ / "targets.toml",
+      "version = 1\n[targets]\nphi = 24\nK = 12\nn = 1\nk = 300\nb = 0.1\n[tolerances]\nphi = 40\nk = 1\n[start]\n"
+      "stiffness = 5e3\nrestitution = 0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n");
+  std::string words = std::string("soil --calibrate targets.toml --out found --seeds 1 --large-seeds 1") + kSmallest;
+  words.replace(words.find("20000"), 5, "30000"); // half of what is wanted, which is within the tolerance
+  const auto record = [&] { return nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")); };
+  ASSERT_EQ(call(words + " --seconds 1e-3").code, 0);
+  EXPECT_EQ(record().at("status"), "unfinished");
+  EXPECT_EQ(record().at("missing").at("trial"), "shear_1");
+  const Outcome o = call(words + " --resume --jobs 2");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  const auto whole = record();
+  EXPECT_EQ(whole.at("status"), "finished");
+  EXPECT_FALSE(whole.contains("missing"));
+  EXPECT_NE(whole.at("command").get<std::string>().find("--resume"), std::string::npos);
+  ASSERT_GE(whole.at("trials").size(), 2u);
+  const auto& shear = whole.at("trials").at(0);
+  EXPECT_EQ(shear.at("name"), "shear_1");
+  EXPECT_EQ(shear.at("parameters").at("friction"), 0.5);
+  EXPECT_GT(shear.at("measured").at("phi").at("value").get<double>(), 5);
+  EXPECT_TRUE(shear.at("measured").at("phi").at("half_width").is_null()) << "of one seed";
+  const auto& plate = whole.at("trials").back();
+  EXPECT_EQ(plate.at("kind"), "plate");
+  EXPECT_NEAR(plate.at("measured").at("sinkage").at("value").get<double>(), 1e3 * 47.5 / 300, 1e-9);
+  const auto soil = nlohmann::json::parse(contents(folder_ / "found" / "final" / "soil.json"));
+  const auto& phi = whole.at("outcomes").at(0);
+  EXPECT_EQ(phi.at("what"), "phi");
+  EXPECT_EQ(phi.at("reached").at("value"), soil.at("constants").at("phi").at("value"));
+  EXPECT_EQ(contents(folder_ / "found" / "calibration.txt").find("not reached") == std::string::npos,
+            whole.dump().find("\"not reached\"") == std::string::npos);
+  ASSERT_EQ(call(words + " --resume").code, 0);
+  EXPECT_EQ(record().at("trials"), whole.at("trials"));
+  EXPECT_EQ(record().at("outcomes"), whole.at("outcomes"));
+}
+
 TEST_F(SoilCommandTest, PartsMayBeginTogether) {
   put(folder_ / "sand.toml",
       std::string(kSand).replace(std::string(kSand).find("[[published"), 0, "porosity = 0.42\n"));
-  const std::string words = std::string("\"$grouser\" soil sand.toml --out results --resume") + kSmall;
+  const std::string words = "\"$grouser\" soil sand.toml --out results --resume" + kSmall;
   const Outcome o = shell(words + " --part 1/100 > first.log 2>&1 & first=$!; " + words +
                           " --part 2/100; second=$?; wait $first && exit $second");
   EXPECT_EQ(o.code, 0) << o.errors << contents(folder_ / "first.log");

@@ -240,6 +240,8 @@ TEST_F(CommandLine, HashOfTheCheckpointIsTheHashOfTheRun) {
   const Outcome hash = call("hash out/grain/checkpoint.h5");
   EXPECT_EQ(hash.code, 0) << hash.errors;
   EXPECT_EQ(hash.out, run.hash() + "\n");
+  EXPECT_EQ(call("hash out/grain").out, hash.out) << "the file in the run's folder";
+  EXPECT_NE(call("render out").error().find("out/frames.h5"), std::string::npos);
 }
 
 TEST_F(CommandLine, ResumeFindsTheCheckpointByFolderOrByName) {

@@ -25,6 +25,10 @@ TEST_F(EventsProgram, WritesItsTablesAndGoesOn) {
   EXPECT_EQ(json["rows"][0]["event"], "acceleration");
   EXPECT_EQ(json["rows"][0]["verdict"], "no-go");
   EXPECT_EQ(json["rows"][0]["scene"], "event_acceleration.toml");
+  ASSERT_EQ(json["rows"][0]["each"].size(), 1u);
+  EXPECT_EQ(json["rows"][0]["each"][0]["verdict"], "no-go");
+  EXPECT_EQ(json["rows"][0]["each"][0]["why"], json["rows"][0]["why"]);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / json["rows"][0]["each"][0]["run"].get<std::string>()));
   EXPECT_NE(contents(folder_ / "out" / "events.csv").find("acceleration,,,1,0,comes 0."), std::string::npos);
   EXPECT_FALSE(contents(folder_ / "out" / "events.txt").empty());
 

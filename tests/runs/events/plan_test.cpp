@@ -117,7 +117,7 @@ TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
   // 8 m at 1.2 m/s, a fifth more, and 1.2 s before it drives; its limit is 22 s.
   EXPECT_DOUBLE_EQ(grade.sweep.runs[0].expectedEnd, 1.2 + 1.2 * 8 / 1.2);
   EXPECT_EQ(grade.sweep.runs[0].scene.run.duration, 22);
-  options.only = {"drawbar"}, options.levels = {0.2, 0.6};
+  options.only = {"drawbar"}, options.levels = {0.6, 0.2}; // from the easiest on, however they are given
   const EventPlan drawbar = planEvents(options);
   const auto driving = [&](std::size_t run) { return drawbar.sweep.runs[run].expectedEnd - 1.2; };
   EXPECT_NEAR(driving(1), 2 * driving(0), 1e-12) << "half as fast"; // round-off of some seconds
@@ -181,6 +181,17 @@ TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {
   EXPECT_FALSE(eventLimits(rows, course)[0].noGo);
   rows[0].gos = 0;
   EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go is none to rely on
+}
+
+TEST(EventRow, TellsWhyOfTheRunThatDecides) {
+  EventRow row;
+  EXPECT_EQ(row.why(), "");
+  row.each = {{"step=1,seed=1", "pending", ""}, {"step=1,seed=2", "failed", "energy"}};
+  EXPECT_EQ(row.why(), "energy");
+  row.each.push_back({"step=1,seed=3", "go", "5.0 m in 6 s"});
+  EXPECT_EQ(row.why(), "5.0 m in 6 s");
+  row.each.push_back({"step=1,seed=4", "no-go", "throws a track"});
+  EXPECT_EQ(row.why(), "throws a track") << "one no-go makes the level none to rely on";
 }
 
 } // namespace
