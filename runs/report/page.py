@@ -38,6 +38,8 @@ def shown(value, digits=5):
     if math.isinf(value):
         return "unknown"
     text = f"{value:.{digits}g}"
+    if "e" in text and 1e-4 <= abs(value) < 1e6:  # digits that were not asked for are noughts
+        text = f"{float(text):.0f}"
     if "e" not in text:
         return text.replace("-", "\u2212")
     mantissa, exponent = text.split("e")

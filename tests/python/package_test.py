@@ -153,6 +153,12 @@ class Files(FolderTest):
                 opener(self.folder)
             with self.assertRaises(grouser.FileError, msg=opener.__name__):
                 opener(self.folder / "missing")
+        for name in ("check.json", "soil.json", "events.json", "calibration.json"):
+            (self.folder / name).write_text("[1]")
+        (self.folder / "summary.csv").write_bytes(b"run,\xff\xfe\n")
+        for opener in openers:
+            with self.assertRaises(grouser.FileError, msg=opener.__name__):
+                opener(self.folder)
 
     def test_series_have_times_units_and_columns(self):
         scene = grouser.Scene(MINIMAL)

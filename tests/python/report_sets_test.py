@@ -119,7 +119,7 @@ class Pages(PageTest):
         self.assertIn("throws a <track>", rows[1], "of a file that does not tell of each run")
         self.assertEqual(self.browser.value("[...document.querySelectorAll('#numbers th')].map(h => h.textContent)"),
                          ["figure", "unit", "0.1", "0.2"], "levels in their order")
-        self.runs_are_chosen([folder / "grade=0.2", folder / "grade=0.1"])
+        self.runs_are_chosen([folder / "grade=0.1", folder / "grade=0.2"])
 
     @staticmethod
     def put_soil(folder):
