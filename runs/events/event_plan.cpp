@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 namespace grouser::events {
 
@@ -148,8 +149,34 @@ void checkLevels(const EventOptions& options, const std::vector<Event>& events) 
     throw InputError("--levels: are of one event that has levels; name it with --only, e.g. --only step");
   std::vector<double> sorted = options.levels;
   std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() || !(sorted.front() > 0))
-    throw InputError("--levels: give each once, all above 0");
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() || !(sorted.front() > 0) ||
+      !std::isfinite(sorted.back()))
+    throw InputError("--levels: give each once, all above 0 and finite");
+}
+
+/// A fault of a key that the command has set for a word of the user's, told of that word instead of --set.
+std::string inWordsOfTheUser(const std::string& fault, const EventOptions& options, Event event, double level) {
+  static constexpr std::string_view kSet = "--set: ";
+  if (!fault.starts_with(kSet)) return fault;
+  const std::string rest = fault.substr(kSet.size());
+  for (const std::string& set : options.fixed)
+    if (rest.starts_with(set.substr(0, set.find('=')))) return fault;
+  if (options.depth && rest.starts_with("terrain.depth")) return fmt::format("--depth: {}", rest);
+  if (options.grainRadius && (rest.starts_with("terrain.grain_radius") || rest.starts_with("terrain.depth")))
+    return fmt::format("--grain-radius: {}", rest);
+  if (options.speed && rest.starts_with("driver.")) return fmt::format("--speed: {}", rest);
+  if (!options.levels.empty()) return fmt::format("--levels {:g}: {}", level, rest);
+  return fmt::format("event {}: {}", base::wordOf(event), rest);
+}
+
+/// Loads the scene of a run and, with the first seed, checks it: another lays the same bed otherwise.
+void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial& planned, int seed) {
+  try {
+    run.scene = setup::loadScene(run.file, run.overrides);
+    if (seed == 1) sweeps::checkScene(run.scene);
+  } catch (const InputError& fault) {
+    throw InputError(inWordsOfTheUser(fault.what(), options, planned.event, planned.level));
+  }
 }
 
 } // namespace
@@ -188,9 +215,8 @@ EventPlan planEvents(const EventOptions& options) {
         if (!plan.course.rigid) run.overrides.push_back(fmt::format("{}={}", sweeps::kSeedKey, seed));
         for (const std::string& set : options.fixed) sweeps::putOverride(run.overrides, set);
         run.values = {fmt::format("{}={:g}", base::wordOf(event), level), fmt::format("{}", seed)};
-        run.scene = setup::loadScene(run.file, run.overrides);
+        load(run, options, planned, seed);
         run.expectedEnd = expectedEnd(planned, run.scene.run.duration);
-        if (seed == 1) sweeps::checkScene(run.scene); // another seed lays the same bed otherwise
         planned.runs.push_back(plan.sweep.runs.size());
         plan.sweep.runs.push_back(std::move(run));
       }

@@ -6,6 +6,7 @@
 #include "runs/events/event_report.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/render/film.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/program_call.hpp"
@@ -111,8 +112,15 @@ void eventsCommand(const EventsCommand& command) {
   if (command.pieces.threads > 0) options.fixed.push_back(fmt::format("run.threads={}", command.pieces.threads));
   const fs::path folder = folderOf(command);
   const bool goesOn = command.pieces.resume || !command.pieces.part.empty();
+  std::error_code unreadable;
+  if (!command.plan && !command.force && !goesOn && fs::is_directory(folder, unreadable) &&
+      !fs::is_empty(folder, unreadable))
+    throw base::InputError(fmt::format("{}: the folder is not empty; go on there with --resume, name another with "
+                                       "--out, or run all of it again with --force",
+                                       folder.string()));
   if (!command.plan) output::checkOutputFolder(folder, command.force || goesOn);
   const EventPlan plan = planEvents(options);
+  if (command.films && !command.plan && command.pieces.part.empty()) render::checkFilmProgram("--films");
   printHead(command, plan);
   if (command.plan) {
     fmt::print("{}", timesText(timesOf(plan, folder, command.timeOutput)));

@@ -92,10 +92,14 @@ void checkFilm(const fs::path& film) {
   std::error_code error;
   if (const fs::path folder = fs::absolute(film).parent_path(); !fs::is_directory(folder, error))
     throw base::InputError(fmt::format("--film {}: there is no folder {}", film.string(), folder.string()));
+  checkFilmProgram(fmt::format("--film {}", film.string()));
+}
+
+void checkFilmProgram(const std::string& word) {
   if (programOnPath("ffmpeg").empty())
-    throw base::InputError(fmt::format("--film {}: a film needs the program ffmpeg, which is not installed; install "
-                                       "the package ffmpeg, or leave --film out for pictures alone",
-                                       film.string()));
+    throw base::InputError(fmt::format("{}: a film needs the program ffmpeg, which is not installed; install the "
+                                       "package ffmpeg, or leave {} out for pictures alone",
+                                       word, word.substr(0, word.find(' '))));
 }
 
 void makeFilm(const std::vector<fs::path>& pictures, double framesPerSecond, const fs::path& film) {

@@ -37,15 +37,20 @@ support::Estimate interval95(std::span<const double> values) {
   return {m.mean, support::student95(m.freedom) * std::sqrt(m.variance)};
 }
 
-support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b) {
+support::Estimate unpairedChange(std::span<const double> a, std::span<const double> b) {
   const Moments ma = momentsOf(a), mb = momentsOf(b);
-  const double difference = (mb.mean - ma.mean) / ma.mean, variance = ma.variance + mb.variance;
-  if (ma.freedom < 1 || mb.freedom < 1) return {difference, std::numeric_limits<double>::infinity()};
-  if (variance == 0) return {difference, 0};
+  const double apart = mb.mean - ma.mean, variance = ma.variance + mb.variance;
+  if (ma.freedom < 1 || mb.freedom < 1) return {apart, std::numeric_limits<double>::infinity()};
+  if (variance == 0) return {apart, 0};
   const double freedom =
       variance * variance / (ma.variance * ma.variance / ma.freedom + mb.variance * mb.variance / mb.freedom);
-  return {difference,
-          support::student95(std::max(1, static_cast<int>(freedom + 1e-9))) * std::sqrt(variance) / std::fabs(ma.mean)};
+  return {apart, support::student95(std::max(1, static_cast<int>(freedom + 1e-9))) * std::sqrt(variance)};
+}
+
+support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b) {
+  const support::Estimate d = unpairedChange(a, b);
+  const double mean = momentsOf(a).mean;
+  return {d.value / mean, d.halfWidth / std::fabs(mean)};
 }
 
 support::Estimate pairedChange(std::span<const double> a, std::span<const double> b) {

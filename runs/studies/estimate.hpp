@@ -12,8 +12,10 @@ namespace grouser::studies {
 /// Mean and half width of its 95 % interval by Student's distribution; infinite for fewer than two values.
 support::Estimate interval95(std::span<const double> values);
 
-/// (mean b - mean a) / mean a with its 95 % half width, from samples of their own: Welch's interval, with the degrees
-/// of freedom of Satterthwaite rounded down. The scatter of the divisor is left out.
+/// mean b - mean a with its 95 % half width, from samples of their own: Welch's interval, with the degrees of freedom
+/// of Satterthwaite rounded down; infinite where either has fewer than two values.
+support::Estimate unpairedChange(std::span<const double> a, std::span<const double> b);
+/// The same over mean a, whose scatter is left out.
 support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b);
 
 /// mean b - mean a with its 95 % half width, of pairs: a[i] and b[i] have the same seed. Throws std::invalid_argument

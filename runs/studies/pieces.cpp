@@ -152,9 +152,13 @@ double Pieces::spent() const {
 }
 
 bool Pieces::due(const std::string& run) {
-  const int number = seen_++;
+  ++seen_;
+  return dueBeside(run);
+}
+
+bool Pieces::dueBeside(const std::string& run) {
   if (has(run)) return false;
-  const bool mine = number % parts_ == part_ - 1 && inTime(run);
+  const bool mine = (seen_ - 1) % parts_ == part_ - 1 && inTime(run);
   left_ += !mine;
   return mine;
 }

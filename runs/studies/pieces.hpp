@@ -51,6 +51,8 @@ public:
   /// its kind took in this call (of a kind that is new: the longest of all). Counts the runs: called once for each, in
   /// an order that is the same in all calls. The kind is the run's name up to its last underscore.
   bool due(const std::string& run);
+  /// The same of a run that stands beside the one due() was last asked for: of its part, and not counted.
+  bool dueBeside(const std::string& run);
   /// The same of the time alone, for a process that works for this one: the run begins now if so.
   bool inTime(const std::string& run);
   /// A folder for what the run needs on its way, which a call that is stopped leaves to the next.

@@ -21,7 +21,6 @@ constexpr std::uint64_t kPurpose = base::purpose("study.random_vehicles");
 constexpr double kStart = 0.12, kUntil = 0.4, kWindow = 0.15; // [s]
 constexpr double kLightPad = 0.28, kLightRadius = 0.2451; // of the light vehicle, whose grains and speeds are scaled
 constexpr double kLightMass = 5018;
-constexpr double kFiner = 4;
 
 std::string triple(const base::Vec3d& v, double times) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", times * v.x, times * v.y, times * v.z);
@@ -164,14 +163,24 @@ RandomOutcome tryRandomVehicle(const RandomVehicle& vehicle, const TrialPlace& p
     return outcome;
   }
   outcome.trials = {tryVehicle(vehicle.what, step, place)};
-  if (outcome.trials[0].end != TrialEnd::refused && !vehicle.onBed)
-    outcome.trials.push_back(tryVehicle(vehicle.what, step / kFiner, place));
+  if (outcome.trials[0].end == TrialEnd::refused || vehicle.onBed) return outcome;
+  outcome.trials.push_back(tryVehicle(vehicle.what, step / kFinerRatio, place));
+  if (!figuresDisagree(outcome.trials[0], outcome.trials[1], vehicle.onBed)) return outcome;
+  for (const double share : kNeighbourShares) {
+    outcome.trials.push_back(tryVehicle(vehicle.what, share * step, place));
+    outcome.trials.push_back(tryVehicle(vehicle.what, share * step / kFinerRatio, place));
+  }
   return outcome;
 }
 
 Judgement judgeRandom(const RandomVehicle& vehicle, const RandomOutcome& outcome) {
   const VehicleTrial& run = outcome.trials.at(0);
-  if (outcome.trials.size() > 1) return judge(run, outcome.trials[1], vehicle.onBed);
+  if (outcome.trials.size() > 1) {
+    std::vector<TrialPair> pairs;
+    for (std::size_t i = 0; i + 1 < outcome.trials.size(); i += 2)
+      pairs.push_back({outcome.trials[i], outcome.trials[i + 1]});
+    return judge(pairs, vehicle.onBed);
+  }
   if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
   if (run.end == TrialEnd::stopped)
     return {blameOf(run.cause).kind == "other" ? MapVerdict::wrongCause : MapVerdict::stopped, run.cause};

@@ -36,7 +36,8 @@ struct RandomVehicle {
 /// Throws base::InputError where the installation has no such vehicle file.
 RandomVehicle randomVehicle(std::uint64_t seed, int number);
 
-/// Runs it, on rigid ground at a quarter of its step too. `trials`: both, or one.
+/// Runs it, on rigid ground at a quarter of its step too, and where figures of the two disagree at neighbouring steps
+/// and their quarters. `trials`: one, or pairs.
 struct RandomOutcome {
   std::vector<VehicleTrial> trials;
 };

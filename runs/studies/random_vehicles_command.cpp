@@ -25,6 +25,7 @@ std::string nameOf(int number) { return fmt::format("vehicle_{}", number); }
 
 void runAll(const RandomVehicles& c, Pieces& pieces) {
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
+  simulation::SphereCache spheres{support::KeptFiles(pieces.folder() / "kept")}; // of a vehicle at all its steps
   support::Progress progress("driving");
   for (int k = 0; k < c.vehicles; ++k) {
     const std::string name = nameOf(k);
@@ -32,7 +33,7 @@ void runAll(const RandomVehicles& c, Pieces& pieces) {
     if (!pieces.due(name)) continue;
     const fs::path folder = pieces.begin(name);
     TrialPlace place;
-    place.folder = folder, place.exec = exec;
+    place.folder = folder, place.exec = exec, place.spheres = &spheres;
     const RandomVehicle vehicle = randomVehicle(static_cast<std::uint64_t>(c.seed), k);
     keepTrials(pieces, name, tryRandomVehicle(vehicle, place).trials);
     // The scene stays, to be run again by `grouser run`.
@@ -86,6 +87,7 @@ void studyRandomVehicles(const RandomVehicles& c) {
   writeStudyOrigin(pieces.folder(), "random-vehicles",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
                    {{"vehicles", c.vehicles}, {"seed", c.seed}, {"verdicts", verdicts}});
+  if (pieces.left() == 0) fs::remove_all(pieces.folder() / "kept");
   fmt::print("tables    {}\n", pieces.folder().string());
   const int wrong = counts[static_cast<std::size_t>(MapVerdict::wrongCause)] +
                     counts[static_cast<std::size_t>(MapVerdict::silentlyWrong)];

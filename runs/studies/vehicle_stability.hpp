@@ -22,14 +22,22 @@ void studyVehicleStability(const VehicleStability& command, const StudyPlace& pl
 struct JudgedPoint {
   const VehicleMap* map;
   const MapPoint* point;
-  VehicleTrial run, finer; ///< the latter of no meaning where the former was refused
+  std::vector<TrialPair> pairs; ///< the point's own, whose finer run has no meaning where it was refused; neighbours
   Judgement judgement;
+  const VehicleTrial& run() const { return pairs.front().run; }
+  const VehicleTrial& finer() const { return pairs.front().finer; }
 };
+/// Of a map; of all where it is empty.
+int pointsOf(const std::vector<JudgedPoint>& points, const std::string& map, MapVerdict verdict);
 std::string vehicleMapsCsv(const std::vector<JudgedPoint>& points);
 std::string predictedLinesCsv(const std::vector<VehicleMap>& maps);
 /// How far the figures of a bed's runs lie apart that differ by their seed alone, beside what a run may differ from the
 /// one at a quarter of its step; empty unless two points of the map `seeds` are sound.
 std::string seedScatterTable(const std::vector<JudgedPoint>& points);
+/// Of each point that has neighbours how its figures scatter over them; empty where none has.
+std::string neighboursTable(const std::vector<JudgedPoint>& points);
+/// A row a neighbouring step, with the figures of both runs.
+std::string neighboursCsv(const std::vector<JudgedPoint>& points);
 /// A line a map, then each stop, each refusal of its kind, and each point that is wrong, in words.
 std::string vehicleMapsTable(const std::vector<JudgedPoint>& points);
 

@@ -60,34 +60,42 @@ scene::Scene parsed(const VehicleCase& what, double step, const fs::path& folder
   return setup::parseScene(text, folder / "scene.toml");
 }
 
-/// Sums over the samples of the window.
+/// Mean of all pins' tensions in the last step [N].
+double pinTension(const simulation::VehicleRig& rig) {
+  double sum = 0, pins = 0;
+  for (const vehicle::Track& track : rig.assembly().tracks)
+    for (const int joint : track.shoeJoints)
+      sum += base::norm(rig.state().joint[static_cast<std::size_t>(joint)].force), ++pins;
+  return sum / pins;
+}
+
+/// Sums over the samples of the window; of the tension over all its steps: links are rigid, so a blow lasts one step
+/// and is as high as that is short, and no sample tells its impulse.
 class Window {
 public:
+  void step(const simulation::VehicleRig& rig) { pull_ += pinTension(rig), ++steps_; }
   void take(const simulation::Simulation& run) {
     const simulation::VehicleRig& rig = *run.vehicle();
     const vehicle::Observation now = rig.observe();
     ++samples_;
     sums_.speed += now.velocity.x, sums_.pitch += now.pitchAngle;
     sums_.height += rig.state().pose[static_cast<std::size_t>(rig.assembly().chassis)].position.z;
-    double pull = 0, sunk = 0, pins = 0, shoes = 0;
+    double sunk = 0, shoes = 0;
     for (const vehicle::TrackObservation& track : now.tracks)
-      for (std::size_t i = 0; i < track.tension.size(); ++i) {
-        pull += track.tension[i], ++pins;
+      for (std::size_t i = 0; i < track.sinkage.size(); ++i)
         if (track.onGround[i] > 0 && std::isfinite(track.sinkage[i])) sunk += track.sinkage[i], ++shoes;
-      }
-    sums_.tension += pull / pins;
     if (shoes > 0) sums_.sinkage += sunk / shoes, ++sunken_;
   }
   void means(MapFigures& f) const {
     if (samples_ == 0) return;
     f.speed = sums_.speed / samples_, f.height = sums_.height / samples_, f.pitch = sums_.pitch / samples_;
-    f.tension = sums_.tension / samples_;
+    f.tension = pull_ / steps_;
     if (sunken_ > 0) f.sinkage = sums_.sinkage / sunken_;
   }
 
 private:
   MapFigures sums_{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  double samples_ = 0, sunken_ = 0;
+  double samples_ = 0, sunken_ = 0, pull_ = 0, steps_ = 0;
 };
 
 /// Steps to the end of the window, or until a guard stops it.
@@ -113,6 +121,7 @@ void drive(simulation::Simulation& run, const VehicleCase& what, VehicleTrial& t
     while (run.steps() < end) {
       if (run.steps() == begin) workBefore = run.ledger().driveWork, began = run.time(), run.restartMeans();
       run.step();
+      if (run.steps() > begin) window.step(*run.vehicle());
       f.lowest = std::min(f.lowest, run.vehicle()->state().pose[chassis].position.z);
       if (run.steps() % 256 == 0) stopStudyIfAsked();
       // Samples are spread evenly, whatever the step.

@@ -35,7 +35,7 @@ struct MapFigures {
   double lowest = NAN;           ///< that it was since the start [m]
   double pitch = NAN;            ///< nose up [rad]
   double power = NAN;            ///< of the drives [W]
-  double tension = NAN;          ///< in the tracks' pins [N]
+  double tension = NAN;          ///< in the tracks' pins, over all steps [N]
   double sinkage = NAN;          ///< of the shoes that carry load [m]
   double dissipated = NAN;       ///< in the whole run [J]
   double integrationError = NAN; ///< of the whole run [J]

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/vehicle_verdict.hpp"
 
+#include "runs/studies/common.hpp"
+#include "runs/studies/estimate.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,25 +61,84 @@ Blame blameOf(const std::string& message) {
 
 namespace {
 
+/// Why the books of a run do not count; empty where they close.
+std::string openBooks(const MapFigures& f) {
+  if (std::fabs(f.leftOver) <= kMostLeftOver) return {};
+  return fmt::format("the books leave {:.3g} of the turnover over", f.leftOver);
+}
+
+double allowed(const ComparedFigure& c, double a, double b) {
+  return c.relative * std::max(std::fabs(a), std::fabs(b)) + c.floor;
+}
+
+/// A figure that is none in one run, in words; empty where all are numbers, or are not to be had in this scene.
+std::string noNumber(const MapFigures& run, const MapFigures& finer, bool onBed) {
+  for (const ComparedFigure& c : comparedFigures(onBed)) {
+    const double a = run.*c.value, b = finer.*c.value;
+    if (!(std::isnan(a) && std::isnan(b)) && (!std::isfinite(a) || !std::isfinite(b)))
+      return fmt::format("{} is {} and {}: no number", c.name, a, b);
+  }
+  return {};
+}
+
 /// What differs most beyond what it may; empty where nothing does.
-std::string difference(const MapFigures& run, const MapFigures& finer, bool onBed) {
-  for (const MapFigures* f : {&run, &finer})
-    if (!(std::fabs(f->leftOver) <= kMostLeftOver))
-      return fmt::format("the books leave {:.3g} of the turnover over", f->leftOver);
+std::string apartInWords(const MapFigures& run, const MapFigures& finer, bool onBed) {
   std::string worst;
   double most = 1;
   for (const ComparedFigure& c : comparedFigures(onBed)) {
     const double a = run.*c.value, b = finer.*c.value;
-    if (std::isnan(a) && std::isnan(b)) continue; // not to be had in this scene
-    if (!std::isfinite(a) || !std::isfinite(b)) return fmt::format("{} is {} and {}: no number", c.name, a, b);
-    const double may = c.relative * std::max(std::fabs(a), std::fabs(b)) + c.floor;
-    const double over = std::fabs(a - b) / may;
-    if (over <= most) continue;
+    const double may = allowed(c, a, b), over = std::fabs(a - b) / may;
+    if (!(over > most)) continue; // or not to be had in this scene
     most = over;
     worst = fmt::format("{} is {:.4g} {}, at a quarter of the step {:.4g} {}: {:.3g} apart, more than {:.3g}", c.name,
                         a, c.unit, b, c.unit, std::fabs(a - b), may);
   }
   return worst;
+}
+
+/// What is wrong of two runs that end as if sound, beside figures that differ.
+std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
+  if (finer.end != TrialEnd::sound) return fmt::format("at a quarter of the step: {}", finer.cause);
+  for (const MapFigures* f : {&run.figures, &finer.figures})
+    if (const std::string open = openBooks(*f); !open.empty()) return open;
+  return noNumber(run.figures, finer.figures, onBed);
+}
+
+/// A figure over neighbouring steps, and over their quarters; without the pair that has asked for them.
+struct FigureScatter {
+  std::vector<double> runs, finer;
+  double deviation = 0, finerDeviation = 0; ///< of one run
+  support::Estimate change;                 ///< of the means, quarter less step
+  double mean = 0, finerMean = 0, may = 0;
+};
+
+FigureScatter scatterOf(const ComparedFigure& c, const std::vector<TrialPair>& pairs) {
+  FigureScatter s;
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    s.runs.push_back(pairs[i].run.figures.*c.value), s.finer.push_back(pairs[i].finer.figures.*c.value);
+  const MeanError m = meanOf(s.runs), finer = meanOf(s.finer);
+  const double root = std::sqrt(static_cast<double>(s.runs.size()));
+  s.mean = m.mean, s.finerMean = finer.mean;
+  s.deviation = root * m.error, s.finerDeviation = root * finer.error;
+  s.change = unpairedChange(s.runs, s.finer);
+  s.may = allowed(c, s.mean, s.finerMean);
+  return s;
+}
+
+/// What a figure's runs at neighbouring steps show of an error of the step; empty where it may be scatter.
+std::string errorOfStep(const ComparedFigure& c, const FigureScatter& s) {
+  const double apart = std::fabs(s.change.value);
+  if (apart > s.may && apart > s.change.halfWidth)
+    return fmt::format(
+        "{} is {:.4g} {} in the mean of {} steps within 2.5 %, of their quarters {:.4g} {}: {:.3g} apart, "
+        "more than {:.3g}, and more than their scatter explains, {:.3g}",
+        c.name, s.mean, c.unit, s.runs.size(), s.finerMean, c.unit, apart, s.may, s.change.halfWidth);
+  if (s.deviation > s.may && s.deviation * s.deviation > kFisher95 * s.finerDeviation * s.finerDeviation)
+    return fmt::format(
+        "{} scatters by {:.3g} {} over {} steps within 2.5 %, by {:.3g} {} over their quarters: the step "
+        "makes it",
+        c.name, s.deviation, c.unit, s.runs.size(), s.finerDeviation, c.unit);
+  return {};
 }
 
 } // namespace
@@ -93,9 +155,44 @@ Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) 
     const bool confirmed = blame.step ? beyond : same;
     return {confirmed ? MapVerdict::stopped : MapVerdict::wrongCause, run.cause};
   }
-  if (finer.end != TrialEnd::sound) return {MapVerdict::silentlyWrong, "at a quarter of the step: " + finer.cause};
-  const std::string differs = difference(run.figures, finer.figures, onBed);
-  return {differs.empty() ? MapVerdict::sound : MapVerdict::silentlyWrong, differs};
+  std::string wrong = fault(run, finer, onBed);
+  if (wrong.empty()) wrong = apartInWords(run.figures, finer.figures, onBed);
+  return {wrong.empty() ? MapVerdict::sound : MapVerdict::silentlyWrong, wrong};
+}
+
+bool figuresDisagree(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
+  return run.end == TrialEnd::sound && fault(run, finer, onBed).empty() &&
+         !apartInWords(run.figures, finer.figures, onBed).empty();
+}
+
+Judgement judge(const std::vector<TrialPair>& pairs, bool onBed) {
+  const TrialPair& first = pairs.at(0);
+  const Judgement alone = judge(first.run, first.finer, onBed);
+  if (pairs.size() < 2 || !figuresDisagree(first.run, first.finer, onBed)) return alone;
+  for (const TrialPair& p : pairs) {
+    std::string wrong = p.run.end == TrialEnd::sound ? fault(p.run, p.finer, onBed) : p.run.cause;
+    if (!wrong.empty())
+      return {MapVerdict::silentlyWrong,
+              fmt::format("{}; at the neighbouring step {:.5g} s: {}", alone.why, p.run.step, wrong)};
+  }
+  for (const ComparedFigure& c : comparedFigures(onBed)) {
+    if (!std::isfinite(first.run.figures.*c.value)) continue; // not to be had in this scene
+    if (std::string wrong = errorOfStep(c, scatterOf(c, pairs)); !wrong.empty())
+      return {MapVerdict::silentlyWrong, wrong};
+  }
+  return {MapVerdict::scatters, fmt::format("{}; no more than the scatter of neighbouring steps", alone.why)};
+}
+
+std::string scatterTable(const std::vector<TrialPair>& pairs, bool onBed) {
+  std::string text;
+  for (const ComparedFigure& c : comparedFigures(onBed)) {
+    const FigureScatter s = scatterOf(c, pairs);
+    if (!std::isfinite(s.mean)) continue;
+    text += fmt::format("  {:<18} {:>9.4g} +- {:<9.3g} {:>9.4g} +- {:<9.3g} {:>10.3g} +- {:<9.3g} {:>9.3g} {}\n",
+                        c.name, s.mean, s.deviation, s.finerMean, s.finerDeviation, s.change.value, s.change.halfWidth,
+                        s.may, c.unit);
+  }
+  return text;
 }
 
 } // namespace grouser::studies

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-/// The verdict on a run of a stability map: against the same scene at a quarter of the step.
+/// The verdict on a run of a stability map: against the same scene at a quarter of the step, and where figures of the
+/// two disagree against runs at neighbouring steps, which tell an error of the step from scatter.
 namespace grouser::studies {
 
 enum class MapVerdict {
@@ -15,10 +16,11 @@ enum class MapVerdict {
   stopped,       ///< by a guard, for a cause that the finer run confirms
   wrongCause,    ///< by a guard, for a cause that the finer run does not show
   silentlyWrong, ///< ends as if sound, and the finer run says otherwise
+  scatters,      ///< figures differ, and no more than those of runs at neighbouring steps do: a chaotic motion
   refused        ///< before the run
 };
-inline constexpr std::array<const char*, 5> kVerdictWords{"sound", "stopped", "wrong cause", "silently wrong",
-                                                          "refused"};
+inline constexpr std::array<const char*, 6> kVerdictWords{"sound",          "stopped",  "wrong cause",
+                                                          "silently wrong", "scatters", "refused"};
 
 struct Judgement {
   MapVerdict verdict = MapVerdict::sound;
@@ -45,6 +47,35 @@ struct Blame {
 };
 Blame blameOf(const std::string& message);
 
+/// The run that judges has so many times as many steps.
+inline constexpr double kFinerRatio = 4;
+
+/// A run, and the same at a quarter of its step.
+struct TrialPair {
+  VehicleTrial run, finer;
+};
+
+/// Of the pair alone.
 Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed);
+
+/// Whether that judgement is for figures alone, of runs that are sound otherwise: what scatter may explain.
+bool figuresDisagree(const VehicleTrial& run, const VehicleTrial& finer, bool onBed);
+
+/// Steps beside each of a pair's, as shares of it [-]: too near for a figure to change with the step, and another way
+/// through for a motion that is chaotic.
+inline constexpr std::array<double, 5> kNeighbourShares{0.995, 0.99, 0.985, 0.98, 0.975};
+/// 95 % point of Fisher's distribution of 4 and 4 degrees of freedom: of two variances, each of five runs.
+inline constexpr double kFisher95 = 6.388;
+
+/// Of a pair whose figures disagree, the first, and of pairs at neighbouring steps. Silently wrong where one of these
+/// is not sound; where the means of a figure over the neighbours differ by more than it may and by more than Welch's 95
+/// % interval of their difference; or where it scatters more widely at the steps than at the quarters, by Fisher's
+/// test, and more than it may differ. Else it scatters. The first pair is not counted: it is looked into for lying
+/// apart.
+Judgement judge(const std::vector<TrialPair>& pairs, bool onBed);
+
+/// A line a compared figure: mean and standard deviation at the neighbouring steps, the same at their quarters, the
+/// difference of the means with its interval, and what it may differ by.
+std::string scatterTable(const std::vector<TrialPair>& pairs, bool onBed);
 
 } // namespace grouser::studies

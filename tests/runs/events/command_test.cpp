@@ -34,6 +34,7 @@ TEST_F(EventsProgram, WritesItsTablesAndGoesOn) {
 
   const Outcome refused = call(words);
   EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.errors.find("go on there with --resume"), std::string::npos) << refused.errors;
   const Outcome again = call(words + " --resume");
   EXPECT_EQ(again.code, 0) << again.errors;
   EXPECT_NE(again.out.find("finished already"), std::string::npos) << again.out;
@@ -47,6 +48,13 @@ TEST_F(EventsProgram, EndsWithTwoAndOneLineWhereAWordIsWrong) {
     EXPECT_FALSE(o.error().empty()) << words << ": " << o.errors;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out")) << words;
   }
+}
+
+TEST_F(EventsProgram, SaysThatFilmsCannotBeMadeBeforeItRuns) {
+  const Outcome o = call("events --only acceleration --films --out out", "export PATH=/nowhere; ");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.error().find("--films: a film needs the program ffmpeg"), 0u) << o.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
 } // namespace

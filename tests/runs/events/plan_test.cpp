@@ -156,6 +156,19 @@ TEST(EventPlan, RefusesWhatIsNone) {
   EXPECT_NE(fault(options).find("--soil my/sand.toml: give a soil's name"), std::string::npos);
   options = {}, options.levels = {0.5};
   EXPECT_NE(fault(options).find("--levels: are of one event"), std::string::npos);
+  options.only = {"step"}, options.levels = {INFINITY};
+  EXPECT_NE(fault(options).find("--levels: give each once"), std::string::npos);
+  // What the command has made of a word is told of that word; what --set has, of that.
+  options = {}, options.only = {"drawbar"}, options.levels = {100};
+  EXPECT_EQ(fault(options).find("--levels 100: hitch.slip = 100"), 0u) << fault(options);
+  options = {}, options.only = {"step"}, options.speed = 1e9;
+  EXPECT_EQ(fault(options).find("--speed: driver.sprocket_speed"), 0u) << fault(options);
+  options = {}, options.only = {"step"}, options.soil = "dry_sand", options.quick = true, options.depth = 1e-3;
+  EXPECT_EQ(fault(options).find("--depth: terrain.depth"), 0u) << fault(options);
+  options.depth.reset(), options.grainRadius = 1;
+  EXPECT_EQ(fault(options).find("--grain-radius: terrain.depth"), 0u) << fault(options);
+  options = {}, options.only = {"step"}, options.fixed = {"driver.sprocket_speed=1e9"}, options.speed = 1;
+  EXPECT_EQ(fault(options).find("--set: driver.sprocket_speed"), 0u) << fault(options);
   options = {}, options.seeds = 3;
   EXPECT_NE(fault(options).find("--seeds: rigid ground has no grains"), std::string::npos);
   options = {}, options.only = {"soft_soil"};

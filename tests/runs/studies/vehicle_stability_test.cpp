@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stability maps of the vehicle: the judge tells sound from wrong, steps beyond the predicted limit are refused, and
 // where nobody refuses them a guard stops the run and names the step.
+#include "runs/setup/simulation_setup.hpp"
+#include "runs/simulation/simulation.hpp"
 #include "runs/studies/vehicle_stability.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
+#include "tests/runs/shared_cache.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 namespace grouser::studies {
@@ -100,15 +105,105 @@ TEST(VehicleVerdict, AStopIsTrueWhereTheFinerRunConfirmsItsCause) {
   EXPECT_EQ(verdict(soundTrial(), refused), MapVerdict::silentlyWrong) << "nothing has confirmed it";
 }
 
+/// A pair and five neighbours with these tensions [N], which may differ by 5 % and 50 N.
+std::vector<TrialPair> neighbours(const std::array<double, 6>& atSteps, const std::array<double, 6>& atQuarters) {
+  std::vector<TrialPair> pairs;
+  for (std::size_t i = 0; i < atSteps.size(); ++i) {
+    pairs.push_back({soundTrial(), soundTrial()});
+    pairs.back().run.step = 1e-4 * (1 - 0.005 * static_cast<double>(i));
+    pairs.back().run.figures.tension = atSteps[i], pairs.back().finer.figures.tension = atQuarters[i];
+  }
+  return pairs;
+}
+
+TEST(VehicleNeighbours, WhatTheyScatterByIsNoErrorOfTheStep) {
+  const std::vector<TrialPair> pairs =
+      neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 4900, 5400, 5100, 5600, 5000});
+  ASSERT_TRUE(figuresDisagree(pairs[0].run, pairs[0].finer, false));
+  EXPECT_EQ(judge({pairs[0]}, false).verdict, MapVerdict::silentlyWrong) << "a pair alone cannot tell";
+  const Judgement judgement = judge(pairs, false);
+  EXPECT_EQ(judgement.verdict, MapVerdict::scatters);
+  EXPECT_EQ(judgement.why.find("tension is 5000 N, at a quarter of the step 5700 N"), 0u) << judgement.why;
+  // Means 420 N apart, more than the 337 that they may be, and less than the 580 of Welch's interval.
+  EXPECT_EQ(
+      judge(neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 6000, 5500, 5700, 5900, 5600}), false).verdict,
+      MapVerdict::scatters);
+}
+
+TEST(VehicleNeighbours, ADifferenceBeyondTheirScatterIsSilentlyWrong) {
+  // Means 5320 and 7200: their scatter, 460 and 290, explains 600 at 95 %.
+  const Judgement judgement =
+      judge(neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {7700, 6900, 7400, 7100, 7600, 7000}), false);
+  EXPECT_EQ(judgement.verdict, MapVerdict::silentlyWrong);
+  EXPECT_EQ(judgement.why.find("tension is 5320 N in the mean of 5 steps"), 0u) << judgement.why;
+  // The same of a figure in which the pair itself agrees.
+  std::vector<TrialPair> pairs = neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 4900, 5400, 5100, 5600, 5000});
+  for (std::size_t i = 1; i < pairs.size(); ++i) pairs[i].finer.figures.power = 3000;
+  pairs[0].finer.figures.power = 2100;
+  EXPECT_EQ(judge(pairs, false).why.find("power"), 0u) << judge(pairs, false).why;
+}
+
+TEST(VehicleNeighbours, ADifferenceThatMayBeIsNone) {
+  // 100 N apart without scatter: less than a twentieth.
+  EXPECT_EQ(
+      judge(neighbours({5000, 5000, 5000, 5000, 5000, 5000}, {5400, 5010, 5010, 5010, 5010, 5010}), false).verdict,
+      MapVerdict::scatters);
+}
+
+TEST(VehicleNeighbours, ScatterThatTheStepMakesIsSilentlyWrong) {
+  // The quarters all say 5000: where the steps lie is their own doing, though Welch's interval reaches from here to
+  // 5000.
+  const Judgement judgement =
+      judge(neighbours({5700, 4400, 7000, 4900, 5600, 5200}, {5000, 5020, 4990, 5010, 5000, 4980}), false);
+  EXPECT_EQ(judgement.verdict, MapVerdict::silentlyWrong);
+  EXPECT_NE(judgement.why.find("the step makes it"), std::string::npos) << judgement.why;
+  EXPECT_EQ(
+      judge(neighbours({5700, 5000, 5020, 4990, 5010, 4980}, {5000, 5900, 4400, 5010, 5600, 4800}), false).verdict,
+      MapVerdict::scatters)
+      << "the quarters scatter as well";
+}
+
+TEST(VehicleNeighbours, OneThatIsNotSoundMakesThePointWrong) {
+  const std::array<double, 6> steps{5000, 5600, 4700, 5900, 5100, 5300}, quarters{5700, 4900, 5400, 5100, 5600, 5000};
+  for (const bool finer : {false, true}) {
+    std::vector<TrialPair> pairs = neighbours(steps, quarters);
+    VehicleTrial& trial = finer ? pairs[2].finer : pairs[2].run;
+    const VehicleTrial sound = trial;
+    trial = stoppedTrial(kUnstable);
+    EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong);
+    EXPECT_NE(judge(pairs, false).why.find("unstable"), std::string::npos) << judge(pairs, false).why;
+    trial = sound, trial.figures.leftOver = 1e-6;
+    EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong);
+    trial = sound, trial.figures.speed = NAN;
+    EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong);
+  }
+}
+
+TEST(VehicleNeighbours, AreAskedForFiguresAlone) {
+  VehicleTrial apart = soundTrial();
+  apart.figures.speed *= 2;
+  EXPECT_TRUE(figuresDisagree(soundTrial(), apart, false));
+  EXPECT_FALSE(figuresDisagree(soundTrial(), soundTrial(), false));
+  EXPECT_FALSE(figuresDisagree(soundTrial(), stoppedTrial(kThrown), false));
+  EXPECT_FALSE(figuresDisagree(stoppedTrial(kThrown), apart, false));
+  apart.figures.leftOver = 1e-6;
+  EXPECT_FALSE(figuresDisagree(soundTrial(), apart, false));
+  // Nor do neighbours change another verdict.
+  std::vector<TrialPair> pairs = neighbours({5000, 9000, 1000, 5000, 4000, 7000}, {5000, 9000, 1000, 5000, 4000, 7000});
+  EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::sound);
+  pairs[0].finer = stoppedTrial(kThrown);
+  EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong);
+}
+
 TEST(VehicleSeeds, ScatterIsThatOfSoundPointsOfOneMap) {
   const VehicleMap seeds{"seeds", "", {}, {}}, grains{"grains", "", {}, {}};
   std::vector<JudgedPoint> points;
   for (const double speed : {0.5, 0.6}) {
-    JudgedPoint p{&seeds, nullptr, soundTrial(), soundTrial(), {}};
-    p.run.figures.speed = speed, p.finer.figures.speed = 0.4;
+    JudgedPoint p{&seeds, nullptr, {{soundTrial(), soundTrial()}}, {}};
+    p.pairs[0].run.figures.speed = speed, p.pairs[0].finer.figures.speed = 0.4;
     points.push_back(p);
   }
-  points.push_back(points.back()), points.back().map = &grains, points.back().run.figures.speed = 9;
+  points.push_back(points.back()), points.back().map = &grains, points.back().pairs[0].run.figures.speed = 9;
   points.push_back(points.front()), points.back().judgement.verdict = MapVerdict::stopped;
   // Root mean square of 0.1 and 0.2; a fifth of 0.55 and 0.05 m/s.
   const std::string text = seedScatterTable(points);
@@ -147,6 +242,27 @@ TEST_F(VehicleMaps, StepsBeyondTheLineAreRefusedAndThoseBelowAreNot) {
     EXPECT_EQ(refused * mapShares(false).size(), stepped > 0 && !map.onBed ? map.points.size() : 0) << name;
   }
   EXPECT_THROW(vehicleMap("none", true, folder_), base::InputError);
+}
+
+/// A blow of rigid links lasts a step: samples between which there are others miss it, or count it for all of them.
+TEST_F(VehicleMaps, TensionIsTheMeanOverAllStepsOfTheWindow) {
+  VehicleCase what = vehicleMap("stiffness", true, folder_).points.front().what;
+  what.from = 0.04, what.until = 0.07;
+  constexpr double kStep = 1e-4;
+  constexpr int kBegin = 400, kEnd = 700; // a hundred samples: every third step
+  const VehicleTrial trial = tryVehicle(what, kStep, {folder_, nullptr, sharedSpheres()});
+  ASSERT_EQ(trial.end, TrialEnd::sound) << trial.cause;
+  simulation::Simulation run(
+      setup::simulationSetup(sceneOf(what, kStep, folder_)), base::cpuExec(1), [](double, double) {}, {}, nullptr,
+      sharedSpheres());
+  double sum = 0, pins = 0;
+  while (run.steps() < kEnd) {
+    run.step();
+    if (run.steps() <= kBegin) continue;
+    for (const vehicle::TrackObservation& track : run.vehicle()->observe().tracks)
+      for (const double tension : track.tension) sum += tension, ++pins;
+  }
+  EXPECT_NEAR(trial.figures.tension, sum / pins, 1e-12 * sum / pins) << "rounding";
 }
 
 TEST_F(VehicleMaps, AStepThatIsMuchTooLongIsCaughtEvenWhereNobodyRefusesIt) {
@@ -206,7 +322,7 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
   put(runs / "gravity_0.txt", "\n\n");
   const Outcome sound = call(words + " --resume --seconds 1e-9");
   ASSERT_EQ(sound.code, 0) << sound.errors;
-  EXPECT_NE(sound.out.find("points are missing"), std::string::npos) << sound.out;
+  EXPECT_NE(sound.out.find("runs are missing"), std::string::npos) << sound.out;
   EXPECT_NE(sound.out.find("refused: gravity"), std::string::npos) << sound.out;
   const std::string csv = contents(folder_ / "results" / "vehicle.csv");
   EXPECT_NE(csv.find(",sound,"), std::string::npos) << csv;
@@ -214,8 +330,29 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
   EXPECT_TRUE(fs::exists(folder_ / "results" / "vehicle.png") || sound.errors.find("python3") != std::string::npos);
 
   // A finer run that says otherwise ends the study with a code of its own.
-  put(runs / "gravity_0.csv", numbers + row + "2.5e-5,0,0.7,1,0.9,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n");
-  const Outcome wrong = call(words + " --resume --seconds 1e-9");
+  const auto withSpeeds = [&numbers](double run, double finer) {
+    return fmt::format("{}1e-4,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n"
+                       "2.5e-5,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n",
+                       numbers, run, finer);
+  };
+  put(runs / "gravity_0.csv", withSpeeds(0.5, 0.9));
+  const Outcome open = call(words + " --resume --seconds 1e-9");
+  EXPECT_EQ(open.code, 0) << open.errors;
+  EXPECT_EQ(open.out.find("silently wrong: gravity"), std::string::npos) << "its neighbours have not been run";
+  const auto beside = [&](const std::array<double, 5>& run, const std::array<double, 5>& finer) {
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      put(runs / fmt::format("gravity_0_beside_{}.csv", k), withSpeeds(run[k], finer[k]));
+      put(runs / fmt::format("gravity_0_beside_{}.txt", k), "\n\n");
+    }
+    return call(words + " --resume --seconds 1e-9");
+  };
+  const Outcome scatters = beside({0.9, 0.5, 0.8, 0.6, 0.7}, {0.5, 0.8, 0.6, 0.7, 0.9});
+  EXPECT_EQ(scatters.code, 0) << scatters.errors;
+  EXPECT_NE(scatters.out.find("scatters: gravity"), std::string::npos) << scatters.out;
+  EXPECT_NE(scatters.out.find("speed                    0.7 +- 0.158"), std::string::npos) << scatters.out;
+  EXPECT_NE(contents(folder_ / "results" / "vehicle.csv").find(",scatters,"), std::string::npos);
+  EXPECT_NE(contents(folder_ / "results" / "vehicle_neighbours.csv").find("2.5e-05,sound,"), std::string::npos);
+  const Outcome wrong = beside({0.5, 0.5, 0.5, 0.5, 0.5}, {0.9, 0.9, 0.9, 0.9, 0.9});
   EXPECT_EQ(wrong.code, 3) << wrong.out;
   EXPECT_NE(wrong.out.find("silently wrong: gravity"), std::string::npos) << wrong.out;
   EXPECT_NE(wrong.errors.find("1 points are silently wrong"), std::string::npos) << wrong.errors;
