@@ -55,8 +55,8 @@ std::string outcomesText(const std::vector<TargetOutcome>& outcomes, bool coarse
 }
 
 CalibrationRecord::CalibrationRecord(const CalibrationCommand& command, const CalibrationTargets& targets,
-                                     std::filesystem::path folder)
-    : file_(std::move(folder) / "calibration.json") {
+                                     const std::filesystem::path& folder)
+    : file_(folder / "calibration.json") {
   const support::BuildInfo build = support::buildInfo();
   json_ = {
       {"soil", targets.start.name},

@@ -30,7 +30,8 @@ std::string outcomesText(const std::vector<TargetOutcome>& outcomes, bool coarse
 class CalibrationRecord {
 public:
   /// Writes nothing yet.
-  CalibrationRecord(const CalibrationCommand& command, const CalibrationTargets& targets, std::filesystem::path folder);
+  CalibrationRecord(const CalibrationCommand& command, const CalibrationTargets& targets,
+                    const std::filesystem::path& folder);
 
   /// The first trial has begun. Trials of a former call are told again as they are read.
   void begun();
