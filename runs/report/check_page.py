@@ -93,7 +93,7 @@ def bands(made, check):
         more, cut = run_page.within([(name, ends, s)], low - reach, high + reach)
         inner.append(made.plot(name, "time [s]", f"{name.rpartition('.')[2].replace('_', ' ')} [{s.unit}]",
                                [(name, s.time[rows], s.value[rows], half[rows])],
-                               f"Band: seeds and step together, 95 %.{cut}{note}", **more))
+                               f"Band: seeds and step together, as far as they were run, 95 %.{cut}{note}", **more))
     return f'<div class="plots">{"".join(inner)}</div>'
 
 

@@ -88,6 +88,33 @@ def shapes_of(frames):
     return [shape for same in shapes.values() for shape in same]
 
 
+def is_before_grains(corners, places):
+    """Whether a part with these corners would hide grains at these places: it has a tenth of them within its box, as
+    drums and containers have, or it is a wall, thin along x or y and half as long and as high as all of them."""
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    if numpy.mean(((places > low) & (places < high)).all(axis=1)) > 0.1:
+        return True
+    size, reach = high - low, numpy.ptp(places, axis=0)
+    return any(size[a] < 0.02 * size.max() and size[1 - a] > 0.5 * reach[1 - a] and size[2] > 0.5 * reach[2]
+               for a in (0, 1))
+
+
+def is_steep(mesh):
+    """Of each triangle, whether it is one of a wall."""
+    a, b, c = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
+    normal = numpy.cross(b - a, c - a)
+    return numpy.abs(normal[:, 2]) < 0.3 * numpy.linalg.norm(normal, axis=1)
+
+
+def hiding_parts(frames, places):
+    """Numbers of the parts that stand before the grains."""
+    if places is None:
+        return set()
+    mesh, seen = frames[0].parts, places[numpy.isfinite(places).all(axis=1)]
+    return {part for part in range(len(frames[0].poses)) if len(seen) and (mesh.part == part).any()
+            and is_before_grains(mesh.vertices[numpy.unique(mesh.triangles[mesh.part == part])], seen)}
+
+
 def box_of(places, corners, ground):
     """Corners of all that is drawn."""
     clouds = [cloud.reshape(-1, 3) for cloud in (places, corners, ground) if cloud is not None and cloud.size]
@@ -179,13 +206,18 @@ def data_of(made, run, place, options, places):
     if poses is not None:
         poses[:, :, :3] -= middle
         data["poses"] = made.array(f"{name}.poses", poses.astype(numpy.float32))
+        hiding = hiding_parts(frames, None if drawn is None else drawn["places"][0])
         for k, (vertices, triangles, parts) in enumerate(shapes):
             data["shapes"].append({"vertices": made.array(f"{name}.shape{k}", vertices.astype(numpy.float32)),
                                    "triangles": made.array(f"{name}.corners{k}", triangles.astype(numpy.uint32)),
-                                   "parts": parts})
+                                   "parts": parts, "clear": any(part in hiding for part in parts)})
     if ground is not None:
-        data["ground"] = {"vertices": made.array(f"{name}.ground", (ground.vertices - middle).astype(numpy.float32)),
-                          "triangles": made.array(f"{name}.ground.corners", ground.triangles.astype(numpy.uint32))}
+        vertices = made.array(f"{name}.ground", (ground.vertices - middle).astype(numpy.float32))
+        steep = is_steep(ground) & (drawn is not None)
+        data["grounds"] = [{"vertices": vertices, "clear": clear,
+                            "triangles": made.array(f"{name}.ground{int(clear)}", triangles.astype(numpy.uint32))}
+                           for clear, triangles in ((False, ground.triangles[~steep]), (True, ground.triangles[steep]))
+                           if len(triangles)]
     return data
 
 

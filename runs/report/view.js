@@ -11,6 +11,11 @@ function colourOf(share, out, at) {
   for (let c = 0; c < 3; ++c) out[at + c] = kColours[k][c] * (1 - t) + kColours[k + 1][c] * t;
 }
 
+/** Of the material of what stands before the grains, or not. */
+function clearness(clear) {
+  return { transparent: !!clear, depthWrite: !clear, opacity: clear ? 0.2 : 1 };
+}
+
 const kVertex = `
 attribute float radius;
 attribute vec3 tint;
@@ -117,7 +122,7 @@ class Space {
         const name = data.names[part] || "";
         const word = Object.keys(colours).find((w) => name.includes(w));
         const material = new THREE.MeshLambertMaterial({ color: word ? colours[word] : 0x9aa0a6,
-          side: THREE.DoubleSide, transparent: !!shape.clear, opacity: shape.clear ? 0.25 : 1 });
+          side: THREE.DoubleSide, ...clearness(shape.clear) });
         const mesh = new THREE.Mesh(flat, material);
         mesh.frustumCulled = false;
         this.parts.push({ mesh, part });
@@ -125,12 +130,14 @@ class Space {
       }
     }
     this.poses = data.poses ? report.arrays[data.poses] : null;
-    if (!data.ground) return;
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[data.ground.vertices], 3));
-    geometry.setIndex(new THREE.BufferAttribute(report.arrays[data.ground.triangles], 1));
-    geometry.computeVertexNormals();
-    this.scene.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: 0xb59f7a, side: THREE.DoubleSide })));
+    for (const ground of data.grounds || []) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[ground.vertices], 3));
+      geometry.setIndex(new THREE.BufferAttribute(report.arrays[ground.triangles], 1));
+      geometry.computeVertexNormals();
+      this.scene.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: 0xb59f7a, side: THREE.DoubleSide,
+        ...clearness(ground.clear) })));
+    }
   }
 
   /** A bar of a round length along x, before the box of all there is. */

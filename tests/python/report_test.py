@@ -244,6 +244,16 @@ class Pages(PageTest):
         self.opened("grain")
         self.assertGreater(self.colours_in_space()[0], 20)
 
+    def test_walls_do_not_hide_grains(self):
+        walls = "".join(f"[[plane]]\nmaterial = \"sand\"\npoint = {place}\nnormal = {normal}\n" for place, normal in
+                        (("[0, -0.07, 0]", "[0, 1, 0]"), ("[0, 0.07, 0]", "[0, -1, 0]"), ("[-0.07, 0, 0]", "[1, 0, 0]"),
+                         ("[0.07, 0, 0]", "[-1, 0, 0]")))
+        (self.folder / "walls.toml").write_text(GRAINS + walls)
+        grouser.call(["run", "walls.toml", "--out", "walls"])
+        self.opened("walls")
+        clear = self.browser.value("report.space.scene.children.filter(c => c.isMesh && c.material.transparent).length")
+        self.assertEqual(clear, 1, "the four walls, which are one mesh")
+
 
 if __name__ == "__main__":
     unittest.main()
