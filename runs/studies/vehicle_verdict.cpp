@@ -100,7 +100,7 @@ std::string apartInWords(const MapFigures& run, const MapFigures& finer, bool on
 std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
   if (finer.end != TrialEnd::sound) return fmt::format("at a quarter of the step: {}", finer.cause);
   for (const MapFigures* f : {&run.figures, &finer.figures})
-    if (const std::string open = openBooks(*f); !open.empty()) return open;
+    if (std::string open = openBooks(*f); !open.empty()) return open;
   return noNumber(run.figures, finer.figures, onBed);
 }
 
@@ -167,7 +167,7 @@ bool figuresDisagree(const VehicleTrial& run, const VehicleTrial& finer, bool on
 
 Judgement judge(const std::vector<TrialPair>& pairs, bool onBed) {
   const TrialPair& first = pairs.at(0);
-  const Judgement alone = judge(first.run, first.finer, onBed);
+  Judgement alone = judge(first.run, first.finer, onBed);
   if (pairs.size() < 2 || !figuresDisagree(first.run, first.finer, onBed)) return alone;
   for (const TrialPair& p : pairs) {
     std::string wrong = p.run.end == TrialEnd::sound ? fault(p.run, p.finer, onBed) : p.run.cause;
