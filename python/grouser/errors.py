@@ -26,11 +26,11 @@ class DeviceError(GrouserError):
 
 
 class StoppedError(GrouserError):
-    """Exit codes 130 and 143: stopped by SIGINT or SIGTERM; `resume=True` goes on."""
+    """Exit codes 129, 130 and 143: stopped by SIGHUP, SIGINT or SIGTERM; `resume=True` goes on."""
 
 
-KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: DeviceError, 130: StoppedError,
-                                        143: StoppedError}
+KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: DeviceError, 129: StoppedError,
+                                        130: StoppedError, 143: StoppedError}
 
 
 class FileError(ValueError):

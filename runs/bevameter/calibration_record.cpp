@@ -4,6 +4,7 @@
 #include "runs/bevameter/soil_report.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -129,7 +130,7 @@ void CalibrationRecord::ended(const std::vector<TargetOutcome>& outcomes, const 
 
 void CalibrationRecord::write() const {
   std::filesystem::create_directories(file_.parent_path());
-  support::replaceTextFile(file_, json_.dump(2) + "\n");
+  support::replaceTextFile(file_, support::jsonText(json_, 2) + "\n");
 }
 
 } // namespace grouser::bevameter

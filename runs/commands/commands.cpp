@@ -18,6 +18,7 @@
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/sphere_cache.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/kept_checks.hpp"
 #include "runs/sweeps/overrides.hpp"
@@ -43,7 +44,7 @@ void drawAndName(const fs::path& results, const fs::path& folder, const std::vec
   std::string warning;
   for (const fs::path& plot : output::drawPlots(results, folder, names, warning))
     fmt::print("plot      {}\n", plot.string());
-  if (!warning.empty()) fmt::print(stderr, "grouser: warning: {}\n", warning);
+  if (!warning.empty()) support::tell("grouser: warning: {}\n", warning);
 }
 
 /// Of the results: `given` on the command line, or as the scene says.

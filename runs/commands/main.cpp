@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdlib>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -26,6 +27,13 @@ namespace {
 using namespace grouser;
 
 enum ExitCode { kOther = 1, kInput = 2, kSimulation = 3, kDevice = 4 };
+
+/// A standard stream that was closed would give its number to the next file that is opened, which would then get what
+/// is meant for the stream. What nobody wants to read is lost; where results are printed, printing them fails.
+void occupyStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+}
 
 /// Threads that wait for each other spin for milliseconds by default; on a machine that is busy with other work too
 /// that makes a step many times slower. The OpenMP library reads its settings when it is loaded, so the program starts
@@ -99,6 +107,7 @@ void obey(CLI::App& app, int argc, char** argv, const base::Ranks& ranks) {
 } // namespace
 
 int main(int argc, char** argv) {
+  occupyStandardStreams();
   waitBriefly(argv);
   // A limit to the size of files is met as a full disk is: by a message, not by the signal's silent end.
   std::signal(SIGXFSZ, SIG_IGN);
@@ -110,7 +119,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", support::versionText());
   app.footer(
       "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound or its results could not be written, "
-      "4 device, 130 and 143 stopped by SIGINT and SIGTERM, 1 anything else.\nSettled beds and the "
+      "4 device, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM, 1 anything else.\nSettled beds and the "
       "spheres of parts are kept in GROUSER_CACHE, or else in "
       "$XDG_CACHE_HOME/grouser, or else in ~/.cache/grouser, up to GROUSER_CACHE_GIB (2) GiB.");
   try {

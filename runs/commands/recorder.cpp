@@ -9,6 +9,7 @@
 #include "runs/output/surface_mesh.hpp"
 #include "runs/render/image.hpp"
 #include "runs/render/picture.hpp"
+#include "runs/support/tell.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <fmt/format.h>
@@ -152,7 +153,7 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
-      fmt::print(stderr, "grouser: warning: {}\n", error.what());
+      support::tell("grouser: warning: {}\n", error.what());
     }
   }
   w.former->frames = w.comm.gatherValue(w.former->frames).front();
@@ -219,7 +220,10 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
   squeezed_ = SqueezedRecord(channels_, names);
   for (const output::Row& row : writer_.formerRows()) squeezed_.add(row);
   if (const auto& grains = simulation_.ground().grains;
-      grains && output::GrainsCsv::isWanted(setup, static_cast<std::int64_t>(grains->count())))
+      grains &&
+      output::GrainsCsv::isWanted(setup.output.grainsCsv,
+                                  static_cast<std::int64_t>(grains->count()) + setup.ground.grains->sources.total(),
+                                  setup.run.duration, setup.run.outputInterval))
     grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
 }
 

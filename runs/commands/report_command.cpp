@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/locations.hpp"
+#include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/run_figures.hpp"
 
@@ -76,7 +77,11 @@ void reportCommand(const ReportCommand& command) {
                                     "--grains",      std::to_string(command.grains),
                                     "--program",     fs::read_symlink("/proc/self/exe").string()};
   if (!command.film.empty()) words.insert(words.end(), {"--film", command.film});
+  const support::StopSignals signals; // the script gets them too, and ends
   const support::CallOutcome outcome = output::callPython(script, words);
+  if (const int signal = support::StopSignals::received())
+    throw support::Stopped(signal,
+                           fmt::format("stopped by {}; no page was written", support::StopSignals::name(signal)));
   constexpr int kWrongInput = 2, kNotWritten = 4, kNoProgram = 127;
   if (outcome.status == kWrongInput || outcome.status == output::kMissingPackage)
     throw base::InputError(lastLine(outcome.output));

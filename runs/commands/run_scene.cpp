@@ -16,9 +16,11 @@
 #include "runs/simulation/simulation.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/not_written.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/stopwatch.hpp"
+#include "runs/support/tell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,7 +156,11 @@ public:
   /// Of a run that has failed: the last state that was remembered, where no later one has been written.
   void writeRemembered(const simulation::Simulation& simulation, output::RunWriter& writer) {
     if (!good_ || good_->steps <= writtenAt_) return;
-    writer.sync();
+    try {
+      writer.sync();
+    } catch (const support::NotWritten&) {
+      // It is what failed, then. The rows up to here were whole when they were made.
+    }
     describe(simulation, goodRows_, goodFrames_);
     checkpoint_.state = std::move(*good_);
     good_.reset();
@@ -189,10 +195,10 @@ std::unique_ptr<simulation::Checkpoint> formerRun(const setup::Provenance& prove
   auto former = std::make_unique<simulation::Checkpoint>(simulation::readCheckpoint(*options.resume, options.comm()));
   simulation::checkSameScene(*former, *options.resume, provenance);
   if (former->commit != support::buildInfo().commit && options.comm().first())
-    fmt::print(stderr,
-               "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
-               "are\n",
-               options.resume->string(), former->commit, support::buildInfo().commit);
+    support::tell(
+        "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
+        "are\n",
+        options.resume->string(), former->commit, support::buildInfo().commit);
   return former;
 }
 
@@ -279,6 +285,21 @@ void leaveState(simulation::Simulation& simulation, Recorder& recorder, Checkpoi
   }
 }
 
+std::string withCheckpoint(const std::string& message, const Checkpoints& checkpoints) {
+  const std::string last = checkpoints.last();
+  return last.empty() ? message : fmt::format("{} (last checkpoint: {})", message, last);
+}
+
+/// Where a file could not be written: the last good state, if there is room for that.
+void leaveCheckpoint(const simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints) {
+  if (!simulation.comm().alone()) return;
+  try {
+    checkpoints.writeRemembered(simulation, recorder.writer());
+  } catch (const std::exception&) {
+    // The user gets the error that ended the run, not this one.
+  }
+}
+
 /// All that is written of a run once its folder is there. What ends the run early is left in the folder.
 template <class Write>
 void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints, const Write& write) {
@@ -289,10 +310,14 @@ void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints&
     throw;
   } catch (const base::SimulationError& error) {
     leaveState(simulation, recorder, checkpoints);
-    const std::string last = checkpoints.last();
-    const std::string message = error.what() + (last.empty() ? "" : fmt::format(" (last checkpoint: {})", last));
+    const std::string message = withCheckpoint(error.what(), checkpoints);
     recorder.writer().abandon(message);
     throw base::SimulationError(message);
+  } catch (const support::NotWritten& error) {
+    leaveCheckpoint(simulation, recorder, checkpoints);
+    const std::string message = withCheckpoint(error.what(), checkpoints);
+    recorder.writer().abandon(message);
+    throw support::NotWritten(message);
   } catch (const std::exception& error) {
     recorder.writer().abandon(error.what());
     throw;
@@ -360,6 +385,15 @@ void describeSteps(const simulation::Mechanism& mechanism, output::Summary& summ
   summary.figures["mechanism_step_largest_s"] = r.largest;
 }
 
+/// What is sound and may still surprise.
+void warn(const scene::Scene& scene, const simulation::Simulation& simulation) {
+  for (const std::string& warning : setup::vehicleWarnings(scene)) support::tell("grouser: warning: {}\n", warning);
+  if (!simulation.mechanism()) return;
+  if (const std::string warning = setup::tensionStepWarningAtStart(scene, simulation.timeStep()); !warning.empty())
+    support::tell("grouser: warning: {}\n", warning);
+  if (const std::string note = setup::springStepNote(scene); !note.empty()) support::tell("grouser: note: {}\n", note);
+}
+
 /// `hasFolder`: whether it came so far that the folder is that of this run.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options,
                             bool& hasFolder) {
@@ -384,15 +418,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
                                        options.resume->string(), begin, total));
   const double prepared = whole.seconds();
   describeBuild(simulation, exec, kept);
-  if (!former && comm.first())
-    for (const std::string& warning : setup::vehicleWarnings(scene))
-      fmt::print(stderr, "grouser: warning: {}\n", warning);
-  if (simulation.mechanism() && !former && comm.first()) {
-    if (const std::string warning = setup::tensionStepWarningAtStart(scene, setup.timeStep); !warning.empty())
-      fmt::print(stderr, "grouser: warning: {}\n", warning);
-    if (const std::string note = setup::springStepNote(scene); !note.empty())
-      fmt::print(stderr, "grouser: note: {}\n", note);
-  }
+  if (!former && comm.first()) warn(scene, simulation);
 
   Recorder recorder(simulation, options, exec, former.get(), total);
   hasFolder = true;
@@ -408,6 +434,8 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     if (!former) recorder.row(), recorder.frame(), checkpoints.remember(simulation, recorder.writer());
     drive(simulation, recorder, checkpoints, total);
     const double drove = driving.seconds(), waiting = (comm.waited() - waitedBefore) / drove;
+    if (simulation.steps() == total && total < all)
+      recorder.writer().fact("ended_by", fmt::format("--steps {}", total));
     const double cpu = 1e-6 * static_cast<double>(comm.sumOf(std::llround(1e6 * (cpuTime() - cpuBefore))));
     if (setup.output.picture) recorder.picture(setup.output.pictureWidth);
 

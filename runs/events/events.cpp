@@ -9,7 +9,9 @@
 #include "runs/render/film.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/program_call.hpp"
+#include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/runner.hpp"
 
@@ -74,7 +76,7 @@ void makeFilms(const EventPlan& plan, const fs::path& program, const fs::path& f
     if (made.status == 0)
       fmt::print("film      {}\n", film.string());
     else
-      fmt::print(stderr, "grouser: warning: no film of {}: {}\n", name, made.output);
+      support::tell("grouser: warning: no film of {}: {}\n", name, made.output);
   }
 }
 
@@ -96,7 +98,7 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
   json.update(eventsJson(rows, limits, plan));
   support::replaceTextFile(folder / kTable, eventsCsv(rows));
   support::replaceTextFile(folder / kText, text);
-  support::replaceTextFile(folder / kJson, json.dump(2) + "\n");
+  support::replaceTextFile(folder / kJson, support::jsonText(json, 2) + "\n");
   for (const char* name : {kTable, kText, kJson}) fmt::print("table     {}\n", (folder / name).string());
   output::drawPicture("events.py", {folder / kJson}, folder / kPlot);
   output::drawPicture("event_drawbar.py", {folder / kJson}, folder / kDrawbar);

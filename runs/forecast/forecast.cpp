@@ -12,6 +12,7 @@
 #include "runs/simulation/bed_cache.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/progress.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -387,7 +388,7 @@ std::string forecastJson(const Forecast& f) {
   put("preparation", f.preparation), put("steps", f.steps), put("output", f.output);
   json["process_bytes"] = f.process, json["device_bytes"] = f.device, json["disk_bytes"] = f.disk;
   if (!f.warning.empty()) json["warning"] = f.warning;
-  return json.dump(2) + "\n";
+  return support::jsonText(json, 2) + "\n";
 }
 
 } // namespace grouser::forecast

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/free_memory.hpp"
+#include "runs/output/grains_csv.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -25,6 +26,7 @@ namespace {
 constexpr double kGiB = 1073741824.0;
 constexpr double kProgram = 100e6, kVehicle = 250e6; // of a process, beside its grains [bytes]
 constexpr double kRow = 1000, kVehicleRow = 7000;    // of results.h5 and timeseries.csv [bytes]
+constexpr double kPicture = 1e6;                     // picture.png [bytes]
 constexpr double kCheckpointBytes = 250;             // of a grain in a checkpoint, with its contacts
 constexpr double kMostRemembered = 2e6;              // grains, of which a state is kept in memory too
 
@@ -74,7 +76,10 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
   const auto times = [&](double interval) { return std::floor(std::min(steps, scene.run.duration / interval)) + 1; };
   if (scene.output.frames) demand.frames = times(scene.run.frameInterval) * all * frameBytesOfGrain(scene);
   demand.checkpoint = all * kCheckpointBytes;
-  demand.rows = times(scene.run.outputInterval) * (scene.vehicle ? kVehicleRow : kRow);
+  const double rows = times(scene.run.outputInterval);
+  demand.rows = rows * (scene.vehicle ? kVehicleRow : kRow) + (scene.output.picture ? kPicture : 0);
+  if (output::GrainsCsv::isWanted(scene.output.grainsCsv, grains, scene.run.duration, scene.run.outputInterval))
+    demand.rows += rows * all * output::GrainsCsv::kLineBytes;
   return demand;
 }
 

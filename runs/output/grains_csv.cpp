@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/grains_csv.hpp"
 
+#include "runs/support/not_written.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <stdexcept>
 #include <string>
 
 namespace grouser::output {
@@ -47,10 +47,9 @@ template <class T> std::vector<T> onFirst(const std::vector<T>& mine, const base
 
 } // namespace
 
-bool GrainsCsv::isWanted(const setup::SimulationSetup& setup, std::int64_t grains) {
-  if (setup.ground.grains) grains += setup.ground.grains->sources.total();
-  if (setup.output.grainsCsv) return *setup.output.grainsCsv && grains > 0;
-  const double rows = std::floor(setup.run.duration / setup.run.outputInterval) + 2;
+bool GrainsCsv::isWanted(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval) {
+  if (asked) return *asked && grains > 0;
+  const double rows = std::floor(duration / outputInterval) + 2;
   return grains > 0 && grains <= kMostGrains && rows * static_cast<double>(grains) <= static_cast<double>(kMostLines);
 }
 
@@ -81,7 +80,7 @@ void GrainsCsv::add(std::int64_t step, double time, const terrain::Grains& grain
 }
 
 void GrainsCsv::check() {
-  if (!file_) throw std::runtime_error(fmt::format("{}: could not be written; is the disk full?", path_.string()));
+  if (!file_) throw support::notWritten(path_);
 }
 
 } // namespace grouser::output

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/comm.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include "terrain/grains.hpp"
 
 #include <cstdint>
@@ -21,8 +20,10 @@ class GrainsCsv {
 public:
   /// Of scenes with more grains, or of runs that would write more lines, it is not written unless asked for.
   static constexpr std::int64_t kMostGrains = 1000, kMostLines = 1'000'000;
-  /// Whether a run of this scene, which begins with `grains`, writes the file: as output.grains_csv says.
-  static bool isWanted(const setup::SimulationSetup& setup, std::int64_t grains);
+  static constexpr double kLineBytes = 220; ///< about, at most
+  /// Whether a run of `grains`, those that are poured in later among them, writes the file. `asked`:
+  /// output.grains_csv.
+  static bool isWanted(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval);
 
   /// Begins the file anew, or goes on with it: then what came after the last row that is `kept` of the time series [its
   /// step; -1: none is] is cut off. Throws std::runtime_error. On several ranks all of them have one, and the first

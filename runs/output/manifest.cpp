@@ -2,6 +2,7 @@
 #include "runs/output/manifest.hpp"
 
 #include "runs/support/build_info.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -46,7 +47,7 @@ std::string soilsOf(const setup::Provenance& provenance) {
                            {"grain_radius_m", use.grainRadius},
                            {"scale", use.scale},
                            {"scaled", use.scaled}};
-  return soils.dump();
+  return support::jsonText(soils);
 }
 
 } // namespace
@@ -81,7 +82,7 @@ void Manifest::write(RunStatus status) const {
     for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
   }
   json["files"] = filesIn(path_.parent_path());
-  const std::string text = json.dump(2) + "\n";
+  const std::string text = support::jsonText(json, 2) + "\n";
   try {
     support::replaceTextFile(path_, text, kRoom);
   } catch (const std::exception&) {
@@ -95,7 +96,7 @@ void listFiles(const fs::path& folder) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
   if (json.is_discarded()) return;
   json["files"] = filesIn(folder);
-  support::replaceTextFile(folder / kName, json.dump(2) + "\n");
+  support::replaceTextFile(folder / kName, support::jsonText(json, 2) + "\n");
 }
 
 } // namespace grouser::output

@@ -7,6 +7,7 @@
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/hdf5_file.hpp"
+#include "runs/support/not_written.hpp"
 #include "runs/support/sealed_file.hpp"
 #include "runs/support/shared_folder.hpp"
 #include "runs/support/text_file.hpp"
@@ -211,9 +212,7 @@ struct RunWriter::Series {
   void flush() {
     results.flush();
     csv.flush();
-    if (!csv)
-      throw std::runtime_error(
-          fmt::format("{}: could not be written; is the disk full?", (folder / "timeseries.csv").string()));
+    if (!csv) throw support::notWritten(folder / "timeseries.csv");
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "runs/support/locations.hpp"
 #include "runs/support/program_call.hpp"
+#include "runs/support/tell.hpp"
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
   words.push_back(file.string());
   std::string warning;
   if (!draw(script, words, warning))
-    fmt::print(stderr, "grouser: warning: {}\n", warning);
+    support::tell("grouser: warning: {}\n", warning);
   else if (std::filesystem::exists(file, error))
     fmt::print("plot      {}\n", file.string());
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/render/image.hpp"
 
+#include "runs/support/not_written.hpp"
+
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
@@ -22,7 +24,7 @@ void writePng(const Image& image, const std::filesystem::path& path) {
   if (made && file) return;
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error); // no part of a picture
-  throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+  throw support::notWritten(path);
 }
 
 } // namespace grouser::render

@@ -6,6 +6,7 @@
 #include "runs/scene/detail/section_lists.hpp"
 #include "runs/scene/detail/soil_materials.hpp"
 #include "runs/scene/soil.hpp"
+#include "runs/support/tell.hpp"
 
 #include <fmt/format.h>
 
@@ -72,10 +73,10 @@ std::string unsettledWarning(const Scene& scene) {
 
 void printNotes(const Scene& scene) {
   if (!scene.document) return;
-  for (const std::string& note : scene.document->notes()) fmt::print(stderr, "grouser: note: {}\n", note);
-  for (const std::string& note : soilNotes(scene)) fmt::print(stderr, "grouser: note: {}\n", note);
+  for (const std::string& note : scene.document->notes()) support::tell("grouser: note: {}\n", note);
+  for (const std::string& note : soilNotes(scene)) support::tell("grouser: note: {}\n", note);
   if (const std::string warning = unsettledWarning(scene); !warning.empty())
-    fmt::print(stderr, "grouser: warning: {}\n", warning);
+    support::tell("grouser: warning: {}\n", warning);
 }
 
 std::string resolvedToml(const Scene& scene) {

@@ -6,6 +6,7 @@
 #include "runs/simulation/ledger.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/shared_folder.hpp"
+#include "runs/support/tell.hpp"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ constexpr double kBytesPerGrain = 400;                 // of a file, at most, bu
 constexpr auto kLook = std::chrono::milliseconds(200); // between two looks at another run's lock
 
 void warn(const base::Comm& comm, const std::string& message) {
-  if (comm.first()) fmt::print(stderr, "grouser: warning: {}; going on without it\n", message);
+  if (comm.first()) support::tell("grouser: warning: {}; going on without it\n", message);
 }
 
 /// The first rank's answer, on all.
@@ -79,7 +80,7 @@ SettleReport BedCache::settle(const setup::BedSetup& bed, const Ground& ground, 
   if (usable && fits) {
     const fs::path name = support::KeptFiles::lockOf(file);
     for (bool told = false; !agreed(comm, comm.first() && lock.take(name)); told = true) {
-      if (!told && comm.first()) fmt::print(stderr, "waiting for another run that settles the same bed\n");
+      if (!told && comm.first()) support::tell("waiting for another run that settles the same bed\n");
       progress(0, 0);
       std::this_thread::sleep_for(kLook);
     }

@@ -2,8 +2,10 @@
 #include "runs/simulation/sphere_cache.hpp"
 
 #include "runs/support/file_lock.hpp"
+#include "runs/support/not_written.hpp"
 #include "runs/support/sealed_file.hpp"
 #include "runs/support/stopwatch.hpp"
+#include "runs/support/tell.hpp"
 
 #include <chrono>
 #include <cstring>
@@ -55,7 +57,7 @@ void write(const fs::path& path, const std::string& origin, const base::SphereSe
   out.write(reinterpret_cast<const char*>(set.spheres.data()),
             static_cast<std::streamsize>(set.spheres.size() * sizeof(base::SetSphere)));
   out.close();
-  if (!out) throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+  if (!out) throw support::notWritten(path);
 }
 
 /// Throws where the bytes are of another origin.
@@ -135,8 +137,8 @@ std::optional<base::SphereSet> SphereCache::find(const fs::path& file, const std
   } catch (const std::exception& e) {
     if (!fs::is_regular_file(file, error)) return {}; // deleted just now, by a program that makes room
     const std::string what = e.what();                // of a sealed file it begins with its name
-    fmt::print(stderr, "grouser: warning: {}{}; going on without it\n",
-               what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
+    support::tell("grouser: warning: {}{}; going on without it\n",
+                  what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
     fs::remove(file, error); // told once
     return {};
   }

@@ -3,6 +3,7 @@
 
 #include "runs/output/output.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -36,7 +37,7 @@ void writeStudyOrigin(const std::filesystem::path& folder, const std::string& na
   json["compiler"] = build.compiler;
   json["wall_s"] = seconds;
   json.update(more);
-  support::writeTextFile(folder / "study.json", json.dump(2) + "\n", "--out");
+  support::writeTextFile(folder / "study.json", support::jsonText(json, 2) + "\n", "--out");
 }
 
 MeanError meanOf(const std::vector<double>& values) {

@@ -2,6 +2,7 @@
 #include "runs/studies/pieces.hpp"
 
 #include "base/error.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/option_checks.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -98,7 +99,7 @@ Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOpt
   where.force = place.force || goesOn;
   folder_ = beginStudy(study, where);
   const fs::path file = folder_ / "recipe.json";
-  const std::string text = recipe.dump(2) + "\n";
+  const std::string text = support::jsonText(recipe, 2) + "\n";
   if (goesOn && fs::exists(file)) {
     if (contentsOf(file) != text)
       throw base::InputError(fmt::format(

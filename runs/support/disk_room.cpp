@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/disk_room.hpp"
 
+#include "runs/support/not_written.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -35,8 +37,7 @@ int makeRoom(int file, std::uint64_t bytes) {
 
 void requireRoom(int file, const std::filesystem::path& path, std::uint64_t bytes) {
   if (const int status = makeRoom(file, bytes))
-    throw std::runtime_error(fmt::format("{}: there is no room for {} bytes more ({}); is the disk full?",
-                                         path.string(), bytes, std::strerror(status)));
+    throw notWritten(path, fmt::format("there is no room for {} bytes more ({})", bytes, std::strerror(status)));
 }
 
 void requireRoom(const std::filesystem::path& path, std::uint64_t bytes) {

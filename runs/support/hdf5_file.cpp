@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "runs/support/disk_room.hpp"
+#include "runs/support/not_written.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -119,7 +120,7 @@ void GrowingDataset::appendRow(const void* numbers, std::int64_t type) {
   const Handle row(H5Screate_simple(rank, count, nullptr), H5Sclose);
   good = good && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr) >= 0;
   good = good && H5Dwrite(dataset_, type, row, space, H5P_DEFAULT, numbers) >= 0;
-  if (!good) throw std::runtime_error("HDF5 could not append a row to the results; is the disk full?");
+  if (!good) throw NotWritten("HDF5 could not append a row to the results; is the disk full?");
   ++rows_;
 }
 
@@ -129,7 +130,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlo
   H5Pset_userblock(creation, userBlock);
   // The oldest file format has no "open for writing" mark: a file that a killed program left stays readable.
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
-  if (file < 0) throw std::runtime_error(failure(path, "create the file"));
+  if (file < 0) throw NotWritten(failure(path, "create the file"));
   return {file, path};
 }
 
@@ -157,7 +158,7 @@ Hdf5File Hdf5File::openShared(const std::filesystem::path& path, const base::Com
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
-  if (file < 0) throw std::runtime_error(failure(path, "open the file on all ranks"));
+  if (file < 0) throw NotWritten(failure(path, "open the file on all ranks"));
   Hdf5File opened(file, path);
   opened.shared_ = true;
   return opened;
@@ -178,7 +179,7 @@ Hdf5File::~Hdf5File() {
 }
 
 void Hdf5File::check(std::int64_t status, const char* what) const {
-  if (status < 0) throw std::runtime_error(failure(path_, what));
+  if (status < 0) throw NotWritten(failure(path_, what));
 }
 
 void Hdf5File::makeGroup(const std::string& group) {

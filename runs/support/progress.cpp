@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/progress.hpp"
 
+#include "runs/support/tell.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -22,7 +24,7 @@ Progress::Progress(std::string what, bool shown)
       next_(start_ + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause))) {}
 
 Progress::~Progress() {
-  if (open_) fmt::print(stderr, "\n");
+  if (open_) tell("\n");
 }
 
 bool Progress::due() const { return shown_ && Clock::now() >= next_; }
@@ -34,10 +36,10 @@ void Progress::update(double fraction, const std::string& detail) {
   const std::string text = line(what_, fraction, std::chrono::duration<double>(now - start_).count(), detail);
   if (terminal_) {
     clearLine();
-    fmt::print(stderr, "{}", text);
+    tell("{}", text);
     open_ = true;
   } else {
-    fmt::print(stderr, "{}\n", text);
+    tell("{}\n", text);
   }
   std::fflush(stderr);
 }
@@ -54,11 +56,11 @@ void Progress::finish(const std::string& detail) {
   if (!shown_) return;
   clearLine();
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  fmt::print(stderr, "{}: {}, took {}\n", what_, detail, duration(elapsed));
+  tell("{}: {}, took {}\n", what_, detail, duration(elapsed));
 }
 
 void Progress::clearLine() {
-  if (open_) fmt::print(stderr, "\r\033[K");
+  if (open_) tell("\r\033[K");
   open_ = false;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/support/not_written.hpp"
 
 #include <cerrno>
 #include <cstdint>
@@ -32,9 +33,7 @@ public:
   bool good() const { return fd_ >= 0; }
   operator int() const { return fd_; }
   void require(bool done, const char* what) const {
-    if (!done)
-      throw std::runtime_error(
-          fmt::format("{}: could not {} ({}); is the disk full?", path_.string(), what, std::strerror(errno)));
+    if (!done) throw notWritten(path_, fmt::format("could not {} ({})", what, std::strerror(errno)));
   }
 
 private:

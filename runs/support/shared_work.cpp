@@ -41,6 +41,7 @@ void say(int pipe, const std::string& text) {
                         const std::function<void(std::size_t)>& work) {
   // The parent decides what a signal means, and no child outlives it.
   std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   try {

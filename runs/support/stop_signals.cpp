@@ -2,13 +2,16 @@
 #include "runs/support/stop_signals.hpp"
 
 #include <csignal>
+#include <utility>
 
 namespace grouser::support {
 
 namespace {
 
 volatile std::sig_atomic_t signalReceived = 0;
-struct sigaction formerInterrupt, formerTerminate;
+/// SIGHUP: the terminal is gone.
+constexpr std::pair<int, const char*> kKept[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
+struct sigaction former[std::size(kKept)];
 
 extern "C" void keepSignal(int signal) { signalReceived = signal; }
 
@@ -19,19 +22,23 @@ StopSignals::StopSignals() {
   struct sigaction action {};
   action.sa_handler = keepSignal;
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, &formerInterrupt);
-  sigaction(SIGTERM, &action, &formerTerminate);
-  // Whoever started us in the background may have switched interrupts off: leave them off.
-  if (formerInterrupt.sa_handler == SIG_IGN) sigaction(SIGINT, &formerInterrupt, nullptr);
+  for (std::size_t i = 0; i < std::size(kKept); ++i) {
+    sigaction(kKept[i].first, &action, &former[i]);
+    // Whoever started us in the background, or by nohup, may have switched it off: leave it off.
+    if (former[i].sa_handler == SIG_IGN) sigaction(kKept[i].first, &former[i], nullptr);
+  }
 }
 
 StopSignals::~StopSignals() {
-  sigaction(SIGINT, &formerInterrupt, nullptr);
-  sigaction(SIGTERM, &formerTerminate, nullptr);
+  for (std::size_t i = 0; i < std::size(kKept); ++i) sigaction(kKept[i].first, &former[i], nullptr);
 }
 
 int StopSignals::received() { return signalReceived; }
 
-const char* StopSignals::name(int signal) { return signal == SIGTERM ? "SIGTERM" : "SIGINT"; }
+const char* StopSignals::name(int signal) {
+  for (const auto& [number, name] : kKept)
+    if (number == signal) return name;
+  return "a signal";
+}
 
 } // namespace grouser::support

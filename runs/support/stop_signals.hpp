@@ -6,7 +6,7 @@
 
 namespace grouser::support {
 
-/// A signal has stopped the run, in good order. Exit code 128 + signal, as shells have it: 130 or 143.
+/// A signal has stopped the run, in good order. Exit code 128 + signal, as shells have it: 129, 130 or 143.
 class Stopped : public std::runtime_error {
 public:
   Stopped(int signal, const std::string& message) : std::runtime_error(message), signal_(signal) {}
@@ -16,8 +16,8 @@ private:
   int signal_;
 };
 
-/// While an object of this kind lives, the first SIGINT or SIGTERM is kept for the run to act on at the end of its
-/// step. A second one ends the program at once, as ever.
+/// While an object of this kind lives, the first SIGINT, SIGTERM or SIGHUP is kept for the run to act on at the end of
+/// its step. A second one ends the program at once, as ever.
 class StopSignals {
 public:
   StopSignals();

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "runs/support/disk_room.hpp"
+#include "runs/support/not_written.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ void writeTextFile(const fs::path& path, const std::string& text, const std::str
   if (file) return;
   std::error_code error;
   if (fs::is_regular_file(path, error)) fs::remove(path, error); // and no device, such as /dev/full
-  throw std::runtime_error(fmt::format("{}: could not be written whole; is the disk full?", path.string()));
+  throw notWritten(path, "could not be written whole");
 }
 
 void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_t room) {
@@ -35,7 +36,7 @@ void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_
   file << text;
   file.close();
   try {
-    if (!file) throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+    if (!file) throw notWritten(path);
     if (room) requireRoom(part, room);
   } catch (...) {
     std::error_code error;
@@ -52,7 +53,7 @@ void overwriteTextFile(const fs::path& path, const std::string& text) {
   file.close();
   std::error_code error;
   if (file) fs::resize_file(path, text.size(), error);
-  if (!file || error) throw std::runtime_error(path.string() + ": could not be written; is the disk full?");
+  if (!file || error) throw notWritten(path);
 }
 
 } // namespace grouser::support

@@ -6,6 +6,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/hdf5_file.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stopwatch.hpp"
 #include "runs/support/text_file.hpp"
@@ -101,7 +102,7 @@ private:
       choice = chooseRuns(record_.cases, options_.seeds, budgetSeconds(options_.budget), costs, options_.sweep.jobs);
       const nlohmann::json made = {
           {"asked", asked}, {"run_s", costs.run}, {"settling_s", costs.settling}, {"choice", choiceJson(*choice)}};
-      support::replaceTextFile(file, made.dump(1) + "\n");
+      support::replaceTextFile(file, support::jsonText(made, 1) + "\n");
     }
     fmt::print("budget    {}: the runs chosen take about {}{}\n", options_.budget,
                support::Progress::duration(choice->seconds), leftOutText(*choice));

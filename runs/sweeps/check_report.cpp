@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "runs/studies/common.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/sweeps/run_manifest.hpp"
 
@@ -222,7 +223,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
     json["figures"].push_back(figureJson(f, results));
     json["figures"].back()["headline"] = isHeadline(results, f) && isTold(f);
   }
-  return json.dump(1) + "\n";
+  return support::jsonText(json, 1) + "\n";
 }
 
 std::string costsJson(const CheckRecord& record, const CheckResults& results) {
@@ -247,7 +248,7 @@ std::string costsJson(const CheckRecord& record, const CheckResults& results) {
     }
     json["cheapest"].push_back(row);
   }
-  return json.dump(1) + "\n";
+  return support::jsonText(json, 1) + "\n";
 }
 
 bool isTold(const CheckFigure& figure) {

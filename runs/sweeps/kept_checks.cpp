@@ -5,6 +5,7 @@
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "runs/studies/estimate.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/text_file.hpp"
@@ -123,7 +124,7 @@ void keepCheck(const std::string& origin, const std::string& json, int runs, con
       return;
     const nlohmann::json all = {
         {"of", origin}, {"runs", runs}, {"folder", fs::absolute(folder).lexically_normal().string()}, {"check", check}};
-    support::replaceTextFile(fresh, all.dump() + "\n");
+    support::replaceTextFile(fresh, support::jsonText(all) + "\n");
     kept->put(fresh, file);
   } catch (const std::exception&) {
     std::error_code error; // a later run then says that nothing was checked
@@ -145,7 +146,7 @@ std::string checkNote(const scene::Scene& scene, const std::string& inputs, doub
 
 std::string keptCheckText(const scene::Scene& scene, const std::string& inputs) {
   const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
-  return kept.is_object() ? kept.dump() : "";
+  return kept.is_object() ? support::jsonText(kept) : "";
 }
 
 void checkFolderOfCheck(const fs::path& folder) {

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/sweeps/kept_checks.hpp"
 #include "runs/sweeps/run_manifest.hpp"
 #include "runs/sweeps/sweep_summary.hpp"
@@ -43,7 +44,7 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
 
 std::string runFiguresText(const std::filesystem::path& folder) {
   try {
-    return figuresOf(folder).dump();
+    return support::jsonText(figuresOf(folder));
   } catch (const std::exception& error) {
     return nlohmann::ordered_json{{"figures", nlohmann::ordered_json::array()},
                                   {"check", nullptr},

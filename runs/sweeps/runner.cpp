@@ -9,6 +9,7 @@
 #include "runs/support/build_info.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/progress.hpp"
+#include "runs/support/stop_signals.hpp"
 #include "runs/sweeps/overrides.hpp"
 #include "runs/sweeps/run_manifest.hpp"
 #include "runs/sweeps/run_progress.hpp"
@@ -131,18 +132,18 @@ public:
   const std::vector<SweepOutcome>& outcomes() const { return outcomes_; }
 
   void run() {
+    const support::StopSignals signals;
     changed_(outcomes_);
     std::size_t next = 0;
     const auto more = [&] { return next < waiting_.size() && !isLate(); };
     while (more() || !running_.empty()) {
       while (more() && running_.size() < static_cast<std::size_t>(options_.jobs)) launch(waiting_[next++]);
       reap();
+      if (const int signal = support::StopSignals::received()) stop(signal);
       if (progress_.due()) report();
     }
-    const auto finished = std::count_if(outcomes_.begin(), outcomes_.end(),
-                                        [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
     if (todo_ > 0)
-      progress_.finish(fmt::format("{} of {} runs finished{}", finished, outcomes_.size(),
+      progress_.finish(fmt::format("{} of {} runs finished{}", countFinished(), outcomes_.size(),
                                    next < waiting_.size() ? "; call again for the others" : ""));
   }
 
@@ -197,11 +198,28 @@ private:
     }
   }
 
+  /// The runs end after their step. Nothing of them is kept but what they leave.
+  [[noreturn]] void stop(int signal) {
+    stopping_ = true;
+    for (const auto& [process, run] : running_) kill(process, SIGTERM);
+    while (!running_.empty()) reap();
+    throw support::Stopped(signal, fmt::format("stopped by {} after {} of {} runs; the same command does the others",
+                                               support::StopSignals::name(signal), countFinished(), outcomes_.size()));
+  }
+
+  std::ptrdiff_t countFinished() const {
+    return std::count_if(outcomes_.begin(), outcomes_.end(),
+                         [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
+  }
+
   void finish(std::size_t i, int status, double seconds) {
     ++ended_, done_ += expectedEnd(plan_.runs[i]);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
       outcomes_[i].status = RunStatus::finished;
       progress_.note(fmt::format("{} finished in {}", title(i), support::Progress::duration(seconds)));
+    } else if (stopping_) {
+      outcomes_[i].status = RunStatus::stopped;
+      progress_.note(fmt::format("{} stopped", title(i)));
     } else {
       outcomes_[i] = {RunStatus::failed, reason(status, folder(i) / kLog)};
       progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
@@ -226,6 +244,7 @@ private:
   std::vector<std::size_t> waiting_;
   std::map<pid_t, Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
+  bool stopping_ = false;
   double due_ = 0, done_ = 0; ///< simulated time of the runs to do, and of those that have ended [s]
   Clock::time_point begin_ = Clock::now();
   support::Progress progress_;

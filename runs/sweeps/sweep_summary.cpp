@@ -219,8 +219,9 @@ double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
 }
 
 double steadyFrom(const scene::Scene& scene, const RunManifest& manifest) {
-  const double end = manifest.text("ended_by").empty() ? base::kNaN : manifest.number("simulated_time_s");
-  return steadyFrom(scene, manifest.figure("drive_start_s"), end);
+  // [stop] and --steps end runs early; without them the last step may still end a rounding away from the duration.
+  const double end = manifest.number("simulated_time_s"), step = end / manifest.number("steps");
+  return steadyFrom(scene, manifest.figure("drive_start_s"), scene.run.duration - end > step ? end : base::kNaN);
 }
 
 SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {

@@ -287,6 +287,46 @@ TEST_F(CommandLine, TerminatedRunEndsWith143AndIsResumed) {
   EXPECT_NE(on.out.find(" step " + std::to_string(step + 100) + "\n"), std::string::npos) << on.out;
 }
 
+TEST_F(CommandLine, ALostTerminalLeavesACheckpoint) {
+  writeGrain("long.toml");
+  const Outcome stopped = shell("\"$grouser\" run long.toml --set run.duration=100 --set output.frames=false --out run"
+                                " & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; done\n"
+                                "kill -HUP $pid\nwait $pid\nexit $?");
+  EXPECT_EQ(stopped.code, 129) << stopped.errors;
+  EXPECT_NE(stopped.errors.find("grouser: stopped by SIGHUP"), std::string::npos) << stopped.errors;
+  EXPECT_TRUE(fs::exists(folder_ / "run" / "checkpoint.h5"));
+}
+
+TEST_F(CommandLine, ClosedOrFullStandardStreamsHarmNoRun) {
+  writeGrain();
+  const std::string hash = call("run grain.toml --hash --out open").hash();
+  for (const char* streams : {"2>&-", "2>/dev/full", "<&-", "<&- 2>&-"}) {
+    const Outcome o = call(std::string("run grain.toml --hash --force --out closed ") + streams);
+    EXPECT_EQ(o.code, 0) << streams << o.errors;
+    EXPECT_EQ(o.hash(), hash) << streams;
+  }
+  // Where there is nobody to print to the results must not land in files of the run.
+  const Outcome o = call("run grain.toml --hash --force --out closed >&-");
+  EXPECT_EQ(o.code, 3) << o.errors;
+  EXPECT_NE(o.error().find("the standard output could not be written"), std::string::npos) << o.errors;
+  EXPECT_EQ(call("run grain.toml --resume --hash --out closed").hash(), hash);
+}
+
+TEST_F(CommandLine, AFileNameThatIsNoUtf8IsFine) {
+  writeGrain("h\xfcgel.toml");
+  const Outcome o = call("run h\xfcgel.toml --out r\xfcn");
+  EXPECT_EQ(o.code, 0) << o.errors;
+  EXPECT_NE(contents(folder_ / "r\xfcn" / "manifest.json").find("h\xef\xbf\xbdgel.toml"), std::string::npos);
+}
+
+TEST_F(CommandLine, StepsThatEndARunAreNamed) {
+  writeGrain();
+  ASSERT_EQ(call("run grain.toml --steps 50 --out run").code, 0);
+  EXPECT_NE(contents(folder_ / "run" / "manifest.json").find("\"ended_by\": \"--steps 50\""), std::string::npos);
+  ASSERT_EQ(call("run grain.toml --resume --out run").code, 0);
+  EXPECT_EQ(contents(folder_ / "run" / "manifest.json").find("ended_by"), std::string::npos);
+}
+
 TEST_F(CommandLine, PlanRunsNothing) {
   std::ofstream(folder_ / "scene.toml") << goodScene();
   const Outcome o = call("plan scene.toml");

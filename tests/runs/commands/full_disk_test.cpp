@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <unistd.h>
 
 namespace grouser::commands {
 
@@ -97,6 +98,35 @@ TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
   for (const char* file : {"scene.toml", "results.h5", "frames.h5", "grains.csv", "picture.png", "checkpoint.h5.part"})
     EXPECT_TRUE(met.contains(file)) << file;
   EXPECT_GT(resumed_, 5);
+}
+
+TEST_F(FullDisk, LeavesTheLastMomentsWhereNoCheckpointWasAskedFor) {
+  const std::string more = " --set run.checkpoint_interval=0 --set output.picture=false";
+  const Outcome free = run("--hash --out free" + more);
+  ASSERT_EQ(free.code, 0) << free.errors;
+  for (const int kib : {120, 180, 240}) {
+    const std::string out = "full" + std::to_string(kib);
+    const Outcome o = run("--out " + out + more, "ulimit -c 0; ulimit -f " + std::to_string(2 * kib) + "; ");
+    ASSERT_EQ(o.code, 3) << kib << o.errors;
+    EXPECT_NE(o.errors.find("(last checkpoint: " + out + "/checkpoint.h5, step "), std::string::npos) << o.errors;
+    expectFailedSoundly(o, out, more, free.hash());
+  }
+  EXPECT_EQ(resumed_, 3);
+}
+
+TEST_F(FullDisk, AFolderThatIsGoneOrClosedIsSaidToBe) {
+  const std::string make = "mkdir -p out && chmod u+w out; ", wait =
+                                                                  "while [ ! -s out/timeseries.csv ]; do sleep 0.01; "
+                                                                  "done; ";
+  const std::string begin =
+      make + "\"$grouser\" run bed.toml --out out --force --threads 1 --set run.duration=1 & pid=$!; " + wait;
+  const Outcome gone = shell(begin + "mv out moved; wait $pid");
+  EXPECT_EQ(gone.code, 3) << gone.errors;
+  EXPECT_NE(gone.error().find("its folder is gone"), std::string::npos) << gone.errors;
+  if (geteuid() == 0) return; // may write anywhere
+  const Outcome closed = shell(begin + "chmod u-w out; wait $pid");
+  EXPECT_EQ(closed.code, 3) << closed.errors;
+  EXPECT_NE(closed.error().find("it may not be written any more"), std::string::npos) << closed.errors;
 }
 
 TEST_F(FullDisk, SmallDiskLosesNothing) {

@@ -78,7 +78,6 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   output::Summary summary;
   summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
   summary.simulatedTime = 3;
-  writer.fact("ended_by", "stop.distance: [stop] has ended it at 3 s");
   writer.finish(summary);
 
   const Csv csv(writeSummary(plan, {{output::RunStatus::finished, ""}}, folder_));

@@ -333,6 +333,19 @@ TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
   EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
 }
 
+TEST_F(Sweep, StoppedOneEndsItsRunsAndSaysWhatIsReady) {
+  writeScene("1e-3");
+  const Outcome stopped = shell("\"$grouser\" sweep fall.toml --set run.duration=1e-3,50 --jobs 2 --out s & pid=$!\n"
+                                "while [ ! -s s/duration=50/timeseries.csv ] || ! grep -q finished "
+                                "s/duration=1e-3/manifest.json; do sleep 0.01; done\nsleep 0.2\n"
+                                "kill -TERM $pid\nwait $pid\nexit $?");
+  EXPECT_EQ(stopped.code, 143) << stopped.errors;
+  EXPECT_NE(stopped.errors.find("grouser: stopped by SIGTERM after 1 of 2 runs; the same command does the others"),
+            std::string::npos)
+      << stopped.errors;
+  EXPECT_NE(contents(folder_ / "s/duration=50/manifest.json").find("\"stopped\""), std::string::npos);
+}
+
 /// By hand: of 2, 4, 6 the mean is 4 and half the interval t(2) 2 / sqrt 3, t(2) = 4.3027; the differences to 1, 2, 3
 /// are 1, 2, 3 with mean 2 and half width t(2) / sqrt 3, over the first's mean of 2.
 TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {

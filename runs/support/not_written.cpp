@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/not_written.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace grouser::support {
+
+namespace fs = std::filesystem;
+
+NotWritten notWritten(const fs::path& file, const std::string& what) {
+  std::error_code error;
+  const fs::path folder = fs::absolute(file, error).parent_path();
+  const char* why = "is the disk full?";
+  if (!fs::is_directory(folder, error))
+    why = "its folder is gone";
+  else if (access(fs::exists(file, error) ? file.c_str() : folder.c_str(), W_OK) != 0)
+    why = "it may not be written any more: look at the rights of file and folder";
+  return NotWritten(fmt::format("{}: {}; {}", file.string(), what, why));
+}
+
+} // namespace grouser::support

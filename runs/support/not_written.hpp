@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace grouser::support {
+
+/// A file could not be written, through no fault of the run's: that may go on from its last checkpoint.
+class NotWritten : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// "out/drive/picture.png: could not be written; is the disk full?", or why else as far as the folder shows it.
+/// `what`: what failed, such as "could not be written (No space left on device)".
+NotWritten notWritten(const std::filesystem::path& file, const std::string& what = "could not be written");
+
+} // namespace grouser::support
