@@ -23,6 +23,8 @@ from .series import Estimate, Quantity, Series
 from .soil import Constant, PlateCurve, ShearCurve, SoilTest, open_soil
 from .sweep import Sweep, SweepMean, SweepRun, open_sweep
 
+__version__ = "0.1.0"  # that of CMakeLists.txt: tests/python/package_test.py compares them
+
 __all__ = [
     "AxisError", "BarredSeries", "Bed", "Calibration", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate",
     "EventLimit", "EventRow", "EventRun", "Events", "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job",

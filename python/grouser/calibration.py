@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import FileError
-from .files import read_json
+from .files import fields_of, read_json
 from .series import Estimate, number
 from .soil import SoilTest
 
@@ -43,18 +43,19 @@ class Calibration:
         self.json: dict = read_json(file, "a calibration")  #: all of calibration.json
         if "trials" not in self.json or "targets" not in self.json:
             raise FileError(f"{file}: is no file of a calibration")
-        self.name: str = self.json["soil"]
-        self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
-        self.coarse: bool = self.json["care"] == "coarse"  #: with --quick
-        self.status: str = self.json["status"]  #: "searching", "unfinished" (time was up), "finished"
-        self.trials: list[Trial] = [
-            Trial(one["name"], one["kind"], one["parameters"] or {},
-                  {name: _estimate(name, value) for name, value in (one["measured"] or {}).items()})
-            for one in self.json["trials"]]
-        self.outcomes: list[Outcome] = [
-            Outcome(one["what"], number(one["wanted"]), number(one["tolerance"]),
-                    _estimate(one["what"], one["reached"]), one["verdict"])
-            for one in self.json.get("outcomes", [])]  #: none before it has finished
+        with fields_of(file, "a calibration"):
+            self.name: str = self.json["soil"]
+            self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
+            self.coarse: bool = self.json["care"] == "coarse"  #: with --quick
+            self.status: str = self.json["status"]  #: "searching", "unfinished" (time was up), "finished"
+            self.trials: list[Trial] = [
+                Trial(one["name"], one["kind"], one["parameters"] or {},
+                      {name: _estimate(name, value) for name, value in (one["measured"] or {}).items()})
+                for one in self.json["trials"]]
+            self.outcomes: list[Outcome] = [
+                Outcome(one["what"], number(one["wanted"]), number(one["tolerance"]),
+                        _estimate(one["what"], one["reached"]), one["verdict"])
+                for one in self.json.get("outcomes", [])]  #: none before it has finished
 
     @property
     def soil_file(self) -> Path | None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy
 
 from .errors import FileError
-from .files import read_csv, read_json
+from .files import fields_of, read_csv, read_json
 from .series import Estimate, Series, number, split_unit
 from .sweep import value_of
 
@@ -51,13 +51,13 @@ class Check:
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
-        self.json: dict = read_json(self.folder / "check.json", "a check")  #: all of check.json
+        file = self.folder / "check.json"
+        self.json: dict = read_json(file, "a check")  #: all of check.json
         if "figures" not in self.json or "cases" not in self.json:
-            raise FileError(f"{self.folder / 'check.json'}: is no file of a check")
-        self.figures: dict[str, CheckFigure] = {}
-        for one in self.json["figures"]:
-            figure = self._figure(one)
-            self.figures[figure.name] = figure
+            raise FileError(f"{file}: is no file of a check")
+        with fields_of(file, "a check"):
+            figures = [self._figure(one) for one in self.json["figures"]]
+        self.figures: dict[str, CheckFigure] = {figure.name: figure for figure in figures}
 
     @staticmethod
     def _figure(one: dict) -> CheckFigure:
@@ -88,7 +88,10 @@ class Check:
     @property
     def costs(self) -> dict[str, dict]:
         """{case: wall_s, cpu_s [s], steps} of one of its runs, medians."""
-        return {case["name"]: case for case in read_json(self.folder / "costs.json", "costs of a check")["cases"]}
+        file = self.folder / "costs.json"
+        told = read_json(file, "costs of a check")
+        with fields_of(file, "costs of a check"):
+            return {case["name"]: case for case in told["cases"]}
 
     @cached_property
     def series(self) -> dict[str, BarredSeries]:

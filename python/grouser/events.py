@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import FileError
-from .files import read_json
+from .files import fields_of, read_json
 from .run import Run
 from .series import Estimate, number, split_unit
 
@@ -64,16 +64,18 @@ class Events:
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
-        self.json: dict = read_json(self.folder / "events.json", "events")  #: all of events.json
+        file = self.folder / "events.json"
+        self.json: dict = read_json(file, "events")  #: all of events.json
         if "rows" not in self.json:
-            raise FileError(f"{self.folder / 'events.json'}: is no file of events")
+            raise FileError(f"{file}: is no file of events")
         self.vehicle: str = self.json.get("vehicle", "")
         self.soil: str = self.json.get("soil", "")
-        self.rows: list[EventRow] = [self._row(one) for one in self.json["rows"]]
-        self.limits: dict[str, EventLimit] = {
-            one["event"]: EventLimit(one["event"], one["level_is"], number(one["go"]), number(one["no_go"]),
-                                     one.get("reference") or "", one.get("agrees"))
-            for one in self.json.get("limits", [])}
+        with fields_of(file, "events"):
+            self.rows: list[EventRow] = [self._row(one) for one in self.json["rows"]]
+            self.limits: dict[str, EventLimit] = {
+                one["event"]: EventLimit(one["event"], one["level_is"], number(one["go"]), number(one["no_go"]),
+                                         one.get("reference") or "", one.get("agrees"))
+                for one in self.json.get("limits", [])}
 
     def _row(self, one: dict) -> EventRow:
         figures = {}

@@ -12,7 +12,7 @@ import h5py
 import numpy
 
 from .errors import FileError
-from .series import Series
+from .series import Series, nearest
 
 #: Units of what frames hold of grains.
 UNITS = {"id": "-", "position": "m", "radius": "m", "speed": "m/s", "velocity": "m/s", "contact_force": "N",
@@ -103,7 +103,7 @@ def rotation(quaternion: numpy.ndarray) -> numpy.ndarray:
 
 
 class Frames:
-    """All frames of a run: `len(frames)`, `frames[0]`, `for frame in frames`."""
+    """All frames of a run: `len(frames)`, `frames[0]`, `frames[2:5]`, `for frame in frames`."""
 
     def __init__(self, path: str | os.PathLike):
         path = Path(path)
@@ -122,17 +122,22 @@ class Frames:
     def __len__(self) -> int:
         return len(self._names)
 
-    def __getitem__(self, index: int) -> Frame:
+    def __getitem__(self, index: int | slice) -> Frame | list[Frame]:
+        """A frame, or of a slice a list of them. IndexError where there are fewer."""
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"{self._file.filename}: has {len(self)} frames, 0 to {len(self) - 1}; there is no frame "
+                             f"{index}")
         return Frame(self._file[self._names[index]], self)
 
     def __iter__(self) -> Iterator[Frame]:
         return (self[i] for i in range(len(self)))
 
     def at(self, time: float) -> Frame:
-        """The frame nearest to `time` [s]. ValueError where there are none."""
-        if not self._names:
-            raise ValueError(f"{self._file.filename}: has no frames")
-        return self[int(numpy.argmin(numpy.abs(self.time - time)))]
+        """The frame nearest to `time` [s]. ValueError where there are none, or none near it: more than their interval
+        before the first or behind the last."""
+        return self[nearest(self.time, time, "frames", self._file.filename)]
 
     @cached_property
     def parts(self) -> list[str]:

@@ -2,14 +2,20 @@
 """Numbers with their units: what all readers return."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from numbers import Number
 
 import numpy
 
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """A number or an array with its unit. numpy takes it as its value: `numpy.mean(q)`, `2 * numpy.asarray(q)`."""
+    """A number or an array with its unit.
+
+    `2 * q`, `q * 2` and `q / 2` keep the unit; `q + r` and `q - r` are for quantities of the same unit, and for plain
+    numbers where q has none ("-"): ValueError names both units where they differ. numpy takes a quantity as its value:
+    `numpy.mean(q)`, `numpy.asarray(q) ** 2`.
+    """
 
     value: numpy.ndarray  #: any shape; a single number has the shape ()
     unit: str  #: "m"; "-" where dimensionless; "" where the file says none
@@ -24,6 +30,75 @@ class Quantity:
 
     def __len__(self) -> int:
         return len(self.value)
+
+    __array_priority__ = 1000  # so that numpy leaves 2 * q to q, where it is numpy's 2
+
+    def __mul__(self, factor: float | numpy.ndarray) -> Quantity:
+        return self._scaled(factor, numpy.multiply, "*")
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: float | numpy.ndarray) -> Quantity:
+        return self._scaled(divisor, numpy.divide, "/")
+
+    def __add__(self, other: Quantity | float) -> Quantity:
+        return self._joined(other, numpy.add, "+")
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Quantity | float) -> Quantity:
+        return self._joined(other, numpy.subtract, "-")
+
+    def __rsub__(self, other: Quantity | float) -> Quantity:
+        return -self + other
+
+    def __neg__(self) -> Quantity:
+        return self._with(-numpy.asarray(self.value), f"-{self.name}")
+
+    def _with(self, value: numpy.ndarray, name: str) -> Quantity:
+        return replace(self, value=value, name=name, help="")
+
+    def _told(self) -> str:
+        return f"{self.name or 'a quantity'} [{self.unit}]"
+
+    def _scaled(self, factor: float | numpy.ndarray, function: numpy.ufunc, sign: str) -> Quantity:
+        if isinstance(factor, Quantity):
+            raise ValueError(f"{self._told()} {sign} {factor._told()}: of what unit that is, is not reckoned here; take "
+                             "the values: .value")
+        if not isinstance(factor, (Number, numpy.ndarray)):
+            return NotImplemented
+        value = function(self.value, factor)
+        if value.shape != numpy.shape(self.value):
+            raise ValueError(f"{self._told()} has the shape {numpy.shape(self.value)}, which is not multiplied or divided "
+                             f"by one of {numpy.shape(factor)}")
+        return self._with(value, f"{self.name} {sign} {factor if isinstance(factor, Number) else 'an array'}")
+
+    def _joined(self, other: Quantity | float, function: numpy.ufunc, sign: str) -> Quantity:
+        if isinstance(other, (Number, numpy.ndarray)):
+            other = Quantity(numpy.asarray(other), "-", name=str(other) if isinstance(other, Number) else "an array")
+        if not isinstance(other, Quantity):
+            return NotImplemented
+        if self.unit != other.unit:
+            raise ValueError(f"{self._told()} {sign} {other._told()}: the units differ")
+        if isinstance(self, Series) and isinstance(other, Series) and not numpy.array_equal(self.time, other.time):
+            raise ValueError(f"{self._told()} {sign} {other._told()}: their rows are of other times")
+        whole = self if isinstance(self, Series) or not isinstance(other, Series) else other
+        value = function(self.value, other.value)
+        if value.shape != numpy.shape(whole.value):
+            raise ValueError(f"{self._told()} {sign} {other._told()}: shapes {numpy.shape(self.value)} and "
+                             f"{numpy.shape(other.value)} do not fit")
+        return whole._with(value, f"{self.name} {sign} {other.name}")
+
+
+def nearest(times: numpy.ndarray, time: float, what: str, where: object) -> int:
+    """Place of the one of `times` nearest to `time` [s]. ValueError where there are none, or where `time` lies further
+    beyond the first or the last than they are apart there; `what` has these times, in `where`."""
+    if len(times) == 0:
+        raise ValueError(f"{where}: has no {what}")
+    before, behind = (times[1] - times[0], times[-1] - times[-2]) if len(times) > 1 else (1e-9, 1e-9)
+    if not times[0] - before <= time <= times[-1] + behind:
+        raise ValueError(f"{where}: has no {what} at {time:g} s; they go from {times[0]:g} to {times[-1]:g} s")
+    return int(numpy.argmin(numpy.abs(times - time)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,10 +123,9 @@ class Series(Quantity):
         return Series(self.value[kept], self.unit, self.help, self.name, self.time[kept], self.step[kept], self.labels)
 
     def at(self, time: float) -> numpy.ndarray:
-        """The row nearest to `time` [s]: of the shape () or [columns]. ValueError where there are no rows."""
-        if len(self.time) == 0:
-            raise ValueError(f"{self.name}: the run has no rows")
-        return self.value[numpy.argmin(numpy.abs(self.time - time))]
+        """The row nearest to `time` [s]: of the shape () or [columns]. ValueError where there are no rows, or none near
+        it: more than their interval before the first or behind the last."""
+        return self.value[nearest(self.time, time, "rows", self.name)]
 
 
 @dataclass(frozen=True, eq=False)

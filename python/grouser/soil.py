@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy
 
 from .errors import FileError
-from .files import read_csv, read_json
+from .files import fields_of, read_csv, read_json
 from .series import Estimate, number
 
 
@@ -51,17 +51,19 @@ class SoilTest:
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
-        self.json: dict = read_json(self.folder / "soil.json", "a soil's test")  #: all of soil.json
+        file = self.folder / "soil.json"
+        self.json: dict = read_json(file, "a soil's test")  #: all of soil.json
         if "constants" not in self.json:
-            raise FileError(f"{self.folder / 'soil.json'}: is no file of a soil's test")
-        self.name: str = self.json["soil"]
-        self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
-        self.coarse: bool = self.json["care"] == "coarse"  #: measured with --quick
-        self.constants: dict[str, Constant] = {
-            name: Constant(Estimate(number(one["value"]), number(one["half_width"]), one["unit"], name),
-                           tuple((number(p.get("value")), p["source"]) for p in one["published"]),
-                           tuple(one["span"]) if one.get("span") else None, one.get("verdict", "-"))
-            for name, one in self.json["constants"].items()}
+            raise FileError(f"{file}: is no file of a soil's test")
+        with fields_of(file, "a soil's test"):
+            self.name: str = self.json["soil"]
+            self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
+            self.coarse: bool = self.json["care"] == "coarse"  #: measured with --quick
+            self.constants: dict[str, Constant] = {
+                name: Constant(Estimate(number(one["value"]), number(one["half_width"]), one["unit"], name),
+                               tuple((number(p.get("value")), p["source"]) for p in one["published"]),
+                               tuple(one["span"]) if one.get("span") else None, one.get("verdict", "-"))
+                for name, one in self.json["constants"].items()}
 
     def __getitem__(self, name: str) -> Constant:
         """KeyError names the constants that there are."""

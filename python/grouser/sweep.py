@@ -23,7 +23,7 @@ def value_of(text: str) -> float:
     """The number of a cell; NaN where it is empty or is no number."""
     try:
         return float(text)
-    except ValueError:
+    except (TypeError, ValueError):  # None where a row is cut short
         return float("nan")
 
 
@@ -52,6 +52,11 @@ class SweepMean:
     seeds: int
     mean: Estimate
     difference: Estimate  #: to the first combination, seed by seed, in the figure's unit
+
+
+class _Means(dict[str, list[SweepMean]]):
+    def __missing__(self, figure: str) -> list[SweepMean]:
+        raise KeyError(f"there are no means of {figure!r}; there are {', '.join(self) or 'none, for no seeds were run'}")
 
 
 class Sweep:
@@ -90,21 +95,23 @@ class Sweep:
 
     @cached_property
     def means(self) -> dict[str, list[SweepMean]]:
-        """{figure: [a mean for each combination]} with 95 % intervals over seeds; {} for a sweep without seeds."""
+        """{figure: [a mean for each combination]} with 95 % intervals over seeds; {} for a sweep without seeds. Figures
+        are named as in `units`: those of summary.csv, without their units. KeyError names them."""
         file = self.folder / "intervals.csv"
+        means = _Means()
         if not file.is_file():
-            return {}
-        means: dict[str, list[SweepMean]] = {}
+            return means
         for row in read_csv(file):
             name, unit = split_unit(row["figure"])
 
-            def estimate(value: str, half_width: str) -> Estimate:
-                return Estimate(value_of(row[value]), value_of(row[half_width]), unit, name)
+            def estimate(value: str, half_width: str, what: str) -> Estimate:
+                return Estimate(value_of(row[value]), value_of(row[half_width]), unit, what)
 
             means.setdefault(name, []).append(SweepMean(
                 {key: row[key] for key in self.keys if key in row}, int(number(row["seeds"])),
-                estimate("mean", "half width"),
-                estimate("difference to the first", "half width of the difference")))
+                estimate("mean", "half width", name),
+                estimate("difference to the first", "half width of the difference",
+                         f"{name}, difference to the first")))
         return means
 
 

@@ -3,6 +3,7 @@
 """The Python package: scenes as text, calls and their errors, files that are not what they should be."""
 import json
 import os
+import re
 import signal
 import time
 import tomllib
@@ -182,6 +183,115 @@ class Files(FolderTest):
         self.assertEqual(run.names("terrain.")[0], "terrain.boundary_contacts")
         self.assertEqual(run.facts["creator"], "grouser")
         self.assertEqual(numpy.mean(falls), numpy.mean(falls.value))
+
+    def test_series_are_scaled_and_added_with_their_units(self):
+        time = numpy.array([0.0, 0.1, 0.2])
+        def series(values, unit, name):
+            return grouser.Series(numpy.array(values), unit, "", name, time, numpy.arange(3))
+        left, right = series([1.0, 2.0, 4.0], "m/s", "left"), series([3.0, 2.0, 1.0], "m/s", "right")
+        for scaled, values in ((left * 2, [2, 4, 8]), (2 * left, [2, 4, 8]), (left / 4, [0.25, 0.5, 1]),
+                               (numpy.float64(2) * left, [2, 4, 8]), (left + right, [4, 4, 5]), (-left, [-1, -2, -4]),
+                               (left - right, [-2, 0, 3]), (numpy.array([1, 0, 1]) * left, [1, 0, 4]),
+                               (left - grouser.Quantity(numpy.float64(1), "m/s"), [0, 1, 3])):
+            self.assertIsInstance(scaled, grouser.Series)
+            self.assertEqual((scaled.value.tolist(), scaled.unit), (values, "m/s"), scaled.name)
+            self.assertEqual(scaled.between(0.1, 0.2).time.tolist(), [0.1, 0.2])
+        self.assertEqual((2 * left + right).name, "left * 2 + right")
+        slip = series([0.25, 0.5, 1.0], "-", "slip")
+        self.assertEqual((1 - slip).value.tolist(), [0.75, 0.5, 0.0])
+        force = series([1.0, 1.0, 1.0], "N", "pull")
+        later = grouser.Series(left.value, "m/s", "", "later", time + 1, numpy.arange(3))
+        for wrong, words in ((lambda: left + force, r"left \[m/s\] \+ pull \[N\]: the units differ"),
+                             (lambda: force - 1.0, r"pull \[N\] - 1.0 \[-\]: the units differ"),
+                             (lambda: left * force, r"left \[m/s\] \* pull \[N\].*\.value"),
+                             (lambda: left - later, "rows are of other times"),
+                             (lambda: left * numpy.ones((2, 3)), "shape")):
+            with self.assertRaisesRegex(ValueError, words):
+                wrong()
+        self.assertEqual(numpy.mean(left), numpy.mean([1, 2, 4]))
+
+    def test_what_is_at_a_time_is_near_it(self):
+        series = grouser.Series(numpy.arange(4.0), "m", "", "way", numpy.array([0.0, 0.1, 0.2, 0.3]), numpy.arange(4))
+        for time, value in ((0.0, 0), (-0.05, 0), (0.16, 2), (0.3, 3), (0.399, 3)):
+            self.assertEqual(series.at(time), value)
+        for time in (99, -0.2, 0.45, float("nan")):
+            with self.assertRaisesRegex(ValueError, r"way: has no rows at \S+ s; they go from 0 to 0\.3 s"):
+                series.at(time)
+        empty = grouser.Series(numpy.zeros(0), "m", "", "way", numpy.zeros(0), numpy.zeros(0))
+        with self.assertRaisesRegex(ValueError, "way: has no rows"):
+            empty.at(0)
+
+    def test_frames_are_taken_by_number_slice_and_time(self):
+        scene = grouser.Scene(MINIMAL)
+        scene["run.frame_interval"] = 0.002
+        frames = scene.run("fall").frames
+        self.assertEqual([frame.time for frame in frames[2:5]], frames.time[2:5].tolist())
+        self.assertEqual(len(frames[2:5]), 3)
+        self.assertEqual([frame.step for frame in frames[::-2]], frames.step[::-2].tolist())
+        self.assertEqual(frames[-1].time, frames.time[-1])
+        self.assertEqual(frames.at(frames.time[-1] + 0.001).time, frames.time[-1])
+        with self.assertRaisesRegex(ValueError, r"frames\.h5: has no frames at 99 s; they go from 0 to 0\.01 s"):
+            frames.at(99)
+        with self.assertRaisesRegex(IndexError, f"frames.h5: has {len(frames)} frames, 0 to {len(frames) - 1}; there is "
+                                                "no frame 99"):
+            frames[99]
+
+    def test_means_of_a_sweep_are_named_as_its_figures(self):
+        scene = grouser.Scene(MINIMAL)
+        sweep = scene.sweep("heights", {"material.glass.stiffness": [1e4, 2e4]}, seeds=2)
+        self.assertEqual(list(sweep.means), list(sweep.units))
+        self.assertEqual(set(sweep.means), {name for run in sweep.runs for name in run.figures})
+        for name, means in sweep.means.items():
+            self.assertNotIn("[", name)
+            self.assertEqual([mean.keys for mean in means],
+                             [{"material.glass.stiffness": value} for value in ("10000.0", "20000.0")])
+            self.assertEqual(means[1].difference.name, f"{name}, difference to the first")
+            self.assertEqual({(mean.seeds, mean.mean.unit) for mean in means}, {(2, sweep.units[name])})
+            numpy.testing.assert_array_equal(means[0].mean.value, numpy.mean(sweep[name].value[:2]))
+        with self.assertRaisesRegex(KeyError, "no means of 'height'; there are .*integration error"):
+            sweep.means["height"]
+        alone = scene.sweep("one_seed", {"material.glass.stiffness": [1e4, 2e4]})
+        self.assertEqual(alone.means, {})
+        with self.assertRaisesRegex(KeyError, "no seeds were run"):
+            alone.means["integration error"]
+
+    def test_damaged_json_is_told_with_its_place(self):
+        """One line: file, line, column, remedy; in Python's words nothing."""
+        openers = {"check.json": grouser.open_check, "soil.json": grouser.open_soil, "events.json": grouser.open_events,
+                   "calibration.json": grouser.open_calibration}
+        whole = {"check.json": {"figures": [], "cases": []}, "soil.json": {"soil": "s", "constants": {}},
+                 "events.json": {"rows": []}, "calibration.json": {"soil": "s", "trials": [], "targets": []}}
+        of_another_kind = {"check.json": {"figures": 1, "cases": []}, "soil.json": {"constants": 1},
+                           "events.json": {"rows": [{"event": 3}]}, "calibration.json": {"trials": [1], "targets": 2}}
+        cases = [(b'{"figures": [1,\n  2,\n  ,', ":3:3: "), (b"", ":1:1: "), (b'{"rows": "\xff"}', ":1:11: "),
+                 (b"[1]", ":1:1: ")]
+        for name, opener in openers.items():
+            for text, place in cases + [(json.dumps(of_another_kind[name]).encode(), ": ")]:
+                (self.folder / name).write_bytes(text)
+                with self.assertRaises(grouser.FileError, msg=(name, text)) as caught:
+                    opener(self.folder)
+                message = str(caught.exception)
+                self.assertTrue(message.startswith(f"{self.folder / name}{place}"), message)
+                self.assertIn("make it again, or take it from a copy", message)
+                self.assertNotIn("\n", message)
+                self.assertNotRegex(message, "Expecting|codec|object|argument|Error|'int'|char ")
+            text = json.dumps(whole[name])[:-3]
+            (self.folder / name).write_text(text)
+            with self.assertRaisesRegex(grouser.FileError, f"{name}:1:{len(text) + 1}: "):
+                opener(self.folder)
+        run = grouser.Scene(MINIMAL).run("cut")
+        whole = run.file.with_name("manifest.json").read_text()
+        for text, place in ((whole.replace('"status":', '"status"', 1), r":\d+:\d+: "), (whole[:-3], r":\d+:\d+: ")):
+            run.file.with_name("manifest.json").write_text(text)
+            with self.assertRaisesRegex(grouser.FileError, "manifest.json" + place + "cannot be read as the manifest"):
+                grouser.open_run("cut").status
+
+    def test_the_version_is_that_of_the_program(self):
+        written = re.search(r"^project\(grouser VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
+        self.assertEqual(grouser.__version__, written)
+        self.assertIn(f"\nversion: {written}\n", (ROOT / "CITATION.cff").read_text())
+        self.assertIn(f"\n## {written}", (ROOT / "CHANGELOG.md").read_text())
+        self.assertTrue(grouser.call(["--version"]).startswith(f"grouser {written}\n"))
 
     def test_events_have_rows_limits_and_runs(self):
         grouser.Scene(MINIMAL).run("step=0.2")
