@@ -4,6 +4,7 @@ import math
 
 import numpy
 
+import damage
 import grouser
 import page as pages
 import run_page
@@ -149,10 +150,14 @@ def error_over_time(made, check, cost):
 
 
 def first_runs(check):
-    """Folders of the first run of each case that has one, the scene as it is before all."""
-    named = [name for case in check.json["cases"] if case["runs"]
-             for name in (f"{case['name']},seed={case['runs'][0]['seed']}", case["name"])]  # with seeds, or without
-    return [check.folder / name for name in named if (check.folder / name / "manifest.json").is_file()]
+    """Folders of the first run of each case that has one which has finished, the scene as it is before all."""
+    folders = []
+    for case in check.json["cases"]:
+        if case["runs"] and case["runs"][0].get("status", "finished") == "finished":
+            seeded = check.folder / f"{case['name']},seed={case['runs'][0]['seed']}"
+            plain = check.folder / case["name"]  # without seeds
+            folders.append(plain if plain.is_dir() and not seeded.is_dir() else seeded)
+    return folders
 
 
 def machine_of(check):
@@ -182,6 +187,8 @@ def page(folder, options):
     made.section("shares", "What makes the bars", shares(made, check))
     made.section("plots", "Series with their bars", bands(made, check))
     made.section("costs", "What it cost", costs(made, check))
-    sweep_page.add_runs(made, first_runs(check), options, "The first run of each case.")
+    folders = first_runs(check)
+    damage.warn(made, sweep_page.faults_of(folders))
+    sweep_page.add_runs(made, folders, options, "The first run of each case.")
     made.section("provenance", "Where it comes from", provenance(check))
     return made

@@ -3,6 +3,7 @@
 level."""
 import math
 
+import damage
 import grouser
 import page as pages
 import sweep_page
@@ -94,17 +95,19 @@ def plots(made, rows):
         for figure in row["figures"]:
             if row["level"] is not None and figure["mean"] is not None:
                 points = curves.setdefault((row["event"], row["title"], row["level_is"], figure["name"]), [])
-                half = known(figure["half_width"])
-                points.append((row["level"], figure["mean"], half if math.isfinite(half) else 0.0))
+                points.append((row["level"], figure["mean"], known(figure["half_width"])))
     inner = []
     for (_, title, level, name), points in curves.items():
         if len(points) > 1:
-            columns = [list(column) for column in zip(*sorted(points))]
+            levels, means, halves = (list(column) for column in zip(*sorted(points)))
+            told = "Mean over the runs of a level; bar: its 95 % interval, where there are several."
+            if not any(map(math.isfinite, halves)):
+                told = "A point for each level; no bars: one run a level."
+            columns = [levels, means, [half if math.isfinite(half) else 0.0 for half in halves]]
             across = level if "[" in level else f"{level} [-]"
             inner.append(made.plot(f"{title}: {grouser.series.split_unit(name)[0]}", across,
                                    name if "[" in name else f"{name} [-]", [(name, *columns)],
-                                   "Mean over the runs of a level; bar: its 95 % interval, where there are several.",
-                                   marks=True))
+                                   told, marks=True))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
@@ -126,6 +129,7 @@ def page(folder, options):
     made.section("numbers", "Figures", figures(rows))
     made.section("plots", "Plots", plots(made, rows))
     folders = [folder / row["picture"].rpartition("/")[0] for row in rows if row.get("picture")]
+    damage.warn(made, sweep_page.faults_of(folders))
     sweep_page.add_runs(made, folders, options, "The first run of each level.")
     made.section("provenance", "Where it comes from", facts([
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),

@@ -16,6 +16,7 @@ PLOTS = (("dygraphs/dygraph.min.js",), "libjs-dygraphs")
 STYLE = ("dygraphs/dygraph.min.css", "libjs-dygraphs")
 SPACE = (("three/three.min.js", "three/examples/js/controls/OrbitControls.js"), "libjs-three")
 MOST_ROWS = 2000  # of a curve
+MOST_LINES = 20  # of a table that stands as a whole; longer ones are scrolled in a box
 
 
 def esc(text):
@@ -88,7 +89,13 @@ def table(headings, rows, caption="", numeric=()):
     head = f"<thead><tr>{cells('th', ' scope=col', map(esc, headings))}</tr></thead>"
     body = "".join(f"<tr>{cells('td', '', row)}</tr>" for row in rows)
     words = f"<caption>{caption}</caption>" if caption else ""
-    return f'<div class="wide"><table>{words}{head}<tbody>{body}</tbody></table></div>'
+    tall = ' tall" tabindex="0" role="region" aria-label="table' if len(rows) > MOST_LINES else ""
+    return f'<div class="wide{tall}"><table>{words}{head}<tbody>{body}</tbody></table></div>'
+
+
+def run_name(name):
+    """A run's name as code, which may be broken behind its commas alone."""
+    return f'<code class="name">{esc(name).replace(",", ",<wbr>")}</code>'
 
 
 def facts(rows):
@@ -118,6 +125,7 @@ class Page:
     def __init__(self, title, kind, folder):
         self.title, self.kind, self.folder = title, kind, Path(folder)
         self.sections = []  # (id, title, HTML)
+        self.warnings = []  # HTML that stands before all
         self.data = {"plots": [], "arrays": {}}
         self.libraries = []
 
@@ -166,7 +174,8 @@ class Page:
         own = "".join(f"<script>{self.script((HERE / name).read_text(encoding='utf-8'))}</script>\n"
                       for name in ("report.js", "view.js"))
         links = "".join(f'<li><a href="#{i}">{esc(t)}</a></li>' for i, t, _ in self.sections)
-        body = "".join(f'<section id="{i}" aria-labelledby="{i}-h"><h2 id="{i}-h">{esc(t)}</h2>{inner}</section>'
+        warnings = "".join(f'<div class="bad" role="note">{warning}</div>' for warning in self.warnings)
+        body = warnings + "".join(f'<section id="{i}" aria-labelledby="{i}-h"><h2 id="{i}-h">{esc(t)}</h2>{inner}</section>'
                        for i, t, inner in self.sections)
         frame = (HERE / "page.html").read_text(encoding="utf-8")
         style = library_text(DEBIAN / STYLE[0], STYLE[1]) if PLOTS in self.libraries else ""

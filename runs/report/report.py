@@ -4,9 +4,9 @@
 
     report.py FOLDER PAGE.html [--figures FILE.json] [--frames N] [--grains N] [--film FILE] [--program FILE]
 
-`grouser report` calls it, and gives in FILE.json what it computes itself of a run (runs/sweeps/run_figures), and its own file. Exit
-status: 0; 2 where the folder holds no results or damaged ones; 3 where a package is missing, 4 where the page cannot be
-written; the last line then says what.
+`grouser report` calls it, and gives in FILE.json what it computes itself of a run (runs/sweeps/run_figures), and its
+own file. Exit status: 0; 2 where the folder holds no results or damaged ones, or an option is wrong; 3 where a package
+is missing, 4 where the page cannot be written, 130 where it is interrupted; the last line then says what.
 """
 import argparse
 import json
@@ -21,7 +21,7 @@ sys.path[1:1] = [str(HERE.parent / "plots"), str(HERE.parents[1] / "python"),
 sys.dont_write_bytecode = True
 import packages
 
-WRONG, NOT_WRITTEN = 2, 4
+WRONG, NOT_WRITTEN, INTERRUPTED = 2, 4, 130
 KINDS = (("check.json", "check"), ("events.json", "series of events"), ("calibration.json", "calibration"),
          ("soil.json", "soil's tests"), ("summary.csv", "sweep"), ("results.h5", "run"))
 
@@ -37,6 +37,8 @@ def instead(folder):
         there = sorted(inner for inner in folder.iterdir() if inner.is_dir() and kind_of(inner))
     except OSError as error:
         return f"it cannot be read: {error.strerror}"
+    if (folder / "manifest.json").is_file():
+        return "it is the folder of a run without its results.h5; run it again, or take that file from a copy"
     if there:
         more = f" and {len(there) - 3} more" if len(there) > 3 else ""
         return (f"these in it do: {', '.join(str(inner) for inner in there[:3])}{more} (sweeps, checks, events and soils "
@@ -71,6 +73,19 @@ def put(text, file):
     except OSError as error:
         fresh.unlink(missing_ok=True)
         end(NOT_WRITTEN, f"{file}: cannot be written: {error.strerror}")
+    except KeyboardInterrupt:
+        fresh.unlink(missing_ok=True)
+        raise
+
+
+def check_places(options):
+    """What is asked for that cannot be, before anything is read."""
+    import run_page
+    if not options.page.parent.is_dir():
+        end(WRONG, f"--out {options.page}: there is no folder {options.page.parent}; make it, or name a file in another")
+    if options.film and not run_page.is_film(options.film):
+        end(WRONG, f"--film {options.film}: is no film that a browser shows; allowed are {', '.join(run_page.FILMS)}, as "
+                   "grouser render --film drive.mp4 makes one")
 
 
 def main():
@@ -82,13 +97,17 @@ def main():
     parser.add_argument("--program")
     parser.add_argument("--frames", type=int, default=60)
     parser.add_argument("--grains", type=int, default=40000)
-    options = parser.parse_args()
+    make(parser.parse_args())
+
+
+def make(options):
     packages.require("numpy", "h5py")
     try:
         import grouser
     except ImportError:
         end(packages.MISSING, "the Python package grouser is missing, which the program is installed with; set "
                               "PYTHONPATH to the folder that it lies in")
+    check_places(options)
     kind = kind_of(options.folder)
     if kind is None:
         end(WRONG, f"{options.folder}: holds no results; {instead(options.folder)}")
@@ -101,14 +120,17 @@ def main():
         end(packages.MISSING if "javascript" in str(error.filename) else WRONG, f"{error.filename}: {error.strerror}")
     except KeyError as error:
         end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version: they lack {error}")
-    except (OSError, ValueError, RuntimeError, IndexError, TypeError,
-            AttributeError) as error:
-        words = " ".join(str(error).split())
-        end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version: {words}")
+    except OSError as error:
+        end(WRONG, f"{options.folder}: its files of a {kind} cannot be read: {' '.join(str(error).split())}")
+    except (ValueError, RuntimeError, IndexError, TypeError, AttributeError):
+        end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version; make them again")
     text = made.html()
     put(text, options.page)
     print(f"report    {options.page}, {len(text.encode()) / 1e6:.1f} MB; open it in a browser")
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except KeyboardInterrupt:
+        end(INTERRUPTED, "interrupted; no page was written")

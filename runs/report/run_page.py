@@ -3,17 +3,21 @@
 import base64
 import math
 import re
+from pathlib import Path
 
 import numpy
 
+import damage
 import grouser
 import page as pages
 import space
-from page import esc, exact, facts, folded, number, table, with_bar
+from page import esc, exact, facts, folded, number, run_name, table, with_bar
 
 LARGEST_FILM = 4e6  # bytes that lie in the page; larger ones stay beside it
 MOST_BESIDE = 4  # ledgers that stand beside each other
-FILMS = {".mp4": "video/mp4", ".webm": "video/webm", ".mov": "video/mp4"}
+FILMS = {".mp4": "video/mp4", ".webm": "video/webm", ".mov": "video/mp4", ".gif": "image/gif"}
+#: How files of films begin: (place, bytes).
+BEGINNINGS = ((4, b"ftyp"), (4, b"moov"), (4, b"mdat"), (4, b"wide"), (0, b"\x1aE\xdf\xa3"), (0, b"GIF8"))
 
 # Plots of what a run has: title, label of y, names of series. SIDE: left and right.
 CURVES = (
@@ -41,8 +45,7 @@ LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissip
           "integration_error", "residual", "turnover")
 #: What is said of a run by its status, unless it is finished.
 ENDED = {"running": "This run is still going on, or was killed: what is told here is what it had written by then.",
-         "failed": "This run has failed.", "stopped": "This run was stopped before its end; --resume goes on with it.",
-         "unknown": "How this run has ended is not known: it has no manifest.json."}
+         "failed": "This run has failed.", "stopped": "This run was stopped before its end; --resume goes on with it."}
 SPREADS = (("Sinkage of the shoes on the ground run", "sinkage [m]", "sinkage"),
            ("Track tension", "tension [N]", "tension"),
            ("Ground pressure under the shoes", "pressure [Pa]", "ground_pressure"))
@@ -152,6 +155,22 @@ def any_series(made, run):
         "Over all rows of results.h5; of vectors each component.", numeric=range(2, 7)))
 
 
+def part_told(run, since):
+    """Over which part of the run its figures are taken, which begins at `since` [s]; None: there is none such."""
+    end = run.manifest.get("simulated_time_s", run.time[-1] if len(run.time) else 0.0)
+    planned = run.scene.get("run", {}).get("duration", end)
+    if since is None:
+        words = "Of the end of the run, and of all of it: it has no steady part to take means over."
+    elif since >= end:
+        words = f"Of the end of the run, and of all of it: it has not come to the steady part, which would begin at " \
+                f"{number(since, 's', 'steady from')}."
+    else:
+        words = f"Means and extremes from {number(since, 's', 'steady from')} on, as the summary of a sweep has them."
+    if end < planned * (1 - 1e-9):
+        words += f" The run ended at {number(end, 's', 'end')}, before the {number(planned, 's', 'duration')} of its scene."
+    return words
+
+
 def figures(run, options):
     """Figures of the steady part, with the bars of the last check of this scene where there is one."""
     told = options.figures
@@ -170,9 +189,7 @@ def figures(run, options):
             rows.append([esc(plain), number(value, "", plain), esc(unit), *([bar] if check else [])])
     if not rows:
         return f'<p>{esc(told["note"])}</p>' if told.get("note") else ""
-    since = told.get("steady_from")
-    words = "Means and extremes" + (f" from {number(since, 's', 'steady from')} on" if since is not None else "") + \
-        ", as the summary of a sweep has them."
+    words = part_told(run, told.get("steady_from"))
     if check:
         words += (f" Error bars: of the last check of this scene, in <code>{esc(check['folder'])}</code>, commit "
                   f"<code>{esc(check['check']['program']['commit'])}</code>, over its own seeds.")
@@ -212,7 +229,7 @@ def ledger(runs):
              "the integration error make the work of the drives, to the residual.")
     series = {name: next(end[name] for end in ends if name in end) for name in names}
     if len(runs) > MOST_BESIDE:
-        rows = [[f"<code>{esc(run.folder.name)}</code>", *(cell(run, end, name) for name in names)]
+        rows = [[run_name(run.folder.name), *(cell(run, end, name) for name in names)]
                 for run, end in zip(runs, ends)]
         return table(["run", *(f"{short(name)} [{series[name].unit}]" for name in names)], rows, words,
                      numeric=range(1, 1 + len(names)))
@@ -265,11 +282,20 @@ def number_text(value):
     return "" if value is None else f'<data value="{exact(value)}">{value:.0f}</data>'
 
 
+def is_film(file):
+    """Whether a browser shows it, by its name and its first bytes."""
+    if file.suffix.lower() not in FILMS or not file.is_file():
+        return False
+    with open(file, "rb") as opened:
+        head = opened.read(16)
+    return any(head[place:].startswith(mark) for place, mark in BEGINNINGS)
+
+
 def films(folders, options, most=LARGEST_FILM):
     """The films that lie in the folders, or the one that was named: in the page as long as they are small, and where
     the others lie."""
     files = [options.film] if options.film else [f for folder in folders for f in sorted(folder.iterdir())
-                                                 if f.suffix in FILMS and f.is_file()]
+                                                 if is_film(f)]
     shown, beside, taken = [], [], 0
     for file in files:
         size = file.stat().st_size
@@ -278,8 +304,10 @@ def films(folders, options, most=LARGEST_FILM):
             continue
         taken += size
         data = base64.b64encode(file.read_bytes()).decode()
-        shown.append(f'<figure><video controls src="data:{FILMS.get(file.suffix, "video/mp4")};base64,{data}" '
-                     f'aria-label="film {esc(file.name)}"></video><figcaption>{esc(file.name)}</figcaption></figure>')
+        source, words = f'src="data:{FILMS[file.suffix.lower()]};base64,{data}"', f"film {esc(file.name)}"
+        inner = f'<img {source} alt="{words}">' if file.suffix.lower() == ".gif" else \
+            f'<video controls {source} aria-label="{words}"></video>'
+        shown.append(f"<figure>{inner}<figcaption>{esc(file.name)}</figcaption></figure>")
     if beside:
         shown.append(f"<p>Too large to be in this page, beside it: {', '.join(beside)}; <code>--film</code> puts one "
                      "in.</p>")
@@ -287,7 +315,7 @@ def films(folders, options, most=LARGEST_FILM):
 
 
 def page(folder, options):
-    run = grouser.open_run(folder)
+    run = damage.open_whole(Path(folder))
     made = pages.Page(f"{run.folder.resolve().name} (run)", "run", folder)
     failed = ""
     if run.status != "finished":

@@ -3,6 +3,7 @@
 places as 16-bit numbers, shapes of parts once."""
 import numpy
 
+import damage
 import grouser
 import page as pages
 
@@ -177,7 +178,7 @@ def frames_of(run):
         return None, 0, ""
     if not len(still) or not len(still.time):
         return None, 0, ""
-    return still, 1, "frame, of the checkpoint: this run has written no frames (output.frames), so that no parts are seen"
+    return still, 1, f"frame, of the checkpoint: {damage.without_frames(run)}; no parts are seen"
 
 
 def data_of(made, run, place, options, places):
@@ -231,7 +232,7 @@ def words_of(shown, frames, count, total, grains):
 
 def section(made, runs, options):
     """HTML of the view of one run, or of one after the other of several, with its data put into the page: as many as
-    leave it a handy file. Empty where none has anything to be seen."""
+    leave it a handy file. Where none has anything to be seen, why; empty where no view is asked for."""
     if options.frames == 0:
         return ""
     spaces, largest, left = [], 0, 0
@@ -240,12 +241,17 @@ def section(made, runs, options):
         if spaces and before + largest > LARGEST:
             left += 1
             continue
-        data = data_of(made, run, place, options, PLACES if len(runs) == 1 else PLACES / 4)
+        try:
+            data = data_of(made, run, place, options, PLACES if len(runs) == 1 else PLACES / 4)
+        except OSError as error:
+            raise grouser.FileError(f"{run.folder / 'frames.h5'}: cannot be read in whole: it is damaged; run it again, "
+                                    "or take it from a copy") from error
         if data:
             spaces.append(data)
             largest = max(largest, made.bytes() - before)
     if not spaces:
-        return ""
+        why = damage.without_frames(runs[0])
+        return f"<p>Nothing is to be seen in space: {pages.esc(why)}.</p>" if why else ""
     made.need(pages.SPACE)
     made.data["spaces"] = spaces
     return frame_html(spaces, left, any("grains" in s for s in spaces), any("chassis" in s["names"] for s in spaces))

@@ -9,11 +9,12 @@ import subprocess
 
 import numpy
 
+import damage
 import grouser
 import page as pages
 import run_page
 import space
-from page import esc, facts, folded, number, table, with_bar
+from page import esc, facts, folded, number, run_name, table, with_bar
 
 MOST_CURVES = 7
 MOST_SPACES = 16  # runs that can be chosen in space
@@ -69,37 +70,50 @@ def unit_of(key, program):
     return "-"
 
 
-def plots(made, sweep, program):
+def without(keys, *left_out):
+    return {key: value for key, value in keys.items() if key not in left_out}
+
+
+def across_of(sweep, program):
+    """What the plots go over: what stands at the axis, the place of a run's keys on it, the curve they belong to, and
+    words. The first key with several numbers, else the combinations by number; nothing of a single one."""
     key = varied(sweep)
-    if key is None:
+    if key is not None:
+        return (f"{key} [{unit_of(key, program)}]", lambda keys: float(keys[key]),
+                lambda keys: text_of(without(keys, key)), "")
+    names = list(dict.fromkeys(text_of(without(run.keys, "run.seed")) for run in sweep.runs))
+    words = " " + "; ".join(f"{k}: {name}" for k, name in enumerate(names, 1)) + "."
+    return (("combination [-]", lambda keys: names.index(text_of(without(keys, "run.seed"))) + 1.0, lambda keys: "", words)
+            if len(names) > 1 else None)
+
+
+def curves_of(sweep, name, place, curve):
+    """{curve: points by place} of a figure: means over the seeds with their bars, or a point for each run."""
+    groups = {}
+    for mean in sweep.means.get(name, []):
+        half = mean.mean.half_width
+        groups.setdefault(curve(mean.keys), []).append(
+            (place(mean.keys), mean.mean.value, half if math.isfinite(half) else 0.0))
+    for run in sweep.runs if not groups else []:
+        groups.setdefault(curve(run.keys), []).append((place(run.keys), run.figures[name]))
+    return {label: sorted(p for p in points if math.isfinite(p[1])) for label, points in groups.items()}
+
+
+def plots(made, sweep, program):
+    across = across_of(sweep, program)
+    if across is None:
         return ""
-    across = f"{key} [{unit_of(key, program)}]"
+    axis, place, curve, words = across
+    told = "Mean over the seeds; bar: its 95 % interval." if sweep.means else "A point for each run; no bars: one run a level."
     inner = []
     for name in lively(sweep):
-        axis = f"{name} [{sweep.units[name]}]"
-        means = sweep.means.get(name)
-        groups = {}
-        if means:
-            for mean in means:
-                rest = text_of({k: v for k, v in mean.keys.items() if k != key})
-                groups.setdefault(rest, []).append((float(mean.keys[key]), mean.mean.value, mean.mean.half_width))
-            caption = "Mean over the seeds; bar: its 95 % interval."
-        else:
-            for run in sweep.runs:
-                rest = text_of({k: v for k, v in run.keys.items() if k != key})
-                groups.setdefault(rest, []).append((float(run.keys[key]), run.figures[name]))
-            caption = "A point for each run."
-        drawn = []
-        for label, points in list(groups.items())[:MOST_CURVES]:
-            points = sorted(p for p in points if math.isfinite(p[1]))
-            if points:
-                columns = [list(c) for c in zip(*points)]
-                if len(columns) == 3:
-                    columns[2] = [h if math.isfinite(h) else 0.0 for h in columns[2]]
-                drawn.append((label if len(groups) > 1 else name, *columns))
+        groups = curves_of(sweep, name, place, curve)
+        drawn = [(label if len(groups) > 1 else name, *map(list, zip(*points)))
+                 for label, points in list(groups.items())[:MOST_CURVES] if points]
         if drawn:
             more = f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
-            inner.append(made.plot(name[:1].upper() + name[1:], across, axis, drawn, caption + more, marks=True))
+            inner.append(made.plot(name[:1].upper() + name[1:], axis, f"{name} [{sweep.units[name]}]", drawn,
+                                   told + words + more, marks=True, whole=bool(words)))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
@@ -128,23 +142,36 @@ def means_table(sweep):
                  numeric=range(1, 2 + len(names)))
 
 
-def runs_table(sweep):
+def runs_table(sweep, faults):
+    """`faults`: {run: what is wrong with its files}."""
+    def message(run):
+        fault = faults.get(run.name)
+        return esc(run.message) + (f' <strong class="fault">Files: {esc(fault)}</strong>' if fault else "")
+
     names = [n for n in sweep.units if numpy.isfinite(sweep[n].value).any()]
-    rows = [[f"<code>{esc(run.name)}</code>", *(esc(v) for v in run.keys.values()), esc(run.status), esc(run.message),
+    has_words = faults or any(run.message for run in sweep.runs)
+    rows = [[run_name(run.name), *(esc(v) for v in run.keys.values()), esc(run.status),
+             *([message(run)] if has_words else []),
              *(number(run.figures[n], "", f"{run.name} {n}") for n in names), f"<code>{esc(run.state_hash)}</code>"]
             for run in sweep.runs]
-    first = 3 + len(sweep.keys)
-    return table(["run", *sweep.keys, "status", "message", *(f"{n} [{sweep.units[n]}]" for n in names), "state hash"],
-                 rows, "Every run, as summary.csv has it.", numeric=range(first, first + len(names)))
+    first = (3 if has_words else 2) + len(sweep.keys)
+    headings = ["run", *sweep.keys, "status", *(["message"] if has_words else []),
+                *(f"{n} [{sweep.units[n]}]" for n in names), "state hash"]
+    return table(headings, rows, "Every run, as summary.csv has it.", numeric=range(first, first + len(names)))
 
 
 def opened(folders):
-    """The runs of folders that hold some."""
+    """The runs of folders that hold some which can be read."""
     for folder in folders:
         try:
-            yield grouser.open_run(folder)
+            yield damage.open_whole(folder)
         except grouser.FileError:
             continue
+
+
+def faults_of(folders):
+    """{run: what is wrong with its files}, of those of which something is."""
+    return {folder.name: fault for folder in folders if (fault := damage.fault_of(folder))}
 
 
 def add_runs(made, folders, options, words):
@@ -174,13 +201,15 @@ def films(folders, options):
                           options, MOST_FILMS)
 
 
-def first_seeds(sweep):
-    """Folders of the runs that have finished, of each combination the first one."""
+def first_seeds(sweep, faults):
+    """Folders of the runs that have finished and are whole, of each combination the first one."""
     found = {}
     for run in sweep.runs:
         if run.status == "finished":
-            found.setdefault(tuple((k, v) for k, v in run.keys.items() if k != "run.seed"), run.folder)
-    return list(found.values())
+            keys = tuple((k, v) for k, v in run.keys.items() if k != "run.seed")
+            if found.setdefault(keys, run).name in faults and run.name not in faults:
+                found[keys] = run
+    return [run.folder for run in found.values()]
 
 
 def page(folder, options):
@@ -196,8 +225,11 @@ def page(folder, options):
                   ("runs", f"{len(ended)}, of which {ended.count('finished')} have finished")])
     if bad:
         told += "".join(f'<p class="bad">{esc(run.name)}: {esc(run.status)}. {esc(run.message)}</p>' for run in bad)
-    made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep),
-                                                                           opened=not sweep.means))
+    faults = faults_of([run.folder for run in sweep.runs if run.status == "finished"])
+    damage.warn(made, faults, " Their figures are those that summary.csv has kept; what cannot be read is not in the view "
+                "in space and the ledgers.")
+    made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep, faults),
+                                                                           opened=not sweep.means or bool(faults)))
     made.section("plots", "Plots", plots(made, sweep, options.program))
-    add_runs(made, first_seeds(sweep), options, "The first run of each combination.")
+    add_runs(made, first_seeds(sweep, faults), options, "The first run of each combination.")
     return made

@@ -127,6 +127,10 @@ class Browser:
         self.call("Emulation.setEmulatedMedia", media=kind,
                   features=[{"name": "prefers-color-scheme", "value": scheme}])
 
+    def width(self, width, height=1000):
+        """Of the window, from now on."""
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+
     def picture(self, file, height=1000):
         """A PNG of the page, for the eye."""
         import base64

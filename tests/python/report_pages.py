@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What tests of reports have in common: the command, a small scene, pages opened in Chromium."""
+import base64
 import math
 import os
 import subprocess
@@ -36,6 +37,11 @@ picture_width = 200
 """
 
 
+#: A film by its first bytes, and as it stands in a page.
+FILM = b"\0\0\0\x18ftypmp42 a film"
+FILM_TEXT = "data:video/mp4;base64," + base64.b64encode(FILM).decode()
+
+
 def report(folder, *words):
     return subprocess.run([str(grouser.find_program()), "report", str(folder), *words], capture_output=True, text=True)
 
@@ -58,6 +64,7 @@ class PageTest(FolderTest):
         """The page, drawn: without an error, and without asking for anything but itself."""
         page = self.made(folder, *words)
         self.browser.media()
+        self.browser.width(1300)
         self.browser.open(page)
         self.browser.until("document.documentElement.dataset.ready === 'yes'")
         asked = [r for r in self.browser.requests if not r.startswith(("data:", "blob:"))]
@@ -69,6 +76,16 @@ class PageTest(FolderTest):
         if kept := os.environ.get("GROUSER_REPORT_PICTURES"):  # for the eye
             self.browser.picture(f"{kept}/{self.id().rpartition('.')[2]}_{folder}.png", 4000)
         return self.browser
+
+    def fits_narrow_screens(self):
+        """Opened at 320 points, everything unfolded: nothing goes beyond the right edge."""
+        self.browser.width(320)
+        self.browser.open(self.folder / "page.html")
+        self.browser.until("document.documentElement.dataset.ready === 'yes'")
+        self.browser.value("document.querySelectorAll('details').forEach(d => { d.open = true; })")
+        wide, there = self.browser.value("[document.documentElement.scrollWidth, document.documentElement.clientWidth]")
+        self.assertEqual(there, 320)
+        self.assertLessEqual(wide, there)
 
     def plots_are_drawn(self):
         """Every plot has lines of its curves, names with units at both axes, and a legend."""

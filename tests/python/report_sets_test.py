@@ -4,9 +4,10 @@
 import json
 import math
 import unittest
+from shutil import rmtree
 
 import numpy
-from report_pages import GRAINS, PageTest
+from report_pages import FILM, FILM_TEXT, GRAINS, PageTest
 
 import grouser
 
@@ -32,12 +33,87 @@ class Pages(PageTest):
         self.assertGreater(self.colours_in_space()[0], 20)
         firsts = [run for run in sweep.runs if run.keys["run.seed"] == "1"]
         self.runs_are_chosen([run.folder for run in firsts])
-        (firsts[1].folder / "film.mp4").write_bytes(b"a film")
-        (self.folder / "sweep/long.mp4").write_bytes(b"long" * 2000000)
+        (firsts[1].folder / "film.mp4").write_bytes(FILM)
+        (self.folder / "sweep/long.mp4").write_bytes(FILM + b"long" * 2000000)
         self.opened("sweep")
         films = "[...document.querySelectorAll('#films video')].map(v => v.src)"
-        self.assertEqual(self.browser.value(films), ["data:video/mp4;base64,YSBmaWxt"])
+        self.assertEqual(self.browser.value(films), [FILM_TEXT])
         self.assertIn("long.mp4", self.browser.value("document.getElementById('films').textContent"))
+
+    def test_a_sweep_names_runs_whose_files_are_missing_or_damaged(self):
+        """Each with its cause in its row, and on top; the others are shown, the next seed in a lost one's place."""
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.4,0.6", "--seeds", "2", "--out",
+                      "sweep"])
+        self.opened("sweep")
+        self.assertEqual(self.browser.value("document.querySelectorAll('.fault, #content > .bad').length"), 0)
+        runs = [run.folder for run in grouser.open_sweep("sweep").runs]
+        rmtree(runs[0])
+        (runs[1] / "manifest.json").unlink()
+        (runs[2] / "results.h5").write_bytes((runs[2] / "results.h5").read_bytes()[:3000])
+        (runs[3] / "manifest.json").write_text('{"status": ')
+        (runs[4] / "frames.h5").unlink()
+        causes = ("the folder is missing", "without manifest.json it is no readable run", "results.h5: cannot be read",
+                  "manifest.json:1:12: ", "frames.h5 is missing, though the scene asks for frames", "")
+        self.opened("sweep")
+        top = self.browser.value("document.querySelector('#content > .bad').textContent")
+        self.assertIn("5 runs have missing or damaged files", top)
+        rows = self.browser.value("[...document.querySelectorAll('#figures details tbody tr')].map(r => [...r.cells].map("
+                                  "c => c.textContent))")
+        self.assertEqual(len(rows), 6)
+        for row, folder, cause in zip(rows, runs, causes):
+            self.assertEqual(row[0], folder.name)
+            self.assertEqual(any("Files: " in cell for cell in row), bool(cause), row)
+            if cause:
+                self.assertIn(f"Files: {cause}", "".join(row))
+                self.assertIn(f"{folder.name}: {cause}", top)
+        self.assertEqual(self.browser.value("report.data.spaces.map(s => s.name)"), [runs[5].name], "the next seed")
+        ledger = [name for name in self.numbers() if name.endswith("ledger.kinetic at the end")]
+        self.assertEqual(len(ledger), 1, "that of the only combination with a whole run")
+
+    def test_a_check_names_runs_whose_files_are_missing(self):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["check", "grains.toml", "--axes", "step", "--seeds", "2", "--out", "check"])
+        rmtree(self.folder / "check/base,seed=1")
+        self.opened("check")
+        top = self.browser.value("document.querySelector('#content > .bad').textContent")
+        self.assertIn("base,seed=1: ", top)
+        self.assertIn("1 run has missing or damaged files", top)
+
+    def test_sweeps_without_seeds_or_numbers_have_points_without_bars(self):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        for name, words, places in (
+                ("values", ["--set", "material.sand.friction=0.2,0.6"], [0.2, 0.6]),
+                ("cases", ["--case", "slippery: material.sand.friction=0.2", "--case", "rough: material.sand.friction=0.6"],
+                 [1, 2])):
+            grouser.call(["sweep", "grains.toml", *words, "--out", name])
+            self.opened(name)
+            plots = self.browser.value("report.plots.map(p => [p.entry.title, p.entry.curves[0].columns.length, "
+                                       "Array.from(p.curves[0].columns[0]), Array.from(p.curves[0].columns[1])])")
+            force = [plot for plot in plots if plot[0] == "Ground force z"]
+            self.assertEqual(force, [["Ground force z", 2, places, grouser.open_sweep(name)["ground force z"].value.tolist()]])
+            told = self.browser.value("document.querySelector('#plots figcaption').textContent")
+            self.assertIn("no bars: one run a level", told)
+            if name == "cases":
+                self.assertIn("1: case = slippery; 2: case = rough", told)
+
+    def test_a_narrow_screen_shows_a_sweep_without_scrolling_sideways(self):
+        """Names break behind commas, long tables stand in a box that is scrolled, their headings stay in sight."""
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.4", "--set",
+                      "run.gravity=[0,0,-9.81],[0.5,0,-9.81]", "--seeds", "6", "--out", "sweep"])
+        self.opened("sweep")
+        self.fits_narrow_screens()
+        self.browser.width(1300)
+        box = "document.querySelector('#figures details .wide')"
+        self.assertEqual(self.browser.value(f"{box}.querySelectorAll('tbody tr').length"), 24)
+        self.assertLess(self.browser.value(f"{box}.getBoundingClientRect().height"), 810)
+        lines = f"[...{box}.querySelectorAll('tbody code.name')].map(c => c.getClientRects().length && c.offsetHeight)"
+        one_line = self.browser.value("parseFloat(getComputedStyle(document.querySelector('code.name')).lineHeight)")
+        self.assertLess(max(self.browser.value(lines)), 1.5 * one_line)
+        self.browser.value(f"{box}.scrollTop = 400")
+        self.assertAlmostEqual(self.browser.value(f"{box}.querySelector('th').getBoundingClientRect().top - "
+                                                  f"{box}.getBoundingClientRect().top"), 0, delta=1.0)
 
     def runs_are_chosen(self, folders):
         """By keys each run comes into view in turn, with its own frames; and each has its ledger."""

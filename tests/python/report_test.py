@@ -4,14 +4,19 @@
 import json
 import math
 import os
+import signal
 import subprocess
+import time
 import unittest
 
 import numpy
 from fixture import ROOT, FolderTest
-from report_pages import GRAINS, PageTest, report
+from report_pages import FILM, FILM_TEXT, GRAINS, PageTest, report
 
 import grouser
+
+
+SCRIPT = ["/usr/bin/python3", "-B", str(ROOT / "runs/report/report.py")]
 
 
 class Refused(FolderTest):
@@ -71,11 +76,17 @@ class Refused(FolderTest):
         self.refuses("run", ["report.html", "is there already", "--force"])
         self.assertEqual(page.read_bytes(), before)
         self.assertEqual(report("run", "--force").returncode, 0)
-        (self.folder / "run/film.mp4").write_bytes(b"a film")
+        (self.folder / "run/film.mp4").write_bytes(FILM)
+        (self.folder / "run/notes.mp4").write_text("no film")
         self.assertEqual(report("run", "--out", "other.html").returncode, 0)
-        self.assertIn('src="data:video/mp4;base64,YSBmaWxt"', (self.folder / "other.html").read_text())
-        self.assertNotIn("<video", page.read_text())
+        self.assertEqual((self.folder / "other.html").read_text().count(f'src="{FILM_TEXT}"'), 1)
+        self.assertEqual((self.folder / "other.html").read_text().count("<video"), 1)
+        self.assertEqual(page.read_text().count("<video"), 0)
+        for file in ("run/scene.toml", "run/notes.mp4", "run/picture.png"):
+            self.refuses("run", [f"--film {file}", "is no film", ".mp4", ".webm", ".gif"], "--film", file, "--force")
         self.refuses("run", ["nosuch.mp4"], "--film", "nosuch.mp4", "--force")
+        self.refuses("run", ["nodir/x.html", "no folder nodir"], "--out", "nodir/x.html")
+        self.assertFalse((self.folder / "nodir").exists())
         results = (self.folder / "run/results.h5").read_bytes()
         for size in (len(results) // 2, 2000, 100):
             (self.folder / "run/results.h5").write_bytes(results[:size])
@@ -87,8 +98,45 @@ class Refused(FolderTest):
                 (self.folder / "run" / name).write_bytes(damaged)
                 self.refuses("run", [name], "--out", "damaged.html")
             (self.folder / "run" / name).write_bytes(whole)
+        for name in ("manifest.json", "scene.toml", "results.h5"):
+            (self.folder / "run" / name).rename(self.folder / "kept")
+            self.refuses("run", ["run: ", name, "run it again"], "--out", "damaged.html")
+            (self.folder / "kept").rename(self.folder / "run" / name)
+        (self.folder / "run/manifest.json").write_text('{"status": "finished",\n  "figures" 1}')
+        self.refuses("run", ["manifest.json:2:13: ", "make it again"], "--out", "damaged.html")
         self.assertFalse((self.folder / "damaged.html").exists())
         self.assertEqual(list(self.folder.glob("**/*.part")), [])
+
+
+    def test_what_is_interrupted_leaves_nothing(self):
+        """Ctrl-C while the page is made, here while the script asks the program for a unit: one line, exit code 130."""
+        (self.folder / "sweep").mkdir()
+        (self.folder / "sweep/summary.csv").write_text(
+            "run,run.x,status,message,wall time [s],steps,simulated time [s],force [N],state hash,commit\n"
+            "x=1,1,finished,,1,1,1,1,,\nx=2,2,finished,,1,1,1,2,,\n")
+        asked = self.folder / "asked"
+        (self.folder / "program").write_text(f"#!/bin/sh\ntouch {asked}\nexec sleep 60\n")
+        (self.folder / "program").chmod(0o755)
+        started = subprocess.Popen([*SCRIPT, "sweep", "page.html", "--program", str(self.folder / "program")],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+        end = time.monotonic() + 60
+        while not asked.exists() and started.poll() is None and time.monotonic() < end:
+            time.sleep(0.02)
+        os.killpg(started.pid, signal.SIGINT)
+        told = started.communicate(timeout=60)[0]
+        self.assertEqual((started.returncode, told), (130, "interrupted; no page was written\n"))
+        self.assertEqual({file.name for file in self.folder.iterdir()}, {"sweep", "program", "asked"})
+
+    def test_a_page_that_is_interrupted_while_it_is_written_is_taken_back(self):
+        code = ("import os, sys; sys.argv = ['report.py', *sys.argv[2:]]; sys.path.insert(0, sys.argv.pop(1)); "
+                "import report; from pathlib import Path\n"
+                "def interrupted(*_): assert Path('page.html.part').exists(); raise KeyboardInterrupt\n"
+                "os.replace = interrupted\n"
+                "try: report.put('half', Path('page.html'))\nexcept KeyboardInterrupt: sys.exit(130)")
+        done = subprocess.run(["/usr/bin/python3", "-B", "-c", code, "-", str(ROOT / "runs/report")], capture_output=True,
+                              text=True)
+        self.assertEqual((done.returncode, done.stderr), (130, ""))
+        self.assertEqual(list(self.folder.iterdir()), [])
 
 
 class Pages(PageTest):
@@ -235,6 +283,55 @@ class Pages(PageTest):
         self.same(shown["ground force z checked"], force.bar.value, "value")
         self.same(shown["ground force z checked bar"], force.bar.half_width, "bar")
         self.assertEqual(list((self.folder / "run").glob("*.part")), [])
+
+    def test_a_run_without_frames_says_why(self):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        words = "document.getElementById('space').textContent"
+        seen = "document.getElementById('space-words').textContent"
+        grouser.call(["run", "grains.toml", "--set", "output.frames=false", "--out", "none"])
+        self.opened("none")
+        self.assertIn("of the checkpoint: the scene asks for no frames (output.frames = false)", self.browser.value(seen))
+        (self.folder / "none/checkpoint.h5").unlink()
+        self.opened("none")
+        self.assertIn("Nothing is to be seen in space: the scene asks for no frames", self.browser.value(words))
+        grouser.call(["run", "grains.toml", "--out", "lost"])
+        (self.folder / "lost/frames.h5").unlink()
+        self.opened("lost")
+        self.assertIn("frames.h5 is missing, though the scene asks for frames", self.browser.value(seen))
+        (self.folder / "lost/checkpoint.h5").unlink()
+        self.opened("lost")
+        self.assertIn("frames.h5 is missing, though the scene asks for frames", self.browser.value(words))
+        self.opened("lost", "--frames", "0")
+        self.assertFalse(self.browser.value("!!document.getElementById('space')"))
+
+    def test_figures_say_over_which_part_of_the_run_they_are(self):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["run", "grains.toml", "--out", "run", "--steps", "400"])
+        end = grouser.open_run("run").manifest["simulated_time_s"]
+        self.assertAlmostEqual(end, 0.04)
+        figures = [{"name": "force [N]", "value": 1.5}]
+        early = "The run ended at 0.04\u00a0s, before the 0.1\u00a0s of its scene."
+        for since, words in ((None, "it has no steady part"), (0.05, "which would begin at 0.05\u00a0s"),
+                             (0.02, "Means and extremes from 0.02\u00a0s on")):
+            (self.folder / "figures.json").write_text(json.dumps({"figures": figures, "steady_from": since}))
+            subprocess.run([*SCRIPT, "run", "page.html", "--figures", "figures.json"], check=True, capture_output=True)
+            self.browser.open(self.folder / "page.html")
+            caption = self.browser.value("document.querySelector('#figures caption').textContent")
+            self.assertIn(words, caption)
+            self.assertIn(early, caption)
+        grouser.call(["run", "grains.toml", "--out", "whole"])
+        self.opened("whole")
+        caption = self.browser.value("document.querySelector('#figures caption').textContent")
+        self.assertIn("Means and extremes from 0.05\u00a0s on", caption)
+        self.assertNotIn("ended at", caption)
+
+    def test_a_narrow_screen_shows_a_run_without_scrolling_sideways(self):
+        long_name = "a_run_whose_folder_has_a_long_name_without_a_blank_in_it"
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["run", "grains.toml", "--out", long_name])
+        (self.folder / long_name / "film.mp4").write_bytes(FILM)
+        self.opened(long_name)
+        self.fits_narrow_screens()
 
     def test_one_grain_alone(self):
         (self.folder / "grain.toml").write_text(
