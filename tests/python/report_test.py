@@ -4,6 +4,7 @@
 import json
 import math
 import os
+import shlex
 import signal
 import subprocess
 import time
@@ -303,6 +304,21 @@ class Pages(PageTest):
         self.assertIn("frames.h5 is missing, though the scene asks for frames", self.browser.value(words))
         self.opened("lost", "--frames", "0")
         self.assertFalse(self.browser.value("!!document.getElementById('space')"))
+
+    def test_a_command_can_be_given_to_a_shell_again(self):
+        (self.folder / "my folder").mkdir()
+        (self.folder / "my folder/my grains.toml").write_text(GRAINS)
+        words = ["run", "my folder/my grains.toml", "--set", "run.gravity=[0.5, 0, -9.81]", "--set", "run.duration=0.01",
+                 "--out", "out/the run's"]
+        program = str(grouser.find_program())
+        subprocess.run([program, *words], check=True, capture_output=True)
+        self.opened("out/the run's")
+        facts = dict(self.browser.value("[...document.querySelectorAll('#provenance dt')].map(d => [d.textContent, "
+                                        "d.nextElementSibling.textContent])"))
+        self.assertEqual(shlex.split(facts["command"]), [program, *words])
+        (self.folder / "out").rename("before")
+        subprocess.run(facts["command"], shell=True, check=True, capture_output=True)
+        self.assertTrue((self.folder / "out/the run's/results.h5").is_file())
 
     def test_figures_say_over_which_part_of_the_run_they_are(self):
         (self.folder / "grains.toml").write_text(GRAINS)
