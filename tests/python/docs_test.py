@@ -129,6 +129,34 @@ class Sources(unittest.TestCase):
             self.assertIn(package, told)
 
 
+    def test_lines_of_libraries_are_those_that_are_there(self):
+        """Rounded figures of whole files, which may be 15 % off, or 10 lines."""
+        told = []
+        for row in re.findall(r"^\| (.*) \|$", (ROOT / "docs/libraries.md").read_text(encoding="utf-8"), re.M):
+            cells = row.split(" | ")
+            if len(cells) != 3:  # what was counted once
+                continue
+            what, second, third = cells
+            told += re.findall(r"(\d+), ((?:`[^`]+`(?:, )?)+(?: and its header)?)", third)
+            if second.isdigit() and "a part of" not in what:
+                told.append((second, what))
+        self.assertGreater(len(told), 20)
+        for lines, words in told:
+            files = [ROOT / name for name in re.findall(r"`([^`]+)`", words)]
+            if "and its header" in words:
+                files.append(files[0].with_suffix(".hpp"))
+            counted = sum(file.read_text(encoding="utf-8").count("\n") for file in files)
+            self.assertLessEqual(abs(int(lines) - counted), max(10, 0.15 * counted), f"{words}: {counted}")
+
+    def test_every_file_of_a_run_is_described(self):
+        source = (ROOT / "runs/output/output.cpp").read_text(encoding="utf-8")
+        files = re.findall(r'"([^"]+)"', source.split("kFiles[] = {")[1].split("}")[0])
+        self.assertGreater(len(files), 10)
+        table = (ROOT / "docs/results.md").read_text(encoding="utf-8").split("**A run that fails**")[0]
+        for name in files:
+            self.assertIn(f"`{name}`", table)
+
+
 class Followed(FolderTest):
     """A page that is followed in a folder of one's own: files are saved under their names, commands are run."""
 
