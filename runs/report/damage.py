@@ -15,19 +15,29 @@ def open_whole(folder):
     if missing:
         raise grouser.FileError(f"{folder}: without {' and '.join(missing)} it is no readable run; run it again, or take "
                                 "what is missing from a copy")
-    run = grouser.open_run(folder)
     try:
-        run.manifest, run.frames
+        (folder / "scene.toml").read_text(encoding="utf-8")
+    except ValueError as error:
+        raise damaged(folder / "scene.toml") from error
+    try:
+        run = grouser.open_run(folder)
         for name in run:
             run[name]
+        run.constants, run.facts, run.scene
     except grouser.FileError:
-        run.close()
         raise
-    except (OSError, KeyError, AttributeError, TypeError, ValueError) as error:
-        run.close()
-        raise grouser.FileError(f"{run.file}: cannot be read in whole: it is damaged; run it again, or take it from a "
-                                "copy") from error
+    except (OSError, KeyError, RuntimeError, AttributeError, TypeError, ValueError) as error:
+        raise damaged(folder / "results.h5") from error
+    run.manifest
+    try:
+        run.frames
+    except (OSError, KeyError, RuntimeError) as error:
+        raise damaged(folder / "frames.h5") from error
     return run
+
+
+def damaged(file):
+    return grouser.FileError(f"{file}: cannot be read in whole: it is damaged; run it again, or take it from a copy")
 
 
 def without_frames(run):

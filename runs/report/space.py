@@ -232,7 +232,8 @@ def words_of(shown, frames, count, total, grains):
 
 def section(made, runs, options):
     """HTML of the view of one run, or of one after the other of several, with its data put into the page: as many as
-    leave it a handy file. Where none has anything to be seen, why; empty where no view is asked for."""
+    leave it a handy file. Where none has anything to be seen, why; empty where no view is asked for. FileError in the
+    page of a run whose frames are damaged."""
     if options.frames == 0:
         return ""
     spaces, largest, left = [], 0, 0
@@ -243,9 +244,12 @@ def section(made, runs, options):
             continue
         try:
             data = data_of(made, run, place, options, PLACES if len(runs) == 1 else PLACES / 4)
-        except OSError as error:
-            raise grouser.FileError(f"{run.folder / 'frames.h5'}: cannot be read in whole: it is damaged; run it again, "
-                                    "or take it from a copy") from error
+        except (OSError, KeyError, RuntimeError) as error:  # h5py's
+            fault = damage.damaged(run.folder / "frames.h5")
+            if made.kind == "run":
+                raise fault from error
+            damage.warn(made, {run.folder.name: str(fault)}, " It is left out of the view in space.")
+            continue
         if data:
             spaces.append(data)
             largest = max(largest, made.bytes() - before)

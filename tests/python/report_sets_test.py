@@ -70,6 +70,12 @@ class Pages(PageTest):
         self.assertEqual(self.browser.value("report.data.spaces.map(s => s.name)"), [runs[5].name], "the next seed")
         ledger = [name for name in self.numbers() if name.endswith("ledger.kinetic at the end")]
         self.assertEqual(len(ledger), 1, "that of the only combination with a whole run")
+        frames = (runs[5] / "frames.h5").read_bytes()
+        within = frames.rindex(b"SNOD")  # where opening does not see it
+        (runs[5] / "frames.h5").write_bytes(frames[:within] + b"LOST" + frames[within + 4:])
+        self.opened("sweep")
+        self.assertIn(f"{runs[5].name}/frames.h5: cannot be read in whole", self.browser.value(
+            "[...document.querySelectorAll('#content > .bad')].map(e => e.textContent).join(' ')"))
 
     def test_a_check_names_runs_whose_files_are_missing(self):
         (self.folder / "grains.toml").write_text(GRAINS)
@@ -166,6 +172,7 @@ class Pages(PageTest):
             self.same(shown["base,seed=1 ledger.dissipated at the end"], run["ledger.dissipated"].value[-1], "ledger")
         self.assertIn("of the checkpoint", self.browser.value("document.getElementById('space-words').textContent"))
         self.assertGreater(self.colours_in_space()[0], 20)
+        self.fits_narrow_screens()
 
     def test_events(self):
         folder = self.folder / "events"
@@ -196,6 +203,7 @@ class Pages(PageTest):
         self.assertEqual(self.browser.value("[...document.querySelectorAll('#numbers th')].map(h => h.textContent)"),
                          ["figure", "unit", "0.1", "0.2"], "levels in their order")
         self.runs_are_chosen([folder / "grade=0.1", folder / "grade=0.2"])
+        self.fits_narrow_screens()
 
     @staticmethod
     def put_soil(folder):
@@ -219,6 +227,7 @@ class Pages(PageTest):
         self.assertEqual((shown["shear peak_phi"], shown["shear peak_phi bar"], shown["plate 0.1 k"]), (31.25, 0.5, 244.0))
         self.assertEqual(self.browser.value("Array.from(report.plots[0].curves[0].columns[1])"),
                          [1000.0 * k for k in range(20)])
+        self.fits_narrow_screens()
 
     def test_a_calibration(self):
         """Targets beside what was reached, every trial, the soil file, and all that was measured of that soil."""
@@ -256,6 +265,7 @@ class Pages(PageTest):
         (folder / "sand.toml").write_text("[soil]\ntitle = \"of <sand>\"\n")
         self.opened("found")
         self.calibration_is_shown(self.numbers())
+        self.fits_narrow_screens()
 
     def calibration_is_shown(self, shown):
         for name, number in {

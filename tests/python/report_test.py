@@ -4,6 +4,7 @@
 import json
 import math
 import os
+import re
 import shlex
 import signal
 import subprocess
@@ -103,6 +104,16 @@ class Refused(FolderTest):
             (self.folder / "run" / name).rename(self.folder / "kept")
             self.refuses("run", ["run: ", name, "run it again"], "--out", "damaged.html")
             (self.folder / "kept").rename(self.folder / "run" / name)
+        for name in ("results.h5", "frames.h5"):  # within, where opening does not see it
+            whole = (self.folder / "run" / name).read_bytes()
+            nodes = [m.start() for m in re.finditer(b"SNOD", whole)]
+            for node in (nodes[0], nodes[-1]):
+                (self.folder / "run" / name).write_bytes(whole[:node] + b"LOST" + whole[node + 4:])
+                self.refuses("run", [f"run/{name}: cannot be read in whole", "run it again"], "--out", "damaged.html")
+            (self.folder / "run" / name).write_bytes(whole)
+        (self.folder / "run/scene.toml").write_bytes(b"version = \xff")
+        self.refuses("run", ["run/scene.toml: cannot be read in whole"], "--out", "damaged.html")
+        (self.folder / "run/scene.toml").write_text("version = 1")
         (self.folder / "run/manifest.json").write_text('{"status": "finished",\n  "figures" 1}')
         self.refuses("run", ["manifest.json:2:13: ", "make it again"], "--out", "damaged.html")
         self.assertFalse((self.folder / "damaged.html").exists())
@@ -154,6 +165,7 @@ class Pages(PageTest):
         self.any_series_is_drawn(page, "drive")
         self.looks_change(page)
         self.assertEqual(page.errors, [])
+        self.fits_narrow_screens()
         self.opened("drive", "--grains", "100", "--frames", "3")
         self.assertEqual(self.browser.value("[report.space.grains.count, report.space.time.length]"), [100, 3])
 
