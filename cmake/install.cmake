@@ -12,11 +12,23 @@ install(DIRECTORY runs/plots DESTINATION ${share}/runs COMPONENT program FILES_M
 install(DIRECTORY runs/report DESTINATION ${share}/runs COMPONENT program FILES_MATCHING
   PATTERN "*.py" PATTERN "*.js" PATTERN "*.css" PATTERN "*.html" PATTERN "*.txt")
 install(DIRECTORY runs/scenes DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.toml")
-install(DIRECTORY runs/mechanisms DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv")
+install(DIRECTORY runs/mechanisms DESTINATION ${share}/runs COMPONENT program USE_SOURCE_PERMISSIONS FILES_MATCHING
+  PATTERN "*.toml" PATTERN "*.csv" PATTERN "make_mechanisms.py")
 install(DIRECTORY python/grouser DESTINATION ${GROUSER_PYTHON_DIR} COMPONENT program FILES_MATCHING PATTERN "*.py")
-install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+# The documents, which name what is installed, and the examples: cmake/documents.py says where both expect them.
+find_program(GROUSER_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+install(DIRECTORY python/examples DESTINATION ${share}/python COMPONENT program USE_SOURCE_PERMISSIONS
+  FILES_MATCHING PATTERN "*.py")
+install(DIRECTORY tests/install/example DESTINATION ${share} COMPONENT program)
+install(PROGRAMS runs/slurm.sh DESTINATION ${share}/runs COMPONENT program)
+install(FILES CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE RENAME copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN docs/site EXCLUDE)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+  PATTERN docs/site EXCLUDE PATTERN "*.md" EXCLUDE)
+install(CODE "execute_process(COMMAND ${GROUSER_PYTHON} -B ${PROJECT_SOURCE_DIR}/cmake/documents.py
+  \"\${CMAKE_INSTALL_PREFIX}\" ${share} ${CMAKE_INSTALL_DOCDIR} ${GROUSER_PYTHON_DIR} COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT program)
 
 # Manual and completion, from the tables of --help.
 set(manual ${CMAKE_CURRENT_BINARY_DIR}/manual)

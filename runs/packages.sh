@@ -2,15 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs with apt-get what grouser needs and the machine lacks. Sourced by runs/quickstart, tests/run and tests/lint.
 
-GROUSER_PACKAGES=(
-  g++ cmake ninja-build pkg-config git ca-certificates
-  libeigen3-dev libassimp-dev libstb-dev libpng-dev libhdf5-openmpi-dev libopenmpi-dev openmpi-bin libthrust-dev
-  libcli11-dev libtomlplusplus-dev libfmt-dev nlohmann-json3-dev libgtest-dev
-  fonts-dejavu-core python3 python3-h5py python3-numpy python3-matplotlib libjs-three libjs-dygraphs)
+# docs/install.md names all of these, cmake/package.cmake those it runs with; tests/python/docs_test.py compares.
 
-install_packages() {
+GROUSER_BUILD=(
+  g++ cmake ninja-build pkg-config git ca-certificates python3
+  libeigen3-dev libassimp-dev libstb-dev libpng-dev libhdf5-openmpi-dev libopenmpi-dev libthrust-dev
+  libcli11-dev libtomlplusplus-dev libfmt-dev nlohmann-json3-dev)
+GROUSER_RUN=(
+  python3 python3-numpy python3-h5py python3-matplotlib openmpi-bin fonts-dejavu-core libjs-three libjs-dygraphs)
+GROUSER_TESTS=(libgtest-dev clang-format-14)
+# Tests of what a browser shows, and of the site, are left out without them.
+GROUSER_PAGES=(chromium-headless-shell mkdocs)
+
+install_packages() { # install_packages PACKAGE...: these, and what it takes to build and run
   local missing=() package
-  for package in "${GROUSER_PACKAGES[@]}" "$@"; do
+  for package in "${GROUSER_BUILD[@]}" "${GROUSER_RUN[@]}" libgtest-dev "$@"; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return 0

@@ -16,6 +16,6 @@ shift
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1}
 trap 'kill -TERM "$launcher"; wait "$launcher"' TERM
 mpirun -np "${SLURM_NTASKS:?start it with sbatch}" --map-by "ppr:${SLURM_NTASKS_PER_NODE:-4}:node:PE=${SLURM_CPUS_PER_TASK:-1}" \
-  "${GROUSER:-build/bin/grouser}" run "$scene" --device cuda "$@" &
+  "${GROUSER:-$(command -v build/bin/grouser || echo grouser)}" run "$scene" --device cuda "$@" &
 launcher=$!
 wait "$launcher"

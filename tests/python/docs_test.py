@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The documents: commands that they name are there with their options, tutorial and how-tos work as they stand, the
-site has no link that leads nowhere."""
+"""The documents: commands that they name are there with their options, tutorial and how-tos work as they stand, site and
+installed documents have no link that leads nowhere."""
 import math
 import os
 import re
+import shutil
 import subprocess
+import sys
 import unittest
 from functools import cache
 from pathlib import Path
@@ -13,6 +15,9 @@ from pathlib import Path
 from fixture import ROOT, FolderTest
 
 import grouser
+
+sys.path.insert(0, str(ROOT / "cmake"))
+import documents  # noqa: E402
 
 DOCUMENTS = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]
 #: A call of the program in code: its words up to what a shell takes apart.
@@ -127,6 +132,20 @@ class Sources(unittest.TestCase):
             self.assertIn(f"<{name}", told, "docs/libraries.md does not say what this library is for")
         for package in re.findall(r"libjs-\w+", (ROOT / "runs/packages.sh").read_text(encoding="utf-8")):
             self.assertIn(package, told)
+
+    def test_packages_are_those_that_scripts_install(self):
+        def group(name):
+            words = subprocess.run(["bash", "-c", f'. runs/packages.sh; echo "${{{name}[@]}}"'], cwd=ROOT, check=True,
+                                   capture_output=True, text=True).stdout.split()
+            self.assertGreater(len(words), 1, name)
+            return set(words)
+        told = (ROOT / "docs/install.md").read_text(encoding="utf-8").replace("\\\n", "")
+        lists = [set(words.split()) for words in re.findall(r"^    sudo apt install (.*)", told, re.M)]
+        for name in ("GROUSER_BUILD", "GROUSER_RUN", "GROUSER_TESTS", "GROUSER_PAGES"):
+            self.assertIn(group(name), lists, f"docs/install.md does not name the packages {name} of runs/packages.sh")
+        package = (ROOT / "cmake/package.cmake").read_text(encoding="utf-8")
+        needed = re.findall(r'PROGRAM_PACKAGE_(?:DEPENDS|RECOMMENDS)\s+"(.*?)"', package)
+        self.assertEqual({word for words in needed for word in words.split(", ")}, group("GROUSER_RUN"))
 
 
     def test_lines_of_libraries_are_those_that_are_there(self):
@@ -262,6 +281,44 @@ class Site(FolderTest):
         (self.folder / "site/mine.txt").write_text("mine")
         self.assertEqual(self.site(ROOT).returncode, 2)
         self.assertEqual(sorted(p.name for p in (self.folder / "site").iterdir()), ["mine.txt"])
+
+
+class Installed(FolderTest):
+    """Documents as cmake/documents.py installs them; tests/install/run looks at those of a whole installation."""
+
+    LAYOUT = ("share/grouser", "share/doc/grouser", "lib/python3/dist-packages")
+
+    def test_links_and_paths_are_those_of_installed_files(self):
+        for text, fitted in (
+                ("[a](../runs/scenes/drum.toml) [b](keys.md#run)", "[a](../../../grouser/runs/scenes/drum.toml) [b](keys.md#run)"),
+                ("[c](../contact/contact_law.hpp), [d\ne](../tests/run)", "c, d\ne"),
+                ("[f](http://x.org/y) `x[i](j)` ![g](drum.png)", "[f](http://x.org/y) `x[i](j)` ![g](drum.png)"),
+                ("build/bin/grouser run runs/scenes/a.toml; build/bin/grouser_tests",
+                 "grouser run /opt/share/grouser/runs/scenes/a.toml; build/bin/grouser_tests"),
+                ("see (assets/soils), runs/setup/laws.cpp.", "see (/opt/share/grouser/assets/soils), runs/setup/laws.cpp."),
+                ("PYTHONPATH=python x", "PYTHONPATH=/opt/lib/python3/dist-packages x")):
+            self.assertEqual(documents.fitted(text, "docs/x.md", "/opt", *self.LAYOUT), fitted)
+
+    def test_every_link_leads_somewhere(self):
+        share, doc, _ = (self.folder / "opt" / folder for folder in self.LAYOUT)
+        for source, there in documents.SHARED.items():
+            copy = shutil.copytree if (ROOT / source).is_dir() else shutil.copy
+            (share / there).parent.mkdir(parents=True, exist_ok=True)
+            copy(ROOT / source, share / there)
+        shutil.copytree(ROOT / "docs", doc / "docs", ignore=shutil.ignore_patterns("*.md"))
+        subprocess.run([ROOT / "cmake/documents.py", "/opt", *self.LAYOUT], check=True,
+                       env={**os.environ, "DESTDIR": str(self.folder)})
+        def follow():
+            done = subprocess.run([ROOT / "tests/install/documents", "/opt", self.folder], capture_output=True, text=True)
+            return done.returncode, done.stdout + done.stderr
+        self.assertEqual(follow(), (0, ""))
+        (share / "runs/scenes/drum.toml").unlink()
+        (doc / "docs/keys.md").unlink()
+        status, told = follow()
+        self.assertEqual(status, 1)
+        for word in ("surfaces.md: there is no /opt/share/grouser/runs/scenes/drum.toml",
+                     "scenes.md: there is no ../../../grouser/runs/scenes/drum.toml", "README.md: there is no docs/keys.md"):
+            self.assertIn(word, told)
 
 
 if __name__ == "__main__":
