@@ -29,19 +29,21 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
       ->capture_default_str();
   bed.add_option("--radius", b.radius, "[m]")->check(support::positive("a length in metres"))->capture_default_str();
   bed.add_option("--jitter", b.jitter, "of the lattice, as a share of its free gap [-]")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(support::between(0.0, 1.0))
       ->capture_default_str();
   bed.add_option("--friction", b.friction, "Coulomb coefficient [-]")
       ->check(support::notNegative("a number"))
       ->capture_default_str();
-  bed.add_option("--restitution", b.restitution, "[-], above 0")->check(CLI::Range(1e-3, 1.0))->capture_default_str();
+  bed.add_option("--restitution", b.restitution, "[-], above 0")
+      ->check(support::between(1e-3, 1.0))
+      ->capture_default_str();
   bed.add_option("--stiffness", b.stiffness, "[N/m]")
       ->check(support::positive("a stiffness in N/m"))
       ->capture_default_str();
   CLI::Option* const spread =
       bed.add_option("--radii-spread", b.radiiSpread,
                      "radii uniform within this share of their mean, of the same mean volume as --radius [-]")
-          ->check(CLI::Range(0.0, 0.8))
+          ->check(support::between(0.0, 0.8))
           ->capture_default_str();
   bed.add_flag("--hertz", b.hertz, "Hertz' law, as stiff as --stiffness at an overlap of 1e-3 radii");
   bed.add_option("--rolling", b.rolling, "rolling friction [-]")
@@ -69,7 +71,7 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
       ->check(CLI::IsMember({16, 8, 4, 1}))
       ->capture_default_str();
   bed->add_option("--skin", b.skin, "of the neighbour lists, in radii [-]")
-      ->check(CLI::Range(1e-3, 4.0))
+      ->check(support::between(1e-3, 4.0))
       ->capture_default_str();
   bed->add_option("--time-step", b.timeStep, "[s]")
       ->check(support::positive("a time in seconds"))
@@ -144,7 +146,7 @@ void addContacts(CLI::App& benches, const Invocation& invocation) {
                    "about so many, each pair once: a list such as 1e5,1e6,1e7; default: 3e4 to 1e7 on the CPU, 1e6 to "
                    "6e9 on a GPU")
       ->delimiter(',')
-      ->check(CLI::Range(1.0, 6.4e9));
+      ->check(support::between(1.0, 6.4e9));
   contacts->add_flag("--count-only", c.countOnly, "count the pairs, do not store them");
   contacts->add_option("--at-a-time", c.atATime, "spheres sorted at a time; default: all on the CPU, 2.5e8 on a GPU")
       ->check(support::wholeNumber(1));
@@ -172,9 +174,9 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
       "multibody", "The multibody solver alone, on one core: the vehicle's graph, and rings of 46, 92 and 184 shoes");
   multibody->add_option("--vehicle", c.vehicle, "spec file; default: the light tracked vehicle");
   multibody->add_option("--speed", c.speed, "of the sprockets [rad/s]")
-      ->check(CLI::Range(-20.0, 20.0))
+      ->check(support::between(-20.0, 20.0))
       ->capture_default_str();
-  multibody->add_option("--time-step", c.timeStep, "[s]")->check(CLI::Range(1e-6, 1e-4))->capture_default_str();
+  multibody->add_option("--time-step", c.timeStep, "[s]")->check(support::between(1e-6, 1e-4))->capture_default_str();
   multibody->add_option("--steps", c.steps, "of one batch")->check(support::wholeNumber(1))->capture_default_str();
   multibody->add_option("--batches", c.batches, "timed batches")
       ->check(support::wholeNumber(1, 1000))

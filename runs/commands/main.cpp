@@ -2,6 +2,7 @@
 #include "base/comm.hpp"
 #include "base/error.hpp"
 #include "runs/commands/command_entry.hpp"
+#include "runs/commands/manual.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/option_checks.hpp"
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
   // One rank speaks for all.
   if (!ranks.comm().first() && !std::freopen("/dev/null", "w", stdout)) return kOther;
   CLI::App app("grouser drives a tracked vehicle over granular terrain, and says how wrong its answer is.", "grouser");
+  app.formatter(commands::helpFormatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", support::versionText());
   app.footer(

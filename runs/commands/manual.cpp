@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 namespace grouser::commands {
 
@@ -40,8 +41,9 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// "-h, --help", "--seeds".
+/// "-h, --help", "--seeds"; "scene" of a word.
 std::string namesOf(const CLI::Option& option) {
+  if (option.get_positional()) return option.get_name(true);
   std::vector<std::string> names;
   for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
@@ -50,23 +52,42 @@ std::string namesOf(const CLI::Option& option) {
 
 bool takesValue(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// "INT in [0, 1024]", "{auto,cpu}": what stands behind an option; as help has it.
+/// " INT in 0..1024", " {auto,cpu}": what stands behind the name of an option; "" of a flag, and of a word.
 std::string valueOf(const CLI::Option& option) {
+  if (!takesValue(option) || option.get_positional()) return "";
   std::string value = option.get_type_name();
   if (value.empty()) value = "TEXT";
-  return option.get_expected_max() > 1 ? value + " ..." : value;
+  if (!choicesOf(option).empty()) value = value.substr(value.find('{'));
+  std::replace(value.begin(), value.end(), ':', ' '); // CLI11 joins type and check by it
+  return " " + value + (option.get_expected_max() == CLI::detail::expected_max_vector_size ? " ..." : "");
 }
 
+/// " (not with --start)": of options that need or exclude others.
+std::string othersText(const char* relation, const std::set<CLI::Option*>& options) {
+  std::set<std::string> names;
+  for (const CLI::Option* option : options) names.insert(option->get_name());
+  return names.empty() ? "" : fmt::format(" ({} {})", relation, fmt::join(names, ", "));
+}
+
+/// What an option is for, as help has it.
+std::string descriptionOf(const CLI::Option& option) {
+  std::string text = option.get_description();
+  if (!option.get_default_str().empty()) text += fmt::format(" (default: {})", option.get_default_str());
+  if (option.get_required() && !option.get_positional()) text += " (required)";
+  return text + othersText("only with", option.get_needs()) + othersText("not with", option.get_excludes());
+}
+
+/// Help in the words of the manual.
+class HelpFormatter : public CLI::Formatter {
+  std::string make_option_name(const CLI::Option* option, bool) const override { return namesOf(*option); }
+  std::string make_option_opts(const CLI::Option* option) const override { return valueOf(*option); }
+  std::string make_option_desc(const CLI::Option* option) const override { return descriptionOf(*option); }
+};
+
 std::string optionText(const CLI::Option& option) {
-  std::string text = ".TP\n";
-  if (option.get_positional())
-    text += fmt::format("\\fI{}\\fR", roff(option.get_name(true)));
-  else
-    text += fmt::format("\\fB{}\\fR{}", roff(namesOf(option)),
-                        takesValue(option) ? " \\fI" + roff(valueOf(option)) + "\\fR" : "");
-  text += "\n" + roff(option.get_description());
-  if (!option.get_default_str().empty()) text += fmt::format(" (default: {})", roff(option.get_default_str()));
-  return text + "\n";
+  const std::string value = roff(valueOf(option));
+  return fmt::format(".TP\n\\f{}{}\\fR{}\n{}\n", option.get_positional() ? 'I' : 'B', roff(namesOf(option)),
+                     value.empty() ? "" : "\\fI" + value + "\\fR", roff(descriptionOf(option)));
 }
 
 std::string optionsText(const CLI::App& app, bool positional) {
@@ -99,6 +120,28 @@ std::string sectionsOf(const CLI::App& app, const std::string& path, const char*
     text += fmt::format(".SH {}\n{}\n.PP\n{}", roff(upper(name)), roff(command->get_description()),
                         synopsis(*command, name));
     text += sectionsOf(*command, name, ".SS");
+  }
+  return text;
+}
+
+/// A cell of a table in Markdown.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? "\\|" : std::string(1, c);
+  return out;
+}
+
+/// A heading, words and options of each command below `app`, and those of its own.
+std::string commandsInMarkdown(const CLI::App& app, const std::string& path) {
+  std::string text;
+  for (const CLI::App* command : commandsOf(app)) {
+    const std::string name = path + " " + command->get_name();
+    text += fmt::format("\n## {0}\n\n| `{0}` | {1} |\n|---|---|\n", name, cell(command->get_description()));
+    for (const CLI::Option* option : command->get_options()) {
+      if (option == command->get_help_ptr()) continue;
+      text += fmt::format("| `{}{}` | {} |\n", namesOf(*option), valueOf(*option), cell(descriptionOf(*option)));
+    }
+    text += commandsInMarkdown(*command, name);
   }
   return text;
 }
@@ -152,6 +195,8 @@ std::vector<std::string> choicesOf(const CLI::Option& option) {
   return choices;
 }
 
+std::shared_ptr<CLI::Formatter> helpFormatter() { return std::make_shared<HelpFormatter>(); }
+
 std::string manualPage(const CLI::App& app, const CLI::App* command) {
   if (command) {
     const std::string name = "grouser-" + command->get_name(), path = "grouser " + command->get_name();
@@ -163,6 +208,14 @@ std::string manualPage(const CLI::App& app, const CLI::App* command) {
   for (const CLI::App* each : commandsOf(app))
     text += fmt::format(".TP\n\\fBgrouser\\-{}\\fR(1)\n{}\n", roff(each->get_name()), roff(each->get_description()));
   return text + ".SH NOTES\n" + roff(app.get_footer()) + "\n" + kEnvironment;
+}
+
+std::string optionsDocument(const CLI::App& app) {
+  return "<!-- Written by `grouser manual --markdown > docs/options.md`: change the commands in the source, not this "
+         "file. "
+         "-->\n# Options\n\nThe words and options of every command, as `--help` has them. What the commands are for: "
+         "[commands.md](commands.md).\n" +
+         commandsInMarkdown(app, "grouser");
 }
 
 std::string bashCompletion(const CLI::App& app) {

@@ -4,14 +4,21 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 /// The manual and the shell's completion, from the tables that `--help` is made of.
 namespace grouser::commands {
 
+/// Prints `--help` in the words of the manual.
+std::shared_ptr<CLI::Formatter> helpFormatter();
+
 /// A page of section 1, as man(7) reads it. `command`: of `app`'s commands; null: the page of the program itself.
 std::string manualPage(const CLI::App& app, const CLI::App* command);
+
+/// docs/options.md: every command with its words and options.
+std::string optionsDocument(const CLI::App& app);
 
 /// Completion for bash: commands, options, and the words that an option takes; files elsewhere.
 std::string bashCompletion(const CLI::App& app);

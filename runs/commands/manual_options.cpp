@@ -14,7 +14,7 @@ namespace {
 
 struct ManualCommand {
   std::string command, folder;
-  bool completion = false;
+  bool completion = false, markdown = false;
 };
 
 void manualCommand(const CLI::App& app, const ManualCommand& c) {
@@ -22,8 +22,8 @@ void manualCommand(const CLI::App& app, const ManualCommand& c) {
     writeManual(app, c.folder);
     return;
   }
-  if (c.completion) {
-    fmt::print("{}", bashCompletion(app));
+  if (c.completion || c.markdown) {
+    fmt::print("{}", c.completion ? bashCompletion(app) : optionsDocument(app));
     return;
   }
   const CLI::App* command = nullptr;
@@ -46,9 +46,12 @@ void addManual(CLI::App& app, const Invocation&) {
       app.add_subcommand("manual", "The manual page of the program or of a command, for man; completion for bash");
   CLI::Option* name = manual->add_option("command", command->command, "of which command; default: of the program");
   CLI::Option* completion = manual->add_flag("--completion", command->completion, "bash's completion instead");
+  CLI::Option* markdown =
+      manual->add_flag("--markdown", command->markdown, "of all commands, as docs/options.md has it");
   CLI::Option* folder =
       manual->add_option("--folder", command->folder, "write all pages and the completion below this folder instead");
   completion->excludes(name), folder->excludes(name), folder->excludes(completion);
+  markdown->excludes(name), markdown->excludes(completion), markdown->excludes(folder);
   manual->callback([command, &app] { manualCommand(app, *command); });
 }
 

@@ -16,12 +16,12 @@ void addCamera(CLI::App& render, RenderCommand& c) {
       "vehicle (moves with it), all (whatever there is) or a place X,Y,Z [m]; default: vehicle, or all where "
       "there is none");
   render.add_option("--azimuth", c.azimuth, "of the camera about the vertical, 0 is +x [deg]")
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(support::between(-360.0, 360.0))
       ->capture_default_str();
   render
       .add_option("--elevation", c.elevation,
                   "of the camera above the horizon [deg]; default: 14, 30 for a bed, 60 for what lies flat")
-      ->check(CLI::Range(-90.0, 90.0));
+      ->check(support::between(-90.0, 90.0));
   render.add_option("--distance", c.distance, "of the camera from what it looks at [m]; default: it fills the picture")
       ->check(support::positive("a length in metres"));
 }

@@ -38,7 +38,7 @@ template <class Test> CLI::Validator check(const std::string& allowed, const std
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
   const bool isOpen = high == std::numeric_limits<std::int64_t>::max();
   const std::string range = isOpen ? fmt::format("of at least {}", low) : fmt::format("from {} to {}", low, high);
-  return check("a whole number " + range, isOpen ? fmt::format(">= {}", low) : fmt::format("in [{}, {}]", low, high),
+  return check("a whole number " + range, isOpen ? fmt::format(">= {}", low) : fmt::format("in {}..{}", low, high),
                [=](const std::string& text) {
                  const auto n = numberIn<std::int64_t>(text);
                  return n && *n >= low && *n <= high;
@@ -69,11 +69,11 @@ CLI::Validator notNegative(const std::string& what) {
 }
 
 CLI::Validator between(double low, double high) {
-  const std::string range = fmt::format("in [{:g}, {:g}]", low, high);
-  return check("a number " + range, range, [low, high](const std::string& text) {
-    const auto x = numberIn<double>(text);
-    return x && *x >= low && *x <= high; // nan is in no range
-  });
+  return check(fmt::format("a number in [{:g}, {:g}]", low, high), fmt::format("in {:g}..{:g}", low, high),
+               [low, high](const std::string& text) {
+                 const auto x = numberIn<double>(text);
+                 return x && *x >= low && *x <= high; // nan is in no range
+               });
 }
 
 void refuseOptionsAsValues(CLI::App& app) {

@@ -73,6 +73,26 @@ class Commands(unittest.TestCase):
         self.assertEqual(faults_of("run scene.toml --sett a=1".split()), ["grouser run has no --sett"])
         self.assertEqual(faults_of("drive scene.toml".split()), ["there is no command drive"])
 
+    def test_the_page_of_options_is_what_the_program_prints(self):
+        printed = subprocess.run([grouser.find_program(), "manual", "--markdown"], capture_output=True, text=True).stdout
+        self.assertEqual((ROOT / "docs/options.md").read_text(encoding="utf-8"), printed,
+                         "build/bin/grouser manual --markdown > docs/options.md")
+        told = re.split(r"^## grouser ", printed, flags=re.M)[1:]
+        self.assertGreater(len(told), 25)
+        for text in told:
+            name, rows = text.split("\n", 1)
+            options = re.findall(r"^  ((?:-\S+, )*-\S+)", help_of(tuple(name.split())), re.M)
+            self.assertEqual(re.findall(r"^\| `((?:-\S+, )*-[\w-]+)", rows, re.M), options[1:], name)  # but for --help
+
+    def test_help_words_values_plainly(self):
+        self.assertRegex(help_of(("run",)), r"\n  --threads INT in 0\.\.1024 +CPU threads")
+        self.assertRegex(help_of(("run",)), r"\n  --no-cache  +settle")
+        self.assertRegex(help_of(("bench", "bed")), r"--friction FLOAT >= 0 +Coulomb coefficient \[-\] \(default: 0\.5\)")
+        self.assertRegex(help_of(("bench", "bed")), r"--peer-memory \{auto,never,always\}\s")
+        for name in re.findall(r"^## grouser (.*)", (ROOT / "docs/options.md").read_text(encoding="utf-8"), re.M):
+            for line in help_of(tuple(name.split())).split("\n"):
+                self.assertIsNone(re.match(r"  -.*(INT|FLOAT|TEXT)[:=]|  \S* (\S+ )?x \d|  \S*\{false\}", line), f"{name}: {line}")
+
     def test_all_that_documents_name_are_there(self):
         count = 0
         for document in DOCUMENTS:
