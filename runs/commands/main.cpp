@@ -6,6 +6,7 @@
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/option_checks.hpp"
+#include "runs/support/shell_word.hpp"
 #include "runs/support/stop_signals.hpp"
 
 #include <CLI/CLI.hpp>
@@ -96,7 +97,7 @@ std::string commandOf(const std::vector<std::string>& words) {
 void obey(CLI::App& app, int argc, char** argv, const base::Ranks& ranks) {
   const std::vector<std::string> words(argv, argv + argc);
   const std::vector<commands::CommandEntry> all = commands::allCommands();
-  addCommands(app, all, {ranks, fmt::format("{}", fmt::join(words, " "))});
+  addCommands(app, all, {ranks, support::shellLine(words)});
   support::refuseOptionsAsValues(app);
   commands::requireSameCommand(commandOf(words), ranks.comm());
   if (!ranks.comm().first() && argc > 1 && isForFirstRank(words[1], all)) return; // the first ends all where it fails

@@ -47,8 +47,9 @@ std::string lastLine(std::string text) {
 void checkPlaces(const ReportCommand& command, const fs::path& file) {
   std::error_code error;
   if (!fs::is_directory(command.folder, error))
-    throw base::InputError(
-        fmt::format("{}: is no folder; name that of a run, a sweep, a check or a soil's tests", command.folder));
+    throw base::InputError(fmt::format(
+        "{}: is no folder; name that of a run, a sweep, a check, a set of events, a soil's tests or a calibration",
+        command.folder));
   if (fs::is_directory(file, error))
     throw base::InputError(fmt::format("--out {}: is a folder; name a file", file.string()));
   if (!command.force && fs::exists(file, error))
@@ -77,9 +78,9 @@ void reportCommand(const ReportCommand& command) {
                                     "--grains",      std::to_string(command.grains),
                                     "--program",     fs::read_symlink("/proc/self/exe").string()};
   if (!command.film.empty()) words.insert(words.end(), {"--film", command.film});
-  const support::StopSignals signals; // the script gets them too, and ends
+  const support::StopSignals signals; // from a terminal the script gets them too, and ends
   const support::CallOutcome outcome = output::callPython(script, words);
-  if (const int signal = support::StopSignals::received())
+  if (const int signal = support::StopSignals::received(); signal && outcome.status != 0)
     throw support::Stopped(signal,
                            fmt::format("stopped by {}; no page was written", support::StopSignals::name(signal)));
   constexpr int kWrongInput = 2, kNotWritten = 4, kNoProgram = 127;

@@ -11,9 +11,9 @@ namespace grouser::commands {
 void addReport(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<ReportCommand>();
   ReportCommand& r = *command;
-  CLI::App* report = app.add_subcommand(
-      "report", "One page for a browser of all that a run, sweep, check or soil has left: figures with their error "
-                "bars, plots, 3-D view, provenance");
+  CLI::App* report = app.add_subcommand("report", "One page for a browser of all that a run, sweep, check, set of "
+                                                  "events, soil or calibration has left: figures with their error "
+                                                  "bars, plots, 3-D view, provenance");
   report->add_option("folder", r.folder, "the folder of the results")->required();
   report->add_option("--out", r.file, "file of the page; default: report.html in the folder");
   report->add_option("--film", r.film, "film to be in it; default: one that lies in the folder and is not too large");

@@ -3,7 +3,6 @@
 import base64
 import math
 import re
-import shlex
 from pathlib import Path
 
 import numpy
@@ -253,26 +252,11 @@ def switches(manifest):
     return table(["", "feature", "why, or how"], rows, "A feature that is off is not built, not allocated and not run.")
 
 
-def command_of(run):
-    """The command of a run, as a shell takes it. Its manifest has the words with blanks between them: those that are
-    known, overrides and ends of paths, get the quotes that they need."""
-    m = run.manifest
-    line = m["command_line"]
-    paths = [Path(path).parts for path in (m.get("scene", ""), run.folder.resolve())]
-    for ends in [*([o] for o in m.get("overrides", [])), *([str(Path(*p[k:])) for k in range(len(p))] for p in paths)]:
-        for word in ends:  # the longest end of a path that is there
-            whole = rf"(?<![^ =/]){re.escape(word)}(?![^ ])"
-            if re.search(whole, line):
-                line = re.sub(whole, lambda _: shlex.quote(word), line)
-                break
-    return line
-
-
 def provenance(run):
     m, program = run.manifest, run.manifest.get("program", {})
     inputs = [line.rpartition(" ") for line in m.get("inputs", "").strip().split("\n") if line]
     rows = [("status", f"<strong>{esc(run.status)}</strong>"), ("message", esc(m.get("message", ""))),
-            ("command", f"<code>{esc(command_of(run))}</code>" if "command_line" in m else ""),
+            ("command", f"<code>{esc(m["command_line"])}</code>" if "command_line" in m else ""),
             ("scene", f"<code>{esc(m.get('scene', ''))}</code>"),
             ("overridden", ", ".join(f"<code>{esc(o)}</code>" for o in m.get("overrides", []))),
             ("seed", number_text(run.scene.get("run", {}).get("seed"))),

@@ -8,6 +8,7 @@
 #include "runs/support/json_text.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/progress.hpp"
+#include "runs/support/shell_word.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/check_cases.hpp"
 #include "runs/sweeps/check_report.hpp"
@@ -75,24 +76,11 @@ std::string barsText(const nlohmann::json& kept) {
                      kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>(), text);
 }
 
-/// As a shell takes it for one word.
-std::string quoted(const std::string& word) {
-  if (word.find_first_of(" '\"[](),|&;<>*?$") == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) {
-    if (c == '\'')
-      text += "'\\''";
-    else
-      text += c;
-  }
-  return text + "'";
-}
-
 /// The command that checks this scene, with what was overridden.
 std::string commandOf(const scene::Scene& scene) {
-  std::string text = fmt::format("grouser check {}", quoted(scene.file.string()));
+  std::string text = fmt::format("grouser check {}", support::shellWord(scene.file.string()));
   for (const std::string& o : scene.overrides)
-    if (keyOf(o) != "run.seed") text += fmt::format(" --set {}", quoted(o));
+    if (keyOf(o) != "run.seed") text += fmt::format(" --set {}", support::shellWord(o));
   return text;
 }
 
