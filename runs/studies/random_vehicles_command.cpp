@@ -35,10 +35,11 @@ void runAll(const RandomVehicles& c, Pieces& pieces) {
     TrialPlace place;
     place.folder = folder, place.exec = exec, place.spheres = &spheres;
     const RandomVehicle vehicle = randomVehicle(static_cast<std::uint64_t>(c.seed), k);
-    keepTrials(pieces, name, tryRandomVehicle(vehicle, place).trials);
-    // The scene stays, to be run again by `grouser run`.
-    if (const fs::path scene = folder / "scene.toml"; fs::exists(scene))
-      fs::rename(scene, pieces.folder() / "runs" / (name + ".toml"));
+    const RandomOutcome outcome = tryRandomVehicle(vehicle, place);
+    // To be run again by `grouser run`; written first, since with the trials the piece is there.
+    support::replaceTextFile(pieces.folder() / "runs" / (name + ".toml"),
+                             sceneText(vehicle.what, outcome.trials.at(0).step));
+    keepTrials(pieces, name, outcome.trials);
     fs::remove_all(folder);
   }
   progress.finish(fmt::format("{} of {} vehicles are there", c.vehicles - pieces.left(), c.vehicles));

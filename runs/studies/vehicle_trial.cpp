@@ -49,9 +49,7 @@ std::string specText(const std::vector<SpecChange>& changes) {
 /// `step`: 0 for the automatic one.
 scene::Scene parsed(const VehicleCase& what, double step, const fs::path& folder) {
   fs::create_directories(folder);
-  std::string text = fmt::format("version = 1\n[run]\nduration = {:.17g}\n{}", what.until, what.run);
-  if (step > 0) text += fmt::format("time_step = {:.17g}\n", step);
-  text += what.scene;
+  std::string text = sceneText(what, step);
   if (!what.ownVehicle) {
     const fs::path spec = folder / "vehicle.toml";
     support::writeTextFile(spec, specText(what.changes), "--out");
@@ -140,6 +138,12 @@ void drive(simulation::Simulation& run, const VehicleCase& what, VehicleTrial& t
 }
 
 } // namespace
+
+std::string sceneText(const VehicleCase& what, double step) {
+  std::string text = fmt::format("version = 1\n[run]\nduration = {:.17g}\n{}", what.until, what.run);
+  if (step > 0) text += fmt::format("time_step = {:.17g}\n", step);
+  return text + what.scene;
+}
 
 scene::Scene sceneOf(const VehicleCase& what, double step, const fs::path& folder, StepCheck check) {
   return parsed(what, check == StepCheck::none ? 0 : step, folder);

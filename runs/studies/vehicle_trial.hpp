@@ -65,6 +65,9 @@ struct TrialPlace {
 /// Whether the steps are judged before the run, as for a user, or taken as they are.
 enum class StepCheck { asForUsers, none };
 
+/// The scene's file at this step [s]; 0: the automatic one. Without vehicle.spec where that is not its own.
+std::string sceneText(const VehicleCase& what, double step);
+
 /// The scene at this step. Writes its vehicle file into `folder`. Throws InputError where it is refused.
 scene::Scene sceneOf(const VehicleCase& what, double step, const std::filesystem::path& folder,
                      StepCheck check = StepCheck::asForUsers);
