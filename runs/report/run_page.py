@@ -256,7 +256,7 @@ def provenance(run):
     m, program = run.manifest, run.manifest.get("program", {})
     inputs = [line.rpartition(" ") for line in m.get("inputs", "").strip().split("\n") if line]
     rows = [("status", f"<strong>{esc(run.status)}</strong>"), ("message", esc(m.get("message", ""))),
-            ("command", f"<code>{esc(m["command_line"])}</code>" if "command_line" in m else ""),
+            ("command", f"<code>{esc(m['command_line'])}</code>" if "command_line" in m else ""),
             ("scene", f"<code>{esc(m.get('scene', ''))}</code>"),
             ("overridden", ", ".join(f"<code>{esc(o)}</code>" for o in m.get("overrides", []))),
             ("seed", number_text(run.scene.get("run", {}).get("seed"))),

@@ -90,8 +90,8 @@ void quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-std::string failure(const std::filesystem::path& path, const char* what) {
-  return fmt::format("{}: HDF5 could not {}; is the disk full, or the file open elsewhere?", path.string(), what);
+NotWritten failure(const std::filesystem::path& path, const char* what) {
+  return notWritten(path, fmt::format("HDF5 could not {}", what));
 }
 
 } // namespace
@@ -130,7 +130,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlo
   H5Pset_userblock(creation, userBlock);
   // The oldest file format has no "open for writing" mark: a file that a killed program left stays readable.
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
-  if (file < 0) throw NotWritten(failure(path, "create the file"));
+  if (file < 0) throw failure(path, "create the file, which may be open elsewhere");
   return {file, path};
 }
 
@@ -158,7 +158,7 @@ Hdf5File Hdf5File::openShared(const std::filesystem::path& path, const base::Com
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
-  if (file < 0) throw NotWritten(failure(path, "open the file on all ranks"));
+  if (file < 0) throw failure(path, "open the file on all ranks");
   Hdf5File opened(file, path);
   opened.shared_ = true;
   return opened;
@@ -179,7 +179,7 @@ Hdf5File::~Hdf5File() {
 }
 
 void Hdf5File::check(std::int64_t status, const char* what) const {
-  if (status < 0) throw NotWritten(failure(path_, what));
+  if (status < 0) throw failure(path_, what);
 }
 
 void Hdf5File::makeGroup(const std::string& group) {

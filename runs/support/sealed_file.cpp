@@ -134,7 +134,9 @@ void writeSealed(const fs::path& path, const char* kind, int version,
       return;
     }
     seal(part, kind, version);
-    fs::rename(part, path);
+    std::error_code error;
+    fs::rename(part, path, error);
+    if (error) throw notWritten(path, fmt::format("could not be put in place ({})", error.message()));
   } catch (...) {
     std::error_code error;
     fs::remove(part, error);

@@ -43,7 +43,9 @@ void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_
     fs::remove(part, error);
     throw;
   }
-  fs::rename(part, path);
+  std::error_code error;
+  fs::rename(part, path, error);
+  if (error) throw notWritten(path, fmt::format("could not be put in place ({})", error.message()));
 }
 
 void overwriteTextFile(const fs::path& path, const std::string& text) {

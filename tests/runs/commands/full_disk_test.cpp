@@ -104,7 +104,7 @@ TEST_F(FullDisk, LeavesTheLastMomentsWhereNoCheckpointWasAskedFor) {
   const std::string more = " --set run.checkpoint_interval=0 --set output.picture=false";
   const Outcome free = run("--hash --out free" + more);
   ASSERT_EQ(free.code, 0) << free.errors;
-  for (const int kib : {120, 180, 240}) {
+  for (const int kib : {1000, 1100, 1250}) {
     const std::string out = "full" + std::to_string(kib);
     const Outcome o = run("--out " + out + more, "ulimit -c 0; ulimit -f " + std::to_string(2 * kib) + "; ");
     ASSERT_EQ(o.code, 3) << kib << o.errors;
