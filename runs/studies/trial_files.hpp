@@ -16,7 +16,7 @@ struct FigureColumn {
   const char* name;
   double MapFigures::*value;
 };
-inline constexpr std::array<FigureColumn, 11> kTrialFigures{{{"speed [m/s]", &MapFigures::speed},
+inline constexpr std::array<FigureColumn, 13> kTrialFigures{{{"speed [m/s]", &MapFigures::speed},
                                                              {"height [m]", &MapFigures::height},
                                                              {"lowest height [m]", &MapFigures::lowest},
                                                              {"pitch [rad]", &MapFigures::pitch},
@@ -26,7 +26,9 @@ inline constexpr std::array<FigureColumn, 11> kTrialFigures{{{"speed [m/s]", &Ma
                                                              {"dissipated [J]", &MapFigures::dissipated},
                                                              {"integration error [J]", &MapFigures::integrationError},
                                                              {"turnover [J]", &MapFigures::turnover},
-                                                             {"left over [-]", &MapFigures::leftOver}}};
+                                                             {"left over [-]", &MapFigures::leftOver},
+                                                             {"speed magnitude [m/s]", &MapFigures::speedMagnitude},
+                                                             {"power magnitude [W]", &MapFigures::powerMagnitude}}};
 
 /// The runs of one point or vehicle, kept as numbers with their messages beside them.
 void keepTrials(Pieces& pieces, const std::string& name, const std::vector<VehicleTrial>& trials);

@@ -76,9 +76,11 @@ public:
     const simulation::VehicleRig& rig = *run.vehicle();
     const vehicle::Observation now = rig.observe();
     ++samples_;
-    sums_.speed += now.velocity.x, sums_.pitch += now.pitchAngle;
+    sums_.speed += now.velocity.x, sums_.speedMagnitude += std::fabs(now.velocity.x), sums_.pitch += now.pitchAngle;
     sums_.height += rig.state().pose[static_cast<std::size_t>(rig.assembly().chassis)].position.z;
-    double sunk = 0, shoes = 0;
+    double sunk = 0, shoes = 0, power = 0;
+    for (const vehicle::TrackObservation& track : now.tracks) power += track.drivePower;
+    sums_.powerMagnitude += std::fabs(power);
     for (const vehicle::TrackObservation& track : now.tracks)
       for (std::size_t i = 0; i < track.sinkage.size(); ++i)
         if (track.onGround[i] > 0 && std::isfinite(track.sinkage[i])) sunk += track.sinkage[i], ++shoes;
@@ -87,12 +89,13 @@ public:
   void means(MapFigures& f) const {
     if (samples_ == 0) return;
     f.speed = sums_.speed / samples_, f.height = sums_.height / samples_, f.pitch = sums_.pitch / samples_;
+    f.speedMagnitude = sums_.speedMagnitude / samples_, f.powerMagnitude = sums_.powerMagnitude / samples_;
     f.tension = pull_ / steps_;
     if (sunken_ > 0) f.sinkage = sums_.sinkage / sunken_;
   }
 
 private:
-  MapFigures sums_{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  MapFigures sums_{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   double samples_ = 0, sunken_ = 0, pull_ = 0, steps_ = 0;
 };
 

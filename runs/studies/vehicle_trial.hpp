@@ -41,6 +41,8 @@ struct MapFigures {
   double integrationError = NAN; ///< of the whole run [J]
   double turnover = NAN;         ///< absolute work of the whole run [J]
   double leftOver = NAN;         ///< of the books of the whole run over the turnover [-]: rounding
+  double speedMagnitude = NAN;   ///< mean of |speed|: more where it turns back within the window [m/s]
+  double powerMagnitude = NAN;   ///< mean of the drives' |power|: more where they brake and drive in it [W]
 };
 
 enum class TrialEnd { sound, stopped, refused };

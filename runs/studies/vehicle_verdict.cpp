@@ -15,20 +15,21 @@ const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
   // A twentieth of what is measured, and a floor where that is small: a hundredth of the vehicle's walking pace, a
   // tenth of the arms' deflection under its weight, a hundredth of what it takes to drive, and of a strand's pull.
   static const std::vector<ComparedFigure> onRigidGround = {
-      {"speed", "m/s", &MapFigures::speed, 0.05, 0.01},
+      {"speed", "m/s", &MapFigures::speed, 0.05, 0.01, &MapFigures::speedMagnitude},
       {"height", "m", &MapFigures::height, 0, 0.004},
       {"lowest height", "m", &MapFigures::lowest, 0, 0.01},
       {"pitch", "rad", &MapFigures::pitch, 0, 0.005},
-      {"power", "W", &MapFigures::power, 0.05, 30},
+      {"power", "W", &MapFigures::power, 0.05, 30, &MapFigures::powerMagnitude},
       {"tension", "N", &MapFigures::tension, 0.05, 50},
       {"dissipated energy", "J", &MapFigures::dissipated, 0.1, 10}};
   // Grains at another step settle into another bed: two to four standard deviations of the difference of two beds from
   // other seeds, as the map `seeds` measures them (docs/vehicle_stability.md).
-  static const std::vector<ComparedFigure> onGrains = {{"speed", "m/s", &MapFigures::speed, 0.2, 0.05},
-                                                       {"sinkage", "m", &MapFigures::sinkage, 0.2, 0.01},
-                                                       {"power", "W", &MapFigures::power, 0.3, 300},
-                                                       {"tension", "N", &MapFigures::tension, 0.05, 300},
-                                                       {"dissipated energy", "J", &MapFigures::dissipated, 0.2, 50}};
+  static const std::vector<ComparedFigure> onGrains = {
+      {"speed", "m/s", &MapFigures::speed, 0.2, 0.05, &MapFigures::speedMagnitude},
+      {"sinkage", "m", &MapFigures::sinkage, 0.2, 0.01},
+      {"power", "W", &MapFigures::power, 0.3, 300, &MapFigures::powerMagnitude},
+      {"tension", "N", &MapFigures::tension, 0.05, 300},
+      {"dissipated energy", "J", &MapFigures::dissipated, 0.2, 50}};
   return onBed ? onGrains : onRigidGround;
 }
 
@@ -67,8 +68,13 @@ std::string openBooks(const MapFigures& f) {
   return fmt::format("the books leave {:.3g} of the turnover over", f.leftOver);
 }
 
-double allowed(const ComparedFigure& c, double a, double b) {
-  return c.relative * std::max(std::fabs(a), std::fabs(b)) + c.floor;
+double sizeOf(const ComparedFigure& c, const MapFigures& f) {
+  const double value = std::fabs(f.*c.value);
+  return c.magnitude ? std::fmax(value, f.*c.magnitude) : value;
+}
+
+double allowed(const ComparedFigure& c, double size, double finerSize) {
+  return c.relative * std::max(size, finerSize) + c.floor;
 }
 
 /// A figure that is none in one run, in words; empty where all are numbers, or are not to be had in this scene.
@@ -87,7 +93,7 @@ std::string apartInWords(const MapFigures& run, const MapFigures& finer, bool on
   double most = 1;
   for (const ComparedFigure& c : comparedFigures(onBed)) {
     const double a = run.*c.value, b = finer.*c.value;
-    const double may = allowed(c, a, b), over = std::fabs(a - b) / may;
+    const double may = allowed(c, sizeOf(c, run), sizeOf(c, finer)), over = std::fabs(a - b) / may;
     if (!(over > most)) continue; // or not to be had in this scene
     most = over;
     worst = fmt::format("{} is {:.4g} {}, at a quarter of the step {:.4g} {}: {:.3g} apart, more than {:.3g}", c.name,
@@ -114,14 +120,19 @@ struct FigureScatter {
 
 FigureScatter scatterOf(const ComparedFigure& c, const std::vector<TrialPair>& pairs) {
   FigureScatter s;
-  for (std::size_t i = 1; i < pairs.size(); ++i)
-    s.runs.push_back(pairs[i].run.figures.*c.value), s.finer.push_back(pairs[i].finer.figures.*c.value);
+  double size = 0, finerSize = 0; // in the mean
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    const MapFigures &run = pairs[i].run.figures, &finerRun = pairs[i].finer.figures;
+    s.runs.push_back(run.*c.value), s.finer.push_back(finerRun.*c.value);
+    size += sizeOf(c, run) / static_cast<double>(pairs.size() - 1);
+    finerSize += sizeOf(c, finerRun) / static_cast<double>(pairs.size() - 1);
+  }
   const MeanError m = meanOf(s.runs), finer = meanOf(s.finer);
   const double root = std::sqrt(static_cast<double>(s.runs.size()));
   s.mean = m.mean, s.finerMean = finer.mean;
   s.deviation = root * m.error, s.finerDeviation = root * finer.error;
   s.change = unpairedChange(s.runs, s.finer);
-  s.may = allowed(c, s.mean, s.finerMean);
+  s.may = allowed(c, size, finerSize);
   return s;
 }
 

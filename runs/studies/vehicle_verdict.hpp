@@ -27,12 +27,14 @@ struct Judgement {
   std::string why; ///< the message of the guard or of the refusal; for the rest what differs, and by how much
 };
 
-/// A figure that is compared, and what it may differ by: `relative` of the larger of both, and `floor` in its unit.
+/// A figure that is compared, and what it may differ by: `relative` of the larger of both, and `floor` in its unit. One
+/// that may change its sign within the window is a small difference of large ones then: its mean magnitude counts.
 struct ComparedFigure {
   const char* name;
   const char* unit;
   double MapFigures::*value;
   double relative, floor;
+  double MapFigures::*magnitude = nullptr;
 };
 /// On rigid ground, where a run is the same motion at both steps; on a bed, where grains fall into other places.
 const std::vector<ComparedFigure>& comparedFigures(bool onBed);

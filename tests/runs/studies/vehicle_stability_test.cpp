@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 VehicleTrial soundTrial() {
   VehicleTrial t;
-  t.figures = {0.5, 0.4, 0.39, 0.001, 2000, 5000, NAN, 3000, 1, 1e5, 1e-13};
+  t.figures = {0.5, 0.4, 0.39, 0.001, 2000, 5000, NAN, 3000, 1, 1e5, 1e-13, 0.5, 2000};
   return t;
 }
 VehicleTrial stoppedTrial(const std::string& cause) {
@@ -46,6 +46,19 @@ TEST(VehicleVerdict, RunsThatAgreeAreSound) {
   VehicleTrial near = soundTrial();
   near.figures.speed *= 1.02, near.figures.tension *= 0.95;
   EXPECT_EQ(judge(soundTrial(), near, false).verdict, MapVerdict::sound);
+}
+
+/// It turns back within the window, and brakes and drives: 0.08 m/s of 2 m/s, 80 W of 2 kW.
+TEST(VehicleVerdict, AMeanOfBothSignsIsComparedWithItsMagnitude) {
+  VehicleTrial run = soundTrial(), finer = run;
+  run.figures.speed = 0.1, finer.figures.speed = 0.18;
+  run.figures.power = -20, finer.figures.power = 60;
+  run.figures.powerMagnitude = finer.figures.powerMagnitude = 2000;
+  run.figures.speedMagnitude = finer.figures.speedMagnitude = 2;
+  EXPECT_EQ(judge(run, finer, false).verdict, MapVerdict::sound);
+  std::vector<TrialPair> pairs(6, {run, finer});
+  for (TrialPair& p : pairs) p.run.figures.speedMagnitude = p.finer.figures.speedMagnitude = 0.2;
+  EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong) << "that slow a motion is off by its half";
 }
 
 TEST(VehicleVerdict, EveryComparedFigureThatDiffersMakesARunSilentlyWrong) {
@@ -255,14 +268,17 @@ TEST_F(VehicleMaps, TensionIsTheMeanOverAllStepsOfTheWindow) {
   simulation::Simulation run(
       setup::simulationSetup(sceneOf(what, kStep, folder_)), base::cpuExec(1), [](double, double) {}, {}, nullptr,
       sharedSpheres());
-  double sum = 0, pins = 0;
+  double sum = 0, pins = 0, pace = 0;
   while (run.steps() < kEnd) {
     run.step();
     if (run.steps() <= kBegin) continue;
+    if ((run.steps() - kBegin) % 3 == 0) pace += 0.01 * std::fabs(run.vehicle()->observe().velocity.x);
     for (const vehicle::TrackObservation& track : run.vehicle()->observe().tracks)
       for (const double tension : track.tension) sum += tension, ++pins;
   }
   EXPECT_NEAR(trial.figures.tension, sum / pins, 1e-12 * sum / pins) << "rounding";
+  EXPECT_NEAR(trial.figures.speedMagnitude, pace, 1e-12 * pace) << "rounding";
+  EXPECT_GE(trial.figures.powerMagnitude, (1 - 1e-9) * std::fabs(trial.figures.power));
 }
 
 TEST_F(VehicleMaps, AStepThatIsMuchTooLongIsCaughtEvenWhereNobodyRefusesIt) {
@@ -314,10 +330,10 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
   EXPECT_TRUE(fs::exists(runs / "gravity_1.csv") && fs::exists(runs / "mass_1.csv"));
   EXPECT_FALSE(fs::exists(runs / "gravity_0.csv") || fs::exists(folder_ / "results" / "vehicle.csv"));
 
-  const std::string numbers =
-      "step [s],end,reached [s],wall [s],speed [m/s],height [m],lowest height [m],pitch [rad],"
-      "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover [J],left over [-]\n";
-  const std::string row = "1e-4,0,0.7,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n";
+  const std::string numbers = "step [s],end,reached [s],wall [s],speed [m/s],height [m],lowest height [m],pitch [rad],"
+                              "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "
+                              "[J],left over [-],speed magnitude [m/s],power magnitude [W]\n";
+  const std::string row = "1e-4,0,0.7,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n";
   put(runs / "gravity_0.csv", numbers + row + row);
   put(runs / "gravity_0.txt", "\n\n");
   const Outcome sound = call(words + " --resume --seconds 1e-9");
@@ -331,8 +347,8 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
 
   // A finer run that says otherwise ends the study with a code of its own.
   const auto withSpeeds = [&numbers](double run, double finer) {
-    return fmt::format("{}1e-4,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n"
-                       "2.5e-5,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0\n",
+    return fmt::format("{}1e-4,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n"
+                       "2.5e-5,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n",
                        numbers, run, finer);
   };
   put(runs / "gravity_0.csv", withSpeeds(0.5, 0.9));
