@@ -2,6 +2,7 @@
 #include "runs/support/shared_work.hpp"
 
 #include "base/error.hpp"
+#include "base/shared_memory.hpp"
 #include "runs/support/stop_signals.hpp"
 
 #include <fmt/format.h>
@@ -11,9 +12,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -37,15 +40,33 @@ void say(int pipe, const std::string& text) {
   }
 }
 
-[[noreturn]] void child(int pipe, std::size_t first, std::size_t step, std::size_t count,
-                        const std::function<void(std::size_t)>& work) {
+/// What is to be done next, for all processes.
+class NextPiece {
+public:
+  NextPiece() : block_(base::createShared(sizeof(Number))) {
+    if (!block_.memory) throw std::runtime_error("no memory to share among processes; take --jobs 1 or --processes 1");
+    number_ = new (block_.memory) Number(0);
+  }
+  ~NextPiece() { base::closeShared(block_.memory, sizeof(Number)), base::endSharing(block_); }
+  NextPiece(const NextPiece&) = delete;
+  NextPiece& operator=(const NextPiece&) = delete;
+  std::size_t take() { return number_->fetch_add(1); }
+
+private:
+  using Number = std::atomic<std::size_t>;
+  static_assert(Number::is_always_lock_free);
+  base::SharedBlock block_;
+  Number* number_ = nullptr;
+};
+
+[[noreturn]] void child(int pipe, NextPiece& next, std::size_t count, const std::function<void(std::size_t)>& work) {
   // The parent decides what a signal means, and no child outlives it.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   try {
-    for (std::size_t i = first; i < count; i += step) {
+    for (std::size_t i = next.take(); i < count; i = next.take()) {
       work(i);
       say(pipe, {kDone});
     }
@@ -60,7 +81,6 @@ void say(int pipe, const std::string& text) {
 struct Child {
   pid_t process = -1;
   int pipe = -1;
-  std::size_t due = 0; ///< pieces it still has to do
   std::string message; ///< kind and text of a failure
 };
 
@@ -81,17 +101,16 @@ public:
   std::vector<Child> all;
 };
 
-void start(Children& children, std::size_t first, std::size_t step, std::size_t count,
-           const std::function<void(std::size_t)>& work) {
+void start(Children& children, NextPiece& next, std::size_t count, const std::function<void(std::size_t)>& work) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error(fmt::format("no pipe to a process: {}", std::strerror(errno)));
   const pid_t process = fork();
   if (process == 0) {
     close(ends[0]);
-    child(ends[1], first, step, count, work);
+    child(ends[1], next, count, work);
   }
   close(ends[1]);
-  children.all.push_back({process, ends[0], first < count ? (count - first + step - 1) / step : 0, ""});
+  children.all.push_back({process, ends[0], ""});
   if (process < 0) throw std::runtime_error(fmt::format("no process could be started: {}", std::strerror(errno)));
 }
 
@@ -101,12 +120,10 @@ bool listen(Child& c, const std::function<void()>& done) {
   const ssize_t n = read(c.pipe, buffer, sizeof buffer);
   if (n < 0 && errno == EINTR) return true;
   for (ssize_t i = 0; i < n; ++i) {
-    if (c.message.empty() && buffer[i] == kDone) {
-      --c.due;
+    if (c.message.empty() && buffer[i] == kDone)
       done();
-    } else {
+    else
       c.message += buffer[i];
-    }
   }
   return n > 0;
 }
@@ -118,7 +135,6 @@ void judge(const Child& c, int status) {
   if (WIFSIGNALED(status))
     throw std::runtime_error(fmt::format("one of the processes was ended by signal {}{}", WTERMSIG(status),
                                          WTERMSIG(status) == SIGKILL ? "; out of memory? Take fewer --processes" : ""));
-  if (c.due) throw std::runtime_error("one of the processes ended before its work was done");
 }
 
 } // namespace
@@ -134,17 +150,20 @@ void shareWork(int processes, std::size_t count, const std::function<void(std::s
     }
     return;
   }
+  NextPiece next;
   Children children;
-  const std::size_t step = std::min(static_cast<std::size_t>(processes), std::max<std::size_t>(count, 1));
-  for (std::size_t k = 0; k < step; ++k) start(children, k, step, count, work);
-  for (std::size_t running = step; running > 0;) {
+  const std::size_t all = std::min(static_cast<std::size_t>(processes), std::max<std::size_t>(count, 1));
+  for (std::size_t k = 0; k < all; ++k) start(children, next, count, work);
+  std::size_t ready = 0;
+  const auto oneMore = [&] { ++ready, done(); };
+  for (std::size_t running = all; running > 0;) {
     std::vector<pollfd> ends;
     for (const Child& c : children.all) ends.push_back({c.process > 0 ? c.pipe : -1, POLLIN, 0});
     poll(ends.data(), ends.size(), kPause);
     if (const int signal = StopSignals::received()) stopped(signal);
-    for (std::size_t k = 0; k < step; ++k) {
+    for (std::size_t k = 0; k < all; ++k) {
       Child& c = children.all[k];
-      if (!(ends[k].revents & (POLLIN | POLLHUP)) || listen(c, done)) continue;
+      if (!(ends[k].revents & (POLLIN | POLLHUP)) || listen(c, oneMore)) continue;
       int status = 0;
       waitpid(c.process, &status, 0);
       c.process = -1;
@@ -152,6 +171,7 @@ void shareWork(int processes, std::size_t count, const std::function<void(std::s
       judge(c, status);
     }
   }
+  if (ready < count) throw std::runtime_error("one of the processes ended before its work was done");
 }
 
 } // namespace grouser::support
