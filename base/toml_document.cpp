@@ -178,7 +178,7 @@ Document Document::load(const std::filesystem::path& path, const std::vector<std
   if (there && !std::filesystem::is_regular_file(path, error))
     throw InputError(fmt::format("{}: is no file; name one that holds what this program reads", path.string()));
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: cannot be read; check the path", path.string()));
+  if (!file) throw InputError(fmt::format("{}: cannot be read; check the path and its permissions", path.string()));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   return parse(text, path.string(), overrides);
 }

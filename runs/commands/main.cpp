@@ -113,6 +113,7 @@ int main(int argc, char** argv) {
   waitBriefly(argv);
   // A limit to the size of files is met as a full disk is: by a message, not by the signal's silent end.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGCHLD, SIG_DFL); // ignored, as some supervisors leave it, it would take the ends of processes away
   const base::Ranks ranks(argc, argv);
   // One rank speaks for all.
   if (!ranks.comm().first() && !std::freopen("/dev/null", "w", stdout)) return kOther;

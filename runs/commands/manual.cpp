@@ -256,8 +256,10 @@ complete -o bashdefault -o default -F _grouser grouser
 
 void writeManual(const CLI::App& app, const std::filesystem::path& folder) {
   const std::filesystem::path pages = folder / "man/man1", completions = folder / "bash-completion/completions";
-  std::filesystem::create_directories(pages);
-  std::filesystem::create_directories(completions);
+  for (const std::filesystem::path& made : {pages, completions})
+    if (std::error_code error; std::filesystem::create_directories(made, error), error)
+      throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with --folder",
+                                         made.string(), error.message()));
   support::replaceTextFile(pages / "grouser.1", manualPage(app, nullptr));
   for (const CLI::App* command : commandsOf(app))
     support::replaceTextFile(pages / ("grouser-" + command->get_name() + ".1"), manualPage(app, command));

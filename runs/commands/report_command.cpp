@@ -20,11 +20,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+fs::path temporaryFolder() {
+  std::error_code error;
+  fs::path folder = fs::temp_directory_path(error);
+  if (error) throw base::InputError("TMPDIR names no folder; set it to one for temporary files");
+  return folder;
+}
+
 /// A file for what the program has to tell the scripts; gone with this.
 class PassedFile {
 public:
   explicit PassedFile(const std::string& text)
-      : path_(fs::temp_directory_path() / fmt::format("grouser_report_{}.json", getpid())) {
+      : path_(temporaryFolder() / fmt::format("grouser_report_{}.json", getpid())) {
     support::replaceTextFile(path_, text);
   }
   ~PassedFile() {

@@ -57,7 +57,9 @@ double medianOf(std::vector<double> values) {
 }
 
 void stopStudyIfAsked() {
-  if (const int signal = support::StopSignals::received()) throw support::Stopped(signal, "the study was stopped");
+  if (const int signal = support::StopSignals::received())
+    throw support::Stopped(signal, fmt::format("stopped by {}; tests that are whole stay in the folder",
+                                               support::StopSignals::name(signal)));
 }
 
 } // namespace grouser::studies

@@ -5,8 +5,8 @@
 #include "runs/output/plots.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_setup.hpp"
+#include "runs/studies/common.hpp"
 #include "runs/support/locations.hpp"
-#include "runs/support/stop_signals.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -84,7 +84,7 @@ Measured measure(const StudyCase& c, const scene::Scene& scene, double step, std
     const simulation::Mechanism::Drift drift = mechanism.drift();
     m.position = std::max(m.position, drift.position), m.velocity = std::max(m.velocity, drift.velocity);
     m.energy = std::max(m.energy, std::fabs(energy() - start));
-    if (const int signal = support::StopSignals::received()) throw support::Stopped(signal, "the study was stopped");
+    stopStudyIfAsked();
   }
   m.error = std::sqrt(sum / static_cast<double>(samples));
   return m;

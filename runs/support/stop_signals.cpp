@@ -12,12 +12,14 @@ volatile std::sig_atomic_t signalReceived = 0;
 /// SIGHUP: the terminal is gone.
 constexpr std::pair<int, const char*> kKept[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
 struct sigaction former[std::size(kKept)];
+int watchers = 0;
 
 extern "C" void keepSignal(int signal) { signalReceived = signal; }
 
 } // namespace
 
 StopSignals::StopSignals() {
+  if (watchers++ > 0) return; // what the outer one has received still counts
   signalReceived = 0;
   struct sigaction action {};
   action.sa_handler = keepSignal;
@@ -30,6 +32,7 @@ StopSignals::StopSignals() {
 }
 
 StopSignals::~StopSignals() {
+  if (--watchers > 0) return;
   for (std::size_t i = 0; i < std::size(kKept); ++i) sigaction(kKept[i].first, &former[i], nullptr);
 }
 

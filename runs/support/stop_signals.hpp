@@ -17,7 +17,7 @@ private:
 };
 
 /// While an object of this kind lives, the first SIGINT, SIGTERM or SIGHUP is kept for the run to act on at the end of
-/// its step. A second one ends the program at once, as ever.
+/// its step. A second one ends the program at once, as ever. They may be nested; not for threads.
 class StopSignals {
 public:
   StopSignals();

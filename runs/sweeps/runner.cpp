@@ -62,6 +62,14 @@ void checkRunFolder(const fs::path& folder) {
         "{}: stands where a run's folder should be; name another with --out, or use it with --force", folder.string()));
 }
 
+/// A sweep's files beside those of a run would hide what the run has.
+void requireNoRun(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "manifest.json", error))
+    throw base::InputError(
+        fmt::format("{}: holds the results of a run; name another folder with --out", folder.string()));
+}
+
 /// Waits for a run that is still ending in this folder: one of a sweep that was killed writes a checkpoint first.
 void awaitFormer(const fs::path& folder) {
   constexpr auto kPatience = std::chrono::seconds(60);
@@ -188,7 +196,9 @@ private:
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     for (auto it = running_.begin(); it != running_.end();) {
       int status = 0;
-      if (waitpid(it->first, &status, WNOHANG) != it->first) {
+      const pid_t ended = waitpid(it->first, &status, WNOHANG);
+      if (ended < 0) throw std::runtime_error(fmt::format("a run was lost: {}", std::strerror(errno)));
+      if (ended != it->first) {
         ++it;
         continue;
       }
@@ -199,10 +209,11 @@ private:
   }
 
   /// The runs end after their step. Nothing of them is kept but what they leave.
-  [[noreturn]] void stop(int signal) {
+  void stop(int signal) {
     stopping_ = true;
     for (const auto& [process, run] : running_) kill(process, SIGTERM);
     while (!running_.empty()) reap();
+    if (countFinished() == static_cast<std::ptrdiff_t>(outcomes_.size())) return;
     throw support::Stopped(signal, fmt::format("stopped by {} after {} of {} runs; the same command does the others",
                                                support::StopSignals::name(signal), countFinished(), outcomes_.size()));
   }
@@ -260,6 +271,7 @@ std::string identity(scene::Scene scene) {
 
 std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
                                      const OutcomesChanged& changed) {
+  requireNoRun(options.folder);
   for (const SweepRun& run : plan.runs) {
     if (!options.force) checkRunFolder(options.folder / run.name);
     if (run.scene.run.device == support::DeviceChoice::cuda && !base::cudaAvailable())

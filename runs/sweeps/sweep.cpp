@@ -40,6 +40,8 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   if (!options.force) checkSweepFiles(options.folder);
   const std::vector<SweepOutcome> outcomes = runMissing(
       plan, options, "sweep", [&](const std::vector<SweepOutcome>& now) { writeSummary(plan, now, options.folder); });
+  // Of an earlier sweep with other values.
+  for (const char* name : {kIntervalsFile, kSummaryPlot}) fs::remove(options.folder / name);
   std::vector<fs::path> tables = {options.folder / kSummaryFile};
   const SweepFigures figures = sweepFigures(plan, outcomes, options.folder);
   const SeedIntervals intervals = seedIntervals(plan, figures);

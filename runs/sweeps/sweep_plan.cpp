@@ -45,6 +45,8 @@ Axis axisOf(const std::string& set) {
     throw InputError(fmt::format(
         "--set {}: no value is given; write key=value,value..., e.g. --set driver.sprocket_speed=1,2", set));
   Axis axis{set.substr(0, equals), {}};
+  if (axis.key == "output.folder")
+    throw InputError(fmt::format("--set {}: a sweep gives each run its folder; name that of all with --out", set));
   const std::vector<std::string> values = splitValues(std::string_view(set).substr(equals + 1));
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i].empty())

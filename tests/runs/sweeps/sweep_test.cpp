@@ -295,6 +295,29 @@ TEST_F(Sweep, ARunThatIsKilledIsAFailedRun) {
   EXPECT_NE(Csv(out() / "summary.csv").at(0, "message").find("signal 9"), std::string::npos);
 }
 
+TEST_F(Sweep, TablesOfAnEarlierOneDoNotStay) {
+  ASSERT_EQ(call("sweep fall.toml --set material.glass.restitution=0.3,0.9 --seeds 2 --out s").code, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "s/intervals.csv"));
+  ASSERT_EQ(call("sweep fall.toml --set material.glass.restitution=0.5,0.6 --out s").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "s/intervals.csv")) << "of other values";
+}
+
+TEST_F(Sweep, TheFolderOfARunIsNone) {
+  ASSERT_EQ(call("run fall.toml --out one").code, 0);
+  const Outcome o = call("sweep fall.toml --set run.seed=1,2 --out one");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.error().find("one: holds the results of a run"), std::string::npos) << o.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "one/summary.csv"));
+  EXPECT_EQ(call("sweep fall.toml --set output.folder=a,b").code, 2);
+}
+
+TEST_F(Sweep, WhoeverStartedItMayIgnoreEndsOfProcesses) {
+  const Outcome o = shell("/usr/bin/python3 -c \"import os, signal, sys; signal.signal(signal.SIGCHLD, "
+                          "signal.SIG_IGN); os.execv(sys.argv[1], sys.argv[1:])\" \"$grouser\" sweep fall.toml "
+                          "--set run.seed=1,2 --out s");
+  EXPECT_EQ(o.code, 0) << o.errors;
+}
+
 TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
   fs::create_directories(out() / "seed=2");
   std::ofstream(out() / "seed=2/thesis.txt") << "precious";
