@@ -61,8 +61,8 @@ void addPivot(std::vector<Figure>& figures, const Motion& m, const sweeps::RunSe
               const Trial& trial, const Course& course) {
   const LateChange turn = lateChange(m, m.turned);
   const double rate = turn.change / turn.seconds, rp = course.shape.pitchRadius, tread = course.shape.tread;
-  const double left = lateMean(series, "vehicle.left.drive_torque [N m]", driveStart),
-               right = lateMean(series, "vehicle.right.drive_torque [N m]", driveStart);
+  const double left = lateMean(series, "vehicle.left.mean_torque [N m]", driveStart),
+               right = lateMean(series, "vehicle.right.mean_torque [N m]", driveStart);
   figures.push_back({"rate of turn [rad/s]", rate});
   figures.push_back({"rate over commanded [-]", rate / trial.rate});
   figures.push_back({"moment of the drives [N m]", (right - left) / rp * tread / 2});

@@ -37,7 +37,7 @@ CallOutcome callProgram(std::vector<std::string> words) {
     pollfd end{ends[0], POLLIN, 0};
     poll(&end, 1, kBetweenLooks);
     // Who stops this program by its number means the other one too. From a terminal that has had it already.
-    if (StopSignals::received() && !std::exchange(told, true)) kill(child, SIGINT);
+    if (StopSignals::received() && !std::exchange(told, true)) kill(child, SIGTERM);
     if (!(end.revents & (POLLIN | POLLHUP))) continue;
     const ssize_t n = read(ends[0], buffer.data(), buffer.size());
     if (n <= 0) break;

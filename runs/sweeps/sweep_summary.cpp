@@ -49,17 +49,6 @@ public:
     for (const double v : rows(path)) spread.add(v);
     return spread;
   }
-  /// Sum over the tracks of the mean product of two quantities of one number a row.
-  double meanProduct(const std::string& a, const std::string& b) const {
-    double sum = 0;
-    for (const std::string side : {"left", "right"}) {
-      const std::vector<double> x = rows("vehicle/" + side + "/" + a), y = rows("vehicle/" + side + "/" + b);
-      Spread spread;
-      for (std::size_t i = 0; i < x.size(); ++i) spread.add(x[i] * y[i]);
-      sum += spread.mean();
-    }
-    return sum;
-  }
   /// Over both tracks and all shoes.
   Spread ofTracks(const std::string& name) const {
     Spread spread;
@@ -158,21 +147,22 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
   const double speed = steady.ofTracks("speed").mean();
   const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
   const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
-  const std::vector<Figure> ofVehicle{{"steady from [s]", file ? from : base::kNaN},
-                                      {"teeth passed [-]", 0.5 * (steady.change("vehicle/left/teeth_passed") +
-                                                                  steady.change("vehicle/right/teeth_passed"))},
-                                      {"speed [m/s]", speed},
-                                      {"slip [-]", asked != 0 ? 1 - speed / asked : base::kNaN},
-                                      {"sinkage mean [m]", sinkage.mean()},
-                                      {"sinkage max [m]", sinkage.most},
-                                      {"drive torque [N m]", steady.of("vehicle/left/drive_torque").mean() +
-                                                                 steady.of("vehicle/right/drive_torque").mean()},
-                                      {"drive power [W]", steady.meanProduct("drive_torque", "sprocket_speed")},
-                                      {"tension mean [N]", tension.mean()},
-                                      {"tension peak [N]", tension.most},
-                                      {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
-                                      {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
-                                      {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()}};
+  const std::vector<Figure> ofVehicle{
+      {"steady from [s]", file ? from : base::kNaN},
+      {"teeth passed [-]",
+       0.5 * (steady.change("vehicle/left/teeth_passed") + steady.change("vehicle/right/teeth_passed"))},
+      {"speed [m/s]", speed},
+      {"slip [-]", asked != 0 ? 1 - speed / asked : base::kNaN},
+      {"sinkage mean [m]", sinkage.mean()},
+      {"sinkage max [m]", sinkage.most},
+      {"drive torque [N m]",
+       steady.of("vehicle/left/mean_torque").mean() + steady.of("vehicle/right/mean_torque").mean()},
+      {"drive power [W]", steady.of("vehicle/left/drive_power").mean() + steady.of("vehicle/right/drive_power").mean()},
+      {"tension mean [N]", tension.mean()},
+      {"tension peak [N]", tension.most},
+      {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
+      {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
+      {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()}};
   figures.insert(figures.begin(), ofVehicle.begin(), ofVehicle.end());
   figures.push_back({"impulse residual [N s]", steady.lastNorm("ledger/impulse_residual")});
   return figures;

@@ -46,7 +46,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
       {"vehicle/motion_resistance", "N", "", 1, {}}, {"ledger/drive_work", "J", "", 1, {}},
       {"ledger/integration_error", "J", "", 1, {}},  {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
   for (const std::string side : {"left", "right"}) {
-    for (const char* scalar : {"sprocket_speed", "speed", "drive_torque", "teeth_passed"})
+    for (const char* scalar : {"sprocket_speed", "speed", "mean_torque", "drive_power", "teeth_passed"})
       channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});
     for (const char* shoes : {"sinkage", "tension"})
       channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 3, {}});
@@ -59,7 +59,8 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
     const double u = r < 20 ? 50 : (r - 25) / 5.0;
     row.begin(100 * r, 0.1 * r);
     row.set("vehicle/left/sprocket_speed", 3 + u), row.set("vehicle/right/sprocket_speed", 2 - 0.5 * u);
-    row.set("vehicle/left/drive_torque", 400 + 100 * u), row.set("vehicle/right/drive_torque", 300 + 60 * u);
+    row.set("vehicle/left/mean_torque", 400 + 100 * u), row.set("vehicle/right/mean_torque", 300 + 60 * u);
+    row.set("vehicle/left/drive_power", 1240 + 700 * u), row.set("vehicle/right/drive_power", 588 - 30 * u);
     row.set("vehicle/left/speed", 0.5 + 0.2 * u), row.set("vehicle/right/speed", 0.3 - 0.1 * u);
     row.set("vehicle/left/teeth_passed", 10 + 5 * u), row.set("vehicle/right/teeth_passed", 20 + 3 * u);
     // One shoe sinks, one comes up, one carries in one row only.
@@ -89,7 +90,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
   expectNine(number("speed [m/s]"), 0.4, "speed");
   expectNine(number("slip [-]"), 1 - 0.4 / (2.5 * 0.25), "slip");
   expectNine(number("drive torque [N m]"), 700, "torque");
-  expectNine(number("drive power [W]"), 400 * 3 + 100 * 0.4 + 300 * 2 - 30 * 0.4, "power: of the products");
+  expectNine(number("drive power [W]"), 1240 + 588, "power");
   expectNine(number("gross traction [N]"), 2800, "traction");
   expectNine(number("drawbar pull [N]"), 2000, "pull");
   expectNine(number("motion resistance [N]"), 800, "resistance");

@@ -48,7 +48,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
                                            {"ledger/integration_error", "J", "", 1, {}},
                                            {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
   for (const std::string side : {"left", "right"}) {
-    for (const char* scalar : {"sprocket_speed", "speed", "drive_torque", "teeth_passed"})
+    for (const char* scalar : {"sprocket_speed", "speed", "mean_torque", "drive_power", "teeth_passed"})
       channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});
     for (const char* shoes : {"sinkage", "tension"})
       channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 2, {}});
@@ -64,7 +64,8 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
       row.set("vehicle/" + side + "/sprocket_speed", isSteady ? 2 : 77);
       row.set("vehicle/" + side + "/speed", isSteady ? 0.2 * of : 77); // mean 0.4 of 0.5 m/s
       row.set("vehicle/" + side + "/teeth_passed", 0.5 * r * of);      // 10 rows: 5 and 15
-      row.set("vehicle/" + side + "/drive_torque", isSteady ? 100 * of : 77);
+      row.set("vehicle/" + side + "/mean_torque", isSteady ? 100 * of : 77);
+      row.set("vehicle/" + side + "/drive_power", isSteady ? 200 * of : 77);
       row.set("vehicle/" + side + "/sinkage",
               std::vector<double>{isSteady ? 0.01 * of : 77, std::nan("")}); // one shoe is off the ground
       row.set("vehicle/" + side + "/tension",
