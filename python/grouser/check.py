@@ -39,11 +39,16 @@ class CheckFigure:
 
 @dataclass(frozen=True, eq=False)
 class BarredSeries(Series):
-    """A series with half widths, each of the shape [rows]; NaN where unknown."""
+    """A series with half widths, each of the shape [rows]; NaN where unknown. `2 * s` has twice the half widths; those
+    of `s + t` and `s - t` are added, which is the most that they can be: errors of one check are not independent. A
+    series without half widths adds none."""
 
     by_seeds: numpy.ndarray = None  #: of the seeds' 95 % interval
     by_step: numpy.ndarray = None  #: of the step
     bar: numpy.ndarray = None  #: of both together
+
+    def _bars(self) -> dict[str, numpy.ndarray]:
+        return {"by_seeds": self.by_seeds, "by_step": self.by_step, "bar": self.bar}
 
 
 class Check:

@@ -58,15 +58,17 @@ class Job:
     """A running call of the program. Several may run at the same time.
 
     words: the command line behind the program's name. folder: that it is started in. progress: called with a Progress
-    for each line of progress, from another thread; None: nobody is. environment: variables beside those of this
-    process.
+    for each line of progress, from another thread; None: nobody is; what it raises stops the call, and `wait()` raises
+    it. environment: variables beside those of this process. refused: called where the program ends with exit code 2.
     """
 
     def __init__(self, words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
-                 progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None):
+                 progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None,
+                 refused: Callable[[], None] | None = None):
         self.command = [str(find_program()), *(os.fspath(word) for word in words)]
         self.progress: Progress | None = None  #: the last line of progress
-        self._tell = progress
+        self._tell, self._refused = progress, refused
+        self._raised: BaseException | None = None  # by progress
         self._lines: list[str] = []
         self._errors: list[str] = []
         # On a terminal the program tells its progress five times a second, else every five seconds.
@@ -106,7 +108,8 @@ class Job:
 
     def wait(self) -> str:
         """Waits for its end and returns what it printed. Raises InputError, SimulationError, DeviceError, StoppedError
-        or GrouserError with the program's message and exit code. An exception here, such as Ctrl-C, stops it first."""
+        or GrouserError with the program's message and exit code. An exception here, such as Ctrl-C, stops it first; so
+        does one that `progress` has raised."""
         try:
             code = self._process.wait()
         except BaseException:
@@ -115,6 +118,8 @@ class Job:
             raise
         for thread in self._threads:
             thread.join()
+        if self._raised is not None:
+            raise self._raised
         if code != 0:
             raise KINDS.get(code, GrouserError)(self._message(code), code, self.command, self.output)
         return self.output
@@ -147,15 +152,21 @@ class Job:
                     rest = ""
                 if not piece:
                     self._take(rest)
-                    return
+                    break
+        if self._process.wait() == 2 and self._refused:
+            self._refused()
 
     def _take(self, line: str) -> None:
         line = line.replace(_ERASE, "")
         told = _PROGRESS.fullmatch(line)
         if told:
             self.progress = Progress(told["what"], float(told["percent"]) / 100, told["detail"], told["left"])
-            if self._tell:
-                self._tell(self.progress)
+            if self._tell and self._raised is None:
+                try:
+                    self._tell(self.progress)
+                except BaseException as error:  # whatever it is, it is the caller's: wait() raises it there
+                    self._raised = error
+                    self.stop()
         elif line.strip():
             self._errors.append(line)
 

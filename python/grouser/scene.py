@@ -125,10 +125,9 @@ class Scene:
         state. cache: take and keep settled beds and cut parts. progress: called with each line of progress, from
         another thread. environment: variables beside those of this process.
         """
-        words = ["run", self._written(out), "--out", Path(out).resolve()]
-        words += [flag for flag, given in (("--force", force), ("--resume", resume), ("--hash", hash),
+        words = [flag for flag, given in (("--force", force), ("--resume", resume), ("--hash", hash),
                                            ("--no-cache", not cache)) if given]
-        return Job(words + _options(device, threads), self.folder, progress, environment)
+        return self._started("run", out, words + _options(device, threads), progress, environment)
 
     def run(self, out: str | os.PathLike, **options: Any) -> Run:
         """Runs the scene to its end and opens the results; options as of `start()`. Raises what Job.wait() does."""
@@ -148,18 +147,18 @@ class Scene:
               environment: dict[str, str] | None = None) -> Sweep:
         """Runs `grouser sweep`: all combinations, which goes on where it stopped.
 
-        values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}. cases: {name: {key: value}}, keys that
+        values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}; a text or a number is one value. cases: {name: {key: value}}, keys that
         change together. seeds: each combination with run.seed 1 to so many. jobs: runs at the same time.
         SimulationError names the runs that failed; `Sweep(out)` opens the others.
         """
-        words = ["sweep", self._written(out), "--out", Path(out).resolve(), "--jobs", str(jobs)]
+        words = ["--jobs", str(jobs)]
         for key, several in (values or {}).items():
-            words += ["--set", f"{key}=" + ",".join(map(_word, several))]
+            words += ["--set", f"{key}=" + ",".join(map(_word, _several(several)))]
         for name, keys in (cases or {}).items():
             words += ["--case", name + (": " if keys else "") + ", ".join(f"{k}={_word(v)}" for k, v in keys.items())]
         words += ["--seeds", str(seeds)] if seeds else []
         words += (["--force"] if force else []) + _options(device, threads)
-        call(words, self.folder, progress, environment)
+        self._started("sweep", out, words, progress, environment).wait()
         return Sweep(out)
 
     def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "",
@@ -167,25 +166,63 @@ class Scene:
               environment: dict[str, str] | None = None) -> Check:
         """Runs `grouser check`: error bars of all figures, which goes on where it stopped.
 
-        axes: what to vary ("step", "grain_size"...); empty: all. seeds: of every case. budget: "90s", "20min", "1.5h";
+        axes: what to vary (["step", "grain_size"], or one as a text); empty: all. seeds: of every case. budget: "90s", "20min", "1.5h";
         empty: all of it.
         """
-        words = ["check", self._written(out), "--out", Path(out).resolve(), "--jobs", str(jobs), "--seeds", str(seeds)]
-        axes = ",".join(axes)
+        words = ["--jobs", str(jobs), "--seeds", str(seeds)]
+        axes = axes if isinstance(axes, str) else ",".join(axes)
         words += (["--axes", axes] if axes else []) + (["--budget", budget] if budget else [])
         words += (["--force"] if force else []) + _options(device, threads)
-        call(words, self.folder, progress, environment)
+        self._started("check", out, words, progress, environment).wait()
         return Check(out)
 
-    def _written(self, out: str | os.PathLike) -> Path:
+    def _started(self, command: str, out: str | os.PathLike, words: list[str], progress: Tell,
+                 environment: dict[str, str] | None) -> Job:
+        """Where the program refuses the call, the scene beside a folder that was there is again what it was: that of
+        the results in the folder."""
         out = Path(out).resolve()
         file = out.parent / f"{out.name}.toml"
-        if file.exists() and not file.read_text(encoding="utf-8").startswith(_MARK):
-            raise FileError(f"{file} is there already, and was not written by this package: give out another name, or "
-                            "move that file")
+        before = _own_text(file)
+        there = before is not None or out.exists()
+        text = f"{_MARK}\n{self.text()}"
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(f"{_MARK}\n{self.text()}", encoding="utf-8")
-        return file
+        _put(file, text)
+
+        def put_back() -> None:
+            if before is not None:
+                _put(file, before)
+            elif there:
+                file.unlink(missing_ok=True)
+
+        try:
+            return Job([command, file, "--out", out, *words], self.folder, progress, environment, put_back)
+        except BaseException:
+            put_back()
+            raise
+
+
+def _own_text(file: Path) -> str | None:
+    """Of a scene file that this package has written, or None where there is none. FileError where it is another's."""
+    try:
+        text = file.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return None
+    except (OSError, UnicodeDecodeError):
+        text = ""
+    if not text.startswith(_MARK):
+        raise FileError(f"{file} is there already, and was not written by this package: give out another name, or "
+                        "move that file")
+    return text
+
+
+def _put(file: Path, text: str) -> None:
+    """Writes a file under another name and puts it in place: it is there whole, or as it was."""
+    new = file.with_name(f".{file.name}.{os.getpid()}")
+    try:
+        new.write_text(text, encoding="utf-8")
+        new.replace(file)
+    finally:
+        new.unlink(missing_ok=True)
 
 
 def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Iterable[str] = (), *, progress: Tell = None,
@@ -199,6 +236,11 @@ def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Itera
 
 def _quoted(word: str) -> str:
     return value_text(word)
+
+
+def _several(values: Any) -> Iterable[Any]:
+    """A text is one value, not its letters."""
+    return values if isinstance(values, Iterable) and not isinstance(values, (str, bytes)) else [values]
 
 
 def _word(value: Any) -> str:

@@ -2,6 +2,8 @@
 """Numbers with their units: what all readers return."""
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from numbers import Number
 
@@ -31,6 +33,9 @@ class Quantity:
     def __len__(self) -> int:
         return len(self.value)
 
+    def __iter__(self) -> Iterator:
+        return iter(self.value)
+
     __array_priority__ = 1000  # so that numpy leaves 2 * q to q, where it is numpy's 2
 
     def __mul__(self, factor: float | numpy.ndarray) -> Quantity:
@@ -44,19 +49,24 @@ class Quantity:
     def __add__(self, other: Quantity | float) -> Quantity:
         return self._joined(other, numpy.add, "+")
 
-    __radd__ = __add__
+    def __radd__(self, other: float) -> Quantity:
+        return self._joined(other, numpy.add, "+", other_first=True)
 
     def __sub__(self, other: Quantity | float) -> Quantity:
         return self._joined(other, numpy.subtract, "-")
 
-    def __rsub__(self, other: Quantity | float) -> Quantity:
-        return -self + other
+    def __rsub__(self, other: float) -> Quantity:
+        return self._joined(other, numpy.subtract, "-", other_first=True)
 
     def __neg__(self) -> Quantity:
         return self._with(-numpy.asarray(self.value), f"-{self.name}")
 
-    def _with(self, value: numpy.ndarray, name: str) -> Quantity:
-        return replace(self, value=value, name=name, help="")
+    def _with(self, value: numpy.ndarray, name: str, bars: dict[str, numpy.ndarray] | None = None) -> Quantity:
+        return replace(self, value=value, name=name, help="", **(bars or {}))
+
+    def _bars(self) -> dict[str, numpy.ndarray]:
+        """Half widths, of the shape of `value`, by the names of their fields."""
+        return {}
 
     def _told(self) -> str:
         return f"{self.name or 'a quantity'} [{self.unit}]"
@@ -71,23 +81,26 @@ class Quantity:
         if value.shape != numpy.shape(self.value):
             raise ValueError(f"{self._told()} has the shape {numpy.shape(self.value)}, which is not multiplied or divided "
                              f"by one of {numpy.shape(factor)}")
-        return self._with(value, f"{self.name} {sign} {factor if isinstance(factor, Number) else 'an array'}")
+        return self._with(value, f"{self.name} {sign} {factor if isinstance(factor, Number) else 'an array'}",
+                          {name: function(bar, numpy.abs(factor)) for name, bar in self._bars().items()})
 
-    def _joined(self, other: Quantity | float, function: numpy.ufunc, sign: str) -> Quantity:
+    def _joined(self, other: Quantity | float, function: numpy.ufunc, sign: str, other_first: bool = False) -> Quantity:
         if isinstance(other, (Number, numpy.ndarray)):
             other = Quantity(numpy.asarray(other), "-", name=str(other) if isinstance(other, Number) else "an array")
         if not isinstance(other, Quantity):
             return NotImplemented
-        if self.unit != other.unit:
-            raise ValueError(f"{self._told()} {sign} {other._told()}: the units differ")
-        if isinstance(self, Series) and isinstance(other, Series) and not numpy.array_equal(self.time, other.time):
-            raise ValueError(f"{self._told()} {sign} {other._told()}: their rows are of other times")
-        whole = self if isinstance(self, Series) or not isinstance(other, Series) else other
-        value = function(self.value, other.value)
+        left, right = (other, self) if other_first else (self, other)
+        told = f"{left._told()} {sign} {right._told()}"
+        if left.unit != right.unit:
+            raise ValueError(f"{told}: the units differ")
+        if isinstance(left, Series) and isinstance(right, Series) and not numpy.array_equal(left.time, right.time):
+            raise ValueError(f"{told}: their rows are of other times")
+        whole = max(left, right, key=lambda one: (isinstance(one, Series), bool(one._bars())))
+        value = function(left.value, right.value)
         if value.shape != numpy.shape(whole.value):
-            raise ValueError(f"{self._told()} {sign} {other._told()}: shapes {numpy.shape(self.value)} and "
-                             f"{numpy.shape(other.value)} do not fit")
-        return whole._with(value, f"{self.name} {sign} {other.name}")
+            raise ValueError(f"{told}: shapes {numpy.shape(left.value)} and {numpy.shape(right.value)} do not fit")
+        bars = {name: sum(one._bars()[name] for one in (left, right) if name in one._bars()) for name in whole._bars()}
+        return whole._with(value, f"{left.name} {sign} {right.name}", bars)
 
 
 def nearest(times: numpy.ndarray, time: float, what: str, where: object) -> int:
@@ -103,15 +116,20 @@ def nearest(times: numpy.ndarray, time: float, what: str, where: object) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Series(Quantity):
-    """A quantity over time: `value` has the shape [rows], or [rows, columns]."""
+    """A quantity over time: `value` has the shape [rows], or [rows, columns]. `for row in series` goes through the rows
+    of `value`."""
 
     time: numpy.ndarray = None  #: [rows] [s]
     step: numpy.ndarray = None  #: [rows] [-]
     labels: tuple[str, ...] = ()  #: of the columns, e.g. ("x", "y", "z"); empty: none, or one a shoe
 
-    def __getitem__(self, label: str) -> Series:
-        """A column by its label: `run["vehicle.position"]["x"]`, as a series of the shape [rows]. KeyError names those
-        that there are."""
+    def __getitem__(self, label: str | int | slice) -> Series | numpy.ndarray:
+        """A column by its label: `run["vehicle.position"]["x"]`, as a series of the shape [rows]; KeyError names those
+        that there are. `series[10:20]` is a series of these rows, `series[-1]` the last row of `value`."""
+        if isinstance(label, slice):
+            return self._taken(label)
+        if isinstance(label, (int, numpy.integer)):
+            return self.value[label]
         if label not in self.labels:
             raise KeyError(f"{self.name} has no column {label!r}; it has {', '.join(self.labels) or 'none by name'}")
         column = self.value[:, self.labels.index(label)]
@@ -119,8 +137,11 @@ class Series(Quantity):
 
     def between(self, start: float, end: float) -> Series:
         """The rows of times in [start, end] [s]."""
-        kept = (self.time >= start) & (self.time <= end)
-        return Series(self.value[kept], self.unit, self.help, self.name, self.time[kept], self.step[kept], self.labels)
+        return self._taken((self.time >= start) & (self.time <= end))
+
+    def _taken(self, rows: slice | numpy.ndarray) -> Series:
+        by_row = {"value": self.value, "time": self.time, "step": self.step, **self._bars()}
+        return replace(self, **{name: field[rows] for name, field in by_row.items() if field is not None})
 
     def at(self, time: float) -> numpy.ndarray:
         """The row nearest to `time` [s]: of the shape () or [columns]. ValueError where there are no rows, or none near
@@ -158,8 +179,7 @@ def number(value: float | None) -> float:
 
 
 def split_unit(heading: str) -> tuple[str, str]:
-    """("sinkage mean", "m") of "sinkage mean [m]"; the unit is "" where the heading has none."""
-    if heading.endswith("]") and " [" in heading:
-        name, unit = heading[:-1].rsplit(" [", 1)
-        return name, unit
-    return heading, ""
+    """("sinkage mean", "m") of "sinkage mean [m]", ("way at the end", "m") of "way [m] at the end"; the unit is ""
+    where the heading has none."""
+    found = re.fullmatch(r"(.*) \[([^\[\]]*)\]( .*)?", heading)
+    return (found[1] + (found[3] or ""), found[2]) if found else (heading, "")

@@ -88,6 +88,58 @@ class Calls(FolderTest):
         with self.assertRaises(grouser.FileError):
             grouser.Scene.read(self.folder / "mine.toml").run("mine")
         self.assertTrue((self.folder / "mine.toml").read_text().startswith("# my own"))
+        (self.folder / "latin.toml").write_bytes(b"# \xe4\n")
+        (self.folder / "folder.toml").mkdir()
+        for name in ("latin", "folder"):
+            with self.assertRaisesRegex(grouser.FileError, f"{name}.toml is there already, and was not written by this"):
+                grouser.Scene(MINIMAL).run(name)
+
+    def test_a_refused_call_leaves_the_scene_of_the_results_that_are_there(self):
+        scene, other = grouser.Scene(MINIMAL), grouser.Scene(MINIMAL)
+        other["run.duration"] = 0.02
+        scene.run("x").close()
+        written = (self.folder / "x.toml").read_text()
+        for call in (lambda: other.run("x"), lambda: other.sweep("x", {"run.nosuch": [1]}),
+                     lambda: other.check("x", axes=["nosuch"])):
+            with self.assertRaises(grouser.InputError):
+                call()
+            self.assertEqual((self.folder / "x.toml").read_text(), written)
+        (self.folder / "x.toml").unlink()
+        with self.assertRaises(grouser.InputError):
+            other.run("x")
+        self.assertEqual([file.name for file in self.folder.iterdir()], ["x"])
+        other.run("x", force=True).close()
+        self.assertIn("duration = 0.02", (self.folder / "x.toml").read_text())
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["x", "x.toml"])
+
+    def test_what_progress_raises_stops_the_run_and_is_raised(self):
+        class Enough(Exception):
+            pass
+
+        def tell(progress):
+            raise Enough(progress.what)
+
+        scene = grouser.Scene(MINIMAL)
+        scene["run.duration"] = 1e4
+        scene["run.output_interval"] = 1.0
+        job = scene.start("long", progress=tell)
+        end = time.monotonic() + 20
+        while job.running and time.monotonic() < end:
+            time.sleep(0.02)
+        stopped = not job.running
+        job.stop()
+        with self.assertRaisesRegex(Enough, "running"):
+            job.wait()
+        self.assertTrue(stopped)
+        self.assertEqual(grouser.open_run("long").status, "stopped")
+        self.assertTrue(job.messages)  # those after the exception, too
+
+    def test_a_text_is_one_value_and_one_axis(self):
+        scene = grouser.Scene(MINIMAL)
+        sweep = scene.sweep("one", {"material.glass.friction": "0.3", "material.glass.restitution": 0.5})
+        self.assertEqual([run.keys for run in sweep.runs],
+                         [{"material.glass.friction": "0.3", "material.glass.restitution": "0.5"}])
+        self.assertNotIn("step", scene.check("axis", axes="step", seeds=2).not_run)
 
     def test_an_unsound_run_raises_and_leaves_what_it_has(self):
         scene = grouser.Scene(MINIMAL)
