@@ -10,6 +10,7 @@ import h5py
 import numpy
 
 from .errors import FileError
+from .files import fields_of
 from .series import Quantity
 
 _TOP_BITS, _LOW_BITS = 10, 32  # of a coordinate of 42: base/position.hpp
@@ -72,7 +73,7 @@ def open_bed(path: str | os.PathLike) -> Bed:
         file = h5py.File(path, "r", locking=False)
     except OSError as error:
         raise FileError(f"{path}: cannot be read as a checkpoint or a kept bed: {error}") from error
-    with file:
+    with file, fields_of(path, "a checkpoint or a kept bed"):
         if "grains" not in file or "settled" not in file:
             raise FileError(f"{path}: holds no grains")
         grains = file["grains"]

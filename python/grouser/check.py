@@ -88,7 +88,8 @@ class Check:
     @property
     def not_run(self) -> dict[str, str]:
         """{axis: why it was not asked}"""
-        return {omitted["axis"]: omitted["why"] for omitted in self.json["not_asked"]}
+        with fields_of(self.folder / "check.json", "a check"):
+            return {omitted["axis"]: omitted["why"] for omitted in self.json["not_asked"]}
 
     @property
     def costs(self) -> dict[str, dict]:
@@ -101,16 +102,17 @@ class Check:
     @cached_property
     def series(self) -> dict[str, BarredSeries]:
         """{name: series with bars} of series.csv."""
-        rows = read_csv(self.folder / "series.csv")
+        file = self.folder / "series.csv"
+        rows = read_csv(file)
         columns = {name: numpy.array([value_of(row[name]) for row in rows]) for name in (rows[0] if rows else ())}
-        time = columns.get("time [s]", numpy.array([]))
         series: dict[str, BarredSeries] = {}
-        for heading, values in columns.items():
-            if f"{heading} both +-" not in columns:
-                continue
-            name, unit = split_unit(heading)
-            bars = [columns[f"{heading} {what} +-"] for what in ("seeds", "step", "both")]
-            series[name] = BarredSeries(values, unit, "", name, time, None, (), *bars)
+        with fields_of(file, "series of a check"):
+            for heading, values in columns.items():
+                if f"{heading} both +-" not in columns:
+                    continue
+                name, unit = split_unit(heading)
+                bars = [columns[f"{heading} {what} +-"] for what in ("seeds", "step", "both")]
+                series[name] = BarredSeries(values, unit, "", name, columns["time [s]"], None, (), *bars)
         return series
 
 

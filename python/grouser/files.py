@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+import h5py
 
 from .errors import FileError
 
@@ -41,12 +44,20 @@ def fields_of(file: Path, what: str) -> Iterator[None]:
         yield
     except FileError:
         raise
-    except KeyError as error:
-        raise FileError(f"{file}: cannot be read as {what}: it has no {error}; it is damaged, or of another version: "
+    except KeyError as error:  # h5py's is a sentence with the name in it
+        name = (re.findall("'([^']+)'", str(error)) or [error])[-1]
+        raise FileError(f"{file}: cannot be read as {what}: it has no {name!r}; it is damaged, or of another version: "
                         f"{_REMEDY}") from error
-    except (TypeError, ValueError, AttributeError, IndexError) as error:
+    except (TypeError, ValueError, AttributeError, IndexError, OSError) as error:
         raise FileError(f"{file}: cannot be read as {what}: a field in it is of another kind; it is damaged, or of "
                         f"another version: {_REMEDY}") from error
+
+
+def still_open(file: h5py.File, path: Path) -> h5py.File:
+    """ValueError where it has been closed."""
+    if not file:
+        raise ValueError(f"{path}: is closed; open it again")
+    return file
 
 
 def read_csv(file: Path) -> list[dict[str, str]]:

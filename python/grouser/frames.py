@@ -12,6 +12,7 @@ import h5py
 import numpy
 
 from .errors import FileError
+from .files import fields_of, still_open
 from .series import Series, nearest
 
 #: Units of what frames hold of grains.
@@ -32,10 +33,14 @@ class Frame:
     """One instant. Grains are read when they are asked for; `frame.position` and the like have one row a grain, in the
     order of `frame.id`."""
 
-    def __init__(self, group: h5py.Group, frames: Frames):
-        self._group, self._frames = group, frames
-        self.time: float = float(group.attrs["time"])  #: [s]
-        self.step: int = int(group.attrs["step"])
+    def __init__(self, frames: Frames, place: int):
+        self._frames, self._name = frames, frames._names[place]
+        self.time: float = float(frames.time[place])  #: [s]
+        self.step: int = int(frames.step[place])
+
+    @property
+    def _group(self) -> h5py.Group:
+        return self._frames._file[self._name]
 
     def __len__(self) -> int:
         """Number of grains."""
@@ -44,10 +49,10 @@ class Frame:
     def grains(self, name: str) -> numpy.ndarray:
         """A quantity of all grains, [n] or [n, 3]: the keys of `grouser.UNITS`. KeyError where frames lack it."""
         if "grains" not in self._group:
-            raise KeyError(f"{self._group.file.filename}: this frame has no grains")
+            raise KeyError(f"{self._frames.path}: this frame has no grains")
         grains = self._group["grains"]
         if name not in grains:
-            raise KeyError(f"{self._group.file.filename}: grains have no {name!r}, but {', '.join(grains)}")
+            raise KeyError(f"{self._frames.path}: grains have no {name!r}, but {', '.join(grains)}")
         return grains[name][:]
 
     @property
@@ -102,6 +107,10 @@ def rotation(quaternion: numpy.ndarray) -> numpy.ndarray:
     return numpy.moveaxis(numpy.array(rows), (0, 1), (-2, -1))
 
 
+#: What frames.h5 holds beside frames.
+_BESIDE = {"ground", "parts", "vertices"}
+
+
 class Frames:
     """All frames of a run: `len(frames)`, `frames[0]`, `frames[2:5]`, `for frame in frames`."""
 
@@ -109,15 +118,25 @@ class Frames:
         path = Path(path)
         path = path / "frames.h5" if path.is_dir() else path
         try:
-            self._file = h5py.File(path, "r", locking=False)
+            self._opened = h5py.File(path, "r", locking=False)
         except OSError as error:
             raise FileError(f"{path}: cannot be read as the frames of a run: {error}") from error
-        self._names = sorted(name for name in self._file if name.isdigit())
-        self.time = numpy.array([self._file[name].attrs["time"] for name in self._names])  #: [frames] [s]
-        self.step = numpy.array([self._file[name].attrs["step"] for name in self._names], dtype=int)  #: [frames]
+        self.path: Path = path
+        self._names = sorted(name for name in self._opened if name.isdigit())
+        if not self._names and set(self._opened) - _BESIDE:
+            self._opened.close()
+            raise FileError(f"{path}: holds no frames; it is not the frames.h5 of a run")
+        with fields_of(path, "the frames of a run"):
+            attributes = [self._opened[name].attrs for name in self._names]
+            self.time = numpy.array([one["time"] for one in attributes])  #: [frames] [s]
+            self.step = numpy.array([one["step"] for one in attributes], dtype=int)  #: [frames]
 
     def close(self) -> None:
-        self._file.close()
+        self._opened.close()
+
+    @property
+    def _file(self) -> h5py.File:
+        return still_open(self._opened, self.path)
 
     def __len__(self) -> int:
         return len(self._names)
@@ -127,9 +146,9 @@ class Frames:
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         if not -len(self) <= index < len(self):
-            raise IndexError(f"{self._file.filename}: has {len(self)} frames, 0 to {len(self) - 1}; there is no frame "
+            raise IndexError(f"{self.path}: has {len(self)} frames, 0 to {len(self) - 1}; there is no frame "
                              f"{index}")
-        return Frame(self._file[self._names[index]], self)
+        return Frame(self, index)
 
     def __iter__(self) -> Iterator[Frame]:
         return (self[i] for i in range(len(self)))
@@ -137,7 +156,7 @@ class Frames:
     def at(self, time: float) -> Frame:
         """The frame nearest to `time` [s]. ValueError where there are none, or none near it: more than their interval
         before the first or behind the last."""
-        return self[nearest(self.time, time, "frames", self._file.filename)]
+        return self[nearest(self.time, time, "frames", str(self.path))]
 
     @cached_property
     def parts(self) -> list[str]:
@@ -169,7 +188,7 @@ class Frames:
             rows.append(frame.grains(name)[at[0]] if len(at) else None)
         there = next((row for row in rows if row is not None), None)
         if there is None:
-            raise KeyError(f"{self._file.filename}: no frame has a grain {id}")
+            raise KeyError(f"{self.path}: no frame has a grain {id}")
         values = numpy.array([numpy.full_like(there, numpy.nan, dtype=float) if row is None else row for row in rows])
         return Series(values, UNITS.get(name, ""), "", f"grain {id} {name}", self.time, self.step,
                       ("x", "y", "z") if values.ndim == 2 else ())

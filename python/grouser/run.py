@@ -14,7 +14,7 @@ import numpy
 
 from .bed import Bed, open_bed
 from .errors import FileError
-from .files import read_json
+from .files import fields_of, read_json, still_open
 from .frames import Frames
 from .series import Quantity, Series
 
@@ -61,17 +61,24 @@ class Run:
         if not self.file.is_file():
             raise FileError(f"{self.folder}: has no results.h5; name the folder of a run")
         try:
-            self._open = h5py.File(self.file, "r", locking=False)
+            self._opened = h5py.File(self.file, "r", locking=False)
         except OSError as error:
             raise FileError(f"{self.file}: cannot be read: {error}") from error
-        if "series/time" not in self._open:
-            self._open.close()
+        if "series/time" not in self._opened or "series/step" not in self._opened:
+            self._opened.close()
             raise FileError(f"{self.file}: holds no series; it is not the results.h5 of a run")
         # step, time and every quantity have been written to the same row but where the program was killed meanwhile
         self._rows = min(len(group["value"]) for group in self._groups.values()) if self._groups else 0
 
     def close(self) -> None:
-        self._open.close()
+        """Closes results.h5, and frames.h5 where it was opened."""
+        if self._opened and self.__dict__.get("frames") is not None:
+            self.frames.close()
+        self._opened.close()
+
+    @property
+    def _open(self) -> h5py.File:
+        return still_open(self._opened, self.file)
 
     def __enter__(self) -> Run:
         return self
@@ -109,9 +116,12 @@ class Run:
         group = self._groups.get(name.replace("/", "."))
         if group is None:
             raise KeyError(f"{self.folder}: there is no series {name!r}; names() lists all {len(self._groups)}")
-        value, rows = group["value"], self._rows
-        return Series(value[:rows], text_of(value.attrs["unit"]), text_of(value.attrs["help"]), name.replace("/", "."),
-                      self.time, self.step, tuple(text_of(label) for label in value.attrs.get("labels", ())))
+        time, step, rows = self.time, self.step, self._rows
+        with fields_of(self.file, "the results of a run"):
+            value = group["value"]
+            return Series(value[:rows], text_of(value.attrs["unit"]), text_of(value.attrs["help"]),
+                          name.replace("/", "."), time, step,
+                          tuple(text_of(label) for label in value.attrs.get("labels", ())))
 
     @property
     def time(self) -> numpy.ndarray:
@@ -154,13 +164,21 @@ class Run:
         group = self._open.get("terrain/surface")
         if group is None:
             return None
-        return Surface(group["x"][:], group["y"][:], group["height"][:], text_of(group["height"].attrs["interpolation"]),
-                       group["final_height"][:] if "final_height" in group else None)
+        with fields_of(self.file, "the results of a run"):
+            return Surface(group["x"][:], group["y"][:], group["height"][:],
+                           text_of(group["height"].attrs["interpolation"]),
+                           group["final_height"][:] if "final_height" in group else None)
 
     @cached_property
     def scene(self) -> dict:
         """The resolved scene: all keys with their values, as tomllib reads scene.toml."""
-        return tomllib.loads(text_of(self._open.attrs["scene"]))
+        attributes = self._open.attrs
+        with fields_of(self.file, "the results of a run"):
+            text = text_of(attributes["scene"])
+            try:
+                return tomllib.loads(text)
+            except tomllib.TOMLDecodeError as error:
+                raise FileError(f"{self.file}: the scene in it cannot be read: {error}") from error
 
     @cached_property
     def manifest(self) -> dict:
@@ -182,6 +200,7 @@ class Run:
     @cached_property
     def frames(self) -> Frames | None:
         """Grains and parts over time; None where the run wrote no frames."""
+        self._open  # a closed run opens no more files
         file = self.folder / "frames.h5"
         return Frames(file) if file.is_file() else None
 

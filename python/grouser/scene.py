@@ -16,7 +16,7 @@ from .program import Job, Progress, call
 from .run import Run
 from .soil import SoilTest
 from .sweep import Sweep
-from .toml import document_text, value_text
+from .toml import document_text, key_text, value_text
 
 _MARK = "# Written by the Python package grouser, which may write it anew."
 
@@ -24,12 +24,16 @@ Tell = Callable[[Progress], None] | None
 
 
 def _path_of(key: str) -> list[str]:
-    """["contact", "clay|loam", "friction"] of 'contact."clay|loam".friction'."""
-    table: Any = tomllib.loads(f"{key} = 0")
+    """["contact", "clay|loam", "friction"] of 'contact."clay|loam".friction'. KeyError where it is no key."""
     path: list[str] = []
-    while isinstance(table, dict):
-        (name, table), = table.items()
-        path.append(name)
+    try:
+        table: Any = tomllib.loads(f"{key} = 0")
+        while isinstance(table, dict):
+            (name, table), = table.items()
+            path.append(name)
+    except ValueError:
+        raise KeyError(f"{key!r} is no key: words with dots between them, in quotes what is not of letters, digits, _ "
+                       "and -") from None
     return path
 
 
@@ -51,9 +55,11 @@ class Scene:
         """Reads a scene file; its comments are lost. FileError where it is no TOML."""
         file = Path(file)
         try:
-            document = tomllib.loads(file.read_text(encoding="utf-8"))
+            document = tomllib.loads(file.read_text(encoding="utf-8-sig"))
         except OSError as error:
             raise FileError(f"{file}: cannot be read: {error.strerror}") from error
+        except UnicodeDecodeError as error:
+            raise FileError(f"{file}: is no text in UTF-8; save it as such") from error
         except ValueError as error:
             raise FileError(f"{file}: {error}") from error
         return cls(document, file.parent, file.stem)
@@ -76,16 +82,18 @@ class Scene:
         a list ([[grains]], [[plane]]...), which `add()` and `scene["grains"][0]` are for."""
         *sections, last = _path_of(key)
         table: Any = self.document
-        for word in sections:
-            table = table.setdefault(word, {})
-            if not isinstance(table, dict):
-                raise KeyError(f"{key}: {word} is no section; a list is changed as scene[{word!r}][0][...]")
+        for k, word in enumerate(sections):
+            table = _section(table.setdefault(word, {}), sections[:k + 1], key)
         table[last] = copy.deepcopy(value)
 
     def __delitem__(self, key: str) -> None:
         """Takes a key or a section out. KeyError where the scene does not have it."""
         *sections, last = _path_of(key)
-        table = self[".".join(map(_quoted, sections))] if sections else self.document
+        table = self.document
+        for k, word in enumerate(sections):
+            if word not in table:
+                raise KeyError(key)
+            table = _section(table[word], sections[:k + 1], key)
         if last not in table:
             raise KeyError(key)
         del table[last]
@@ -234,8 +242,12 @@ def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Itera
     return SoilTest(out)
 
 
-def _quoted(word: str) -> str:
-    return value_text(word)
+def _section(table: Any, path: list[str], key: str) -> dict[str, Any]:
+    if isinstance(table, dict):
+        return table
+    name = ".".join(map(key_text, path))
+    raise KeyError(f"{key}: {name} is no section" +
+                   (f"; a list is changed as scene[{name!r}][0][...]" if isinstance(table, list) else f", but {table!r}"))
 
 
 def _several(values: Any) -> Iterable[Any]:

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy
 
 from .errors import FileError
-from .files import read_csv
+from .files import fields_of, read_csv
 from .run import Run
-from .series import Estimate, Quantity, number, split_unit
+from .series import Estimate, Quantity, split_unit
 
 #: Columns of summary.csv between the swept keys and the figures.
 _ABOUT = ("status", "message", "wall time [s]", "steps", "simulated time [s]")
@@ -73,11 +73,12 @@ class Sweep:
         first = columns.index("status")
         self.keys: list[str] = columns[1:first]  #: the swept ones
         figures = [c for c in columns[first + len(_ABOUT):] if c not in _BEHIND]
-        self.units: dict[str, str] = dict(map(split_unit, figures))  #: {figure: unit}
-        self.runs: list[SweepRun] = [
-            SweepRun(row["run"], {key: row[key] for key in self.keys}, row["status"], row["message"],
-                     {split_unit(c)[0]: value_of(row[c]) for c in figures}, row["state hash"], self.folder / row["run"])
-            for row in rows]
+        with fields_of(self.folder / "summary.csv", "the summary of a sweep"):
+            self.units: dict[str, str] = dict(map(split_unit, figures))  #: {figure: unit}
+            self.runs: list[SweepRun] = [
+                SweepRun(row["run"], {key: row[key] for key in self.keys}, row["status"], row["message"],
+                         {split_unit(c)[0]: value_of(row[c]) for c in figures}, row["state hash"],
+                         self.folder / row["run"]) for row in rows]
 
     def __getitem__(self, figure: str) -> Quantity:
         """[runs] of a figure, NaN where a run has none. KeyError names the figures that there are."""
@@ -101,17 +102,15 @@ class Sweep:
         means = _Means()
         if not file.is_file():
             return means
-        for row in read_csv(file):
-            name, unit = split_unit(row["figure"])
-
-            def estimate(value: str, half_width: str, what: str) -> Estimate:
-                return Estimate(value_of(row[value]), value_of(row[half_width]), unit, what)
-
-            means.setdefault(name, []).append(SweepMean(
-                {key: row[key] for key in self.keys if key in row}, int(number(row["seeds"])),
-                estimate("mean", "half width", name),
-                estimate("difference to the first", "half width of the difference",
-                         f"{name}, difference to the first")))
+        with fields_of(file, "means of a sweep"):
+            for row in read_csv(file):
+                name, unit = split_unit(row["figure"])
+                mean = Estimate(value_of(row["mean"]), value_of(row["half width"]), unit, name)
+                difference = Estimate(value_of(row["difference to the first"]),
+                                      value_of(row["half width of the difference"]), unit,
+                                      f"{name}, difference to the first")
+                keys = {key: row[key] for key in self.keys if key in row}
+                means.setdefault(name, []).append(SweepMean(keys, int(row["seeds"]), mean, difference))
         return means
 
 

@@ -30,7 +30,7 @@ def value_text(value: object) -> str:
         return str(value)
     if isinstance(value, float):
         return repr(value) if math.isfinite(value) else str(value)
-    if isinstance(value, (str, bytes)) or hasattr(value, "__fspath__"):
+    if isinstance(value, str) or hasattr(value, "__fspath__"):
         return _string(value if isinstance(value, str) else str(value))
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(value_text, value)) + "]"

@@ -10,15 +10,12 @@ import tomllib
 import unittest
 
 import numpy
-from fixture import ROOT, FolderTest
+from fixture import MINIMAL, ROOT, FolderTest
 
 import grouser
 from grouser.bed import metres_of
 from grouser.toml import document_text
 
-MINIMAL = {"version": 1, "run": {"duration": 0.01, "time_step": 1e-4, "output_interval": 0.005},
-           "material": {"glass": {"stiffness": 1e4}}, "output": {"plots": False, "picture": False},
-           "plane": [{"material": "glass"}], "grain": [{"position": [0, 0, 0.1], "radius": 0.01, "material": "glass"}]}
 
 
 class Toml(unittest.TestCase):
@@ -34,8 +31,9 @@ class Toml(unittest.TestCase):
     def test_takes_numbers_of_numpy_and_refuses_what_is_none(self):
         text = document_text({"a": numpy.float64(0.1), "b": numpy.arange(3), "c": numpy.bool_(True), "d": float("inf")})
         self.assertEqual(tomllib.loads(text), {"a": 0.1, "b": [0, 1, 2], "c": True, "d": float("inf")})
-        with self.assertRaises(TypeError):
-            document_text({"a": object()})
+        for wrong in (object(), b"abc"):
+            with self.assertRaises(TypeError):
+                document_text({"a": wrong})
 
 
 class Scenes(FolderTest):
@@ -57,6 +55,28 @@ class Scenes(FolderTest):
         with self.assertRaises(KeyError):
             scene["plane.material"] = "clay"
         self.assertEqual(grouser.Scene.read(scene.write("deep/s.toml")).document, scene.document)
+
+    def test_what_is_no_key_and_no_section_is_told(self):
+        scene = grouser.Scene(MINIMAL)
+        for wrong in ("run duration", "", "a = 1\nb"):
+            self.assertNotIn(wrong, scene)
+            with self.assertRaisesRegex(KeyError, "is no key"):
+                scene[wrong] = 1
+        with self.assertRaisesRegex(KeyError, r"run\.duration\.x: run\.duration is no section, but 0\.01"):
+            scene["run.duration.x"] = 1
+        with self.assertRaisesRegex(KeyError, r"run\.duration\.x: run\.duration is no section, but 0\.01"):
+            del scene["run.duration.x"]
+        with self.assertRaisesRegex(KeyError, r"plane is no section; a list is changed as scene\['plane'\]\[0\]"):
+            del scene["plane.material"]
+        self.assertEqual(scene.document, MINIMAL)
+
+    def test_a_byte_order_mark_is_taken_and_other_encodings_are_told(self):
+        (self.folder / "mark.toml").write_bytes(b"\xef\xbb\xbf" + grouser.Scene(MINIMAL).text().encode())
+        self.assertEqual(grouser.Scene.read("mark.toml").document, MINIMAL)
+        self.assertIn("grains", grouser.call(["plan", "mark.toml", "--no-probe"]))
+        (self.folder / "latin.toml").write_bytes(b"# \xe4\n")
+        with self.assertRaisesRegex(grouser.FileError, "^latin.toml: is no text in UTF-8"):
+            grouser.Scene.read("latin.toml")
 
     def test_files_that_a_scene_names_are_found_from_its_own_folder(self):
         (self.folder / "mine").mkdir()
@@ -306,37 +326,6 @@ class Files(FolderTest):
         self.assertEqual(alone.means, {})
         with self.assertRaisesRegex(KeyError, "no seeds were run"):
             alone.means["integration error"]
-
-    def test_damaged_json_is_told_with_its_place(self):
-        """One line: file, line, column, remedy; in Python's words nothing."""
-        openers = {"check.json": grouser.open_check, "soil.json": grouser.open_soil, "events.json": grouser.open_events,
-                   "calibration.json": grouser.open_calibration}
-        whole = {"check.json": {"figures": [], "cases": []}, "soil.json": {"soil": "s", "constants": {}},
-                 "events.json": {"rows": []}, "calibration.json": {"soil": "s", "trials": [], "targets": []}}
-        of_another_kind = {"check.json": {"figures": 1, "cases": []}, "soil.json": {"constants": 1},
-                           "events.json": {"rows": [{"event": 3}]}, "calibration.json": {"trials": [1], "targets": 2}}
-        cases = [(b'{"figures": [1,\n  2,\n  ,', ":3:3: "), (b"", ":1:1: "), (b'{"rows": "\xff"}', ":1:11: "),
-                 (b"[1]", ":1:1: ")]
-        for name, opener in openers.items():
-            for text, place in cases + [(json.dumps(of_another_kind[name]).encode(), ": ")]:
-                (self.folder / name).write_bytes(text)
-                with self.assertRaises(grouser.FileError, msg=(name, text)) as caught:
-                    opener(self.folder)
-                message = str(caught.exception)
-                self.assertTrue(message.startswith(f"{self.folder / name}{place}"), message)
-                self.assertIn("make it again, or take it from a copy", message)
-                self.assertNotIn("\n", message)
-                self.assertNotRegex(message, "Expecting|codec|object|argument|Error|'int'|char ")
-            text = json.dumps(whole[name])[:-3]
-            (self.folder / name).write_text(text)
-            with self.assertRaisesRegex(grouser.FileError, f"{name}:1:{len(text) + 1}: "):
-                opener(self.folder)
-        run = grouser.Scene(MINIMAL).run("cut")
-        whole = run.file.with_name("manifest.json").read_text()
-        for text, place in ((whole.replace('"status":', '"status"', 1), r":\d+:\d+: "), (whole[:-3], r":\d+:\d+: ")):
-            run.file.with_name("manifest.json").write_text(text)
-            with self.assertRaisesRegex(grouser.FileError, "manifest.json" + place + "cannot be read as the manifest"):
-                grouser.open_run("cut").status
 
     def test_the_version_is_that_of_the_program(self):
         written = re.search(r"^project\(grouser VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.M)[1]
