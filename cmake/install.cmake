@@ -26,8 +26,9 @@ install(FILES CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
 install(FILES LICENSE RENAME copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
   PATTERN docs/site EXCLUDE PATTERN "*.md" EXCLUDE)
-install(CODE "execute_process(COMMAND ${GROUSER_PYTHON} -B ${PROJECT_SOURCE_DIR}/cmake/documents.py
-  \"\${CMAKE_INSTALL_PREFIX}\" ${share} ${CMAKE_INSTALL_DOCDIR} ${GROUSER_PYTHON_DIR} COMMAND_ERROR_IS_FATAL ANY)"
+install(CODE "execute_process(COMMAND \"${GROUSER_PYTHON}\" -B \"${PROJECT_SOURCE_DIR}/cmake/documents.py\"
+  \"\${CMAKE_INSTALL_PREFIX}\" \"${share}\" \"${CMAKE_INSTALL_DOCDIR}\" \"${GROUSER_PYTHON_DIR}\"
+  COMMAND_ERROR_IS_FATAL ANY)"
   COMPONENT program)
 
 # Manual and completion, from the tables of --help.

@@ -316,8 +316,37 @@ class Installed(FolderTest):
                 ("build/bin/grouser run runs/scenes/a.toml; build/bin/grouser_tests",
                  "grouser run /opt/share/grouser/runs/scenes/a.toml; build/bin/grouser_tests"),
                 ("see (assets/soils), runs/setup/laws.cpp.", "see (/opt/share/grouser/assets/soils), runs/setup/laws.cpp."),
+                ("`runs/plots/check_sinkage.py FOLDER`", "`/opt/share/grouser/runs/plots/check_sinkage.py FOLDER`"),
+                ("else `build/bin/grouser` of the checkout", "else `build/bin/grouser` of the checkout"),
                 ("PYTHONPATH=python x", "PYTHONPATH=/opt/lib/python3/dist-packages x")):
             self.assertEqual(documents.fitted(text, "docs/x.md", "/opt", *self.LAYOUT), fitted)
+
+    def test_places_that_are_told_whole_stay_so(self):
+        layout = ("/srv/data/grouser", "/srv/doc/grouser", "/srv/python")
+        for text, fitted in (("[a](../runs/scenes/drum.toml) [b](keys.md)", "[a](../../../data/grouser/runs/scenes/drum.toml) "
+                              "[b](keys.md)"),
+                             ("run runs/scenes/a.toml", "run /srv/data/grouser/runs/scenes/a.toml"),
+                             ("PYTHONPATH=python x", "PYTHONPATH=/srv/python x")):
+            self.assertEqual(documents.fitted(text, "docs/x.md", "/opt", *layout), fitted)
+        subprocess.run([ROOT / "cmake/documents.py", "/opt", *layout], check=True,
+                       env={**os.environ, "DESTDIR": str(self.folder)})
+        self.assertTrue((self.folder / "srv/doc/grouser/docs/python.md").is_file())
+        self.assertEqual([file.name for file in self.folder.iterdir()], ["srv"])
+
+    def test_sources_may_lie_in_a_folder_with_a_blank(self):
+        """What install.cmake puts into the script of an installation, in a project of its own."""
+        code = re.search(r"^install\(CODE .*?^  COMPONENT program\)", (ROOT / "cmake/install.cmake").read_text(), re.M | re.S)[0]
+        sources = self.folder / "my sources"
+        (sources / "cmake").mkdir(parents=True)
+        (sources / "cmake/documents.py").write_text("import pathlib, sys\npathlib.Path('said').write_text(repr(sys.argv[1:]))\n")
+        (sources / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(x NONE)\nset(share \"my data/grouser\")\n"
+            f"set(CMAKE_INSTALL_DOCDIR doc)\nset(GROUSER_PYTHON_DIR lib)\nset(GROUSER_PYTHON {sys.executable})\n{code}\n")
+        for words in (["-S", sources, "-B", "build"], ["--install", "build", "--prefix", self.folder / "my place"]):
+            done = subprocess.run(["cmake", *words], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.folder / "said").read_text(),
+                         repr([str(self.folder / "my place"), "my data/grouser", "doc", "lib"]))
 
     def test_every_link_leads_somewhere(self):
         share, doc, _ = (self.folder / "opt" / folder for folder in self.LAYOUT)
