@@ -53,6 +53,7 @@ def figures(check):
 
 def shares(made, check):
     """Bars in percent of the values, by cause."""
+    told_errors = {grouser.series.split_unit(one["name"])[0]: one["errors"] for one in check.json["figures"]}
     found = [f for f in told(check) if f.bar.value and math.isfinite(f.bar.value)][:MOST_FIGURES]
     if not found:
         return ""
@@ -61,7 +62,8 @@ def shares(made, check):
     rows = []
     for figure in found:
         parts = [("seeds", percent(figure, figure.by_seeds.half_width))]
-        parts += [(axis, percent(figure, abs(e.change.value) + e.change.half_width)) for axis, e in figure.errors.items()]
+        parts += [(e["axis"], percent(figure, grouser.series.number(e.get("bar")))) for e in told_errors[figure.name]
+                  if e["axis"] != "precision" or not check.json.get("seeds_matter")]  # seeds show as much as it does
         parts = [(name, value) for name, value in parts if math.isfinite(value)]
         if not parts:
             continue

@@ -166,9 +166,16 @@ def part_told(run, since):
                 f"{number(since, 's', 'steady from')}."
     else:
         words = f"Means and extremes from {number(since, 's', 'steady from')} on, as the summary of a sweep has them."
-    if end < planned * (1 - 1e-9):
-        words += f" The run ended at {number(end, 's', 'end')}, before the {number(planned, 's', 'duration')} of its scene."
+    by, step = run.manifest.get("ended_by"), end / max(1, run.manifest.get("steps", 1))
+    if by or end < planned - 1.001 * step:  # the last step may end before the duration of the scene
+        words += f" The run ended at {number(end, 's', 'end')}, before the {number(planned, 's', 'duration')} of its scene"
+        words += f", by {esc(by)}." if by else "."
     return words
+
+
+def why_ended(manifest):
+    """What a run that has failed or was stopped says of it, in words."""
+    return str(manifest.get({"failed": "error", "stopped": "stopped"}.get(manifest.get("status")), ""))
 
 
 def figures(run, options):
@@ -255,7 +262,8 @@ def switches(manifest):
 def provenance(run):
     m, program = run.manifest, run.manifest.get("program", {})
     inputs = [line.rpartition(" ") for line in m.get("inputs", "").strip().split("\n") if line]
-    rows = [("status", f"<strong>{esc(run.status)}</strong>"), ("message", esc(m.get("message", ""))),
+    rows = [("status", f"<strong>{esc(run.status)}</strong>"), ("why", esc(why_ended(m))),
+            ("ended by", esc(m.get("ended_by", ""))),
             ("command", f"<code>{esc(m['command_line'])}</code>" if "command_line" in m else ""),
             ("scene", f"<code>{esc(m.get('scene', ''))}</code>"),
             ("overridden", ", ".join(f"<code>{esc(o)}</code>" for o in m.get("overrides", []))),
@@ -317,10 +325,9 @@ def films(folders, options, most=LARGEST_FILM):
 def page(folder, options):
     run = damage.open_whole(Path(folder))
     made = pages.Page(f"{run.folder.resolve().name} (run)", "run", folder)
-    failed = ""
     if run.status != "finished":
-        failed = f'<p class="bad">{esc(ENDED.get(run.status, run.status))} {esc(run.manifest.get("message", ""))}</p>'
-    made.section("figures", "Figures", failed + figures(run, options) + folded("Constants of the run", constants(run)))
+        made.warnings.append(f"<p>{esc(ENDED.get(run.status, run.status))} {esc(why_ended(run.manifest))}</p>")
+    made.section("figures", "Figures", figures(run, options) + folded("Constants of the run", constants(run)))
     made.section("space", "In space", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([
         films([run.folder], options), pages.picture(run.folder / "picture.png", "The end of the run"),

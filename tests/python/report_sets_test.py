@@ -146,7 +146,7 @@ class Pages(PageTest):
 
     def test_a_check(self):
         (self.folder / "grains.toml").write_text(GRAINS)
-        grouser.call(["check", "grains.toml", "--axes", "step", "--seeds", "3", "--out", "check"])
+        grouser.call(["check", "grains.toml", "--axes", "step,precision", "--seeds", "3", "--out", "check"])
         self.opened("check")
         check, shown = grouser.open_check("check"), self.numbers()
         self.assertGreater(len(check), 3)
@@ -163,6 +163,14 @@ class Pages(PageTest):
         self.assertGreater(len(cells), 0, "no setting keeps any bar")
         for name, seconds in cells:
             self.same(shown[name], seconds, name)
+        for figure in check.json["figures"]:
+            for error in figure["errors"]:  # as if the seeds showed little, and the step had a bar far above its change
+                error["bar"] = {"step": 0.7, "precision": 0.9}[error["axis"]] * abs(figure["value"])
+            figure["seeds_half_width"], figure["bar"] = 0.1 * abs(figure["value"]), 0.75 * abs(figure["value"])
+        (self.folder / "check/check.json").write_text(json.dumps(check.json))
+        self.opened("check")
+        largest = self.browser.value("[...document.querySelectorAll('#shares td:last-child')].map(c => c.textContent)")
+        self.assertEqual(set(largest), {"step (70 %)"}, "precision is in no bar where seeds matter")
         # Its runs write no frames: what is seen is the checkpoint's.
         with grouser.open_run("check/base,seed=1") as run:
             self.assertIsNone(run.frames)

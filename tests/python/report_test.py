@@ -332,13 +332,33 @@ class Pages(PageTest):
         subprocess.run(facts["command"], shell=True, check=True, capture_output=True)
         self.assertTrue((self.folder / "out/the run's/results.h5").is_file())
 
+    def text(self, place):
+        return self.browser.value(f"document.querySelector('{place}').textContent")
+
+    def run_of_grains(self, folder, *words):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["run", "grains.toml", "--out", folder, *words])
+
+    def test_why_a_run_has_ended_early(self):
+        self.run_of_grains("run", "--steps", "40")
+        self.opened("run")
+        facts = "Object.fromEntries([...document.querySelectorAll('#provenance dt')].map(d => [d.textContent, " \
+                "d.nextElementSibling.textContent]))"
+        self.assertEqual(self.browser.value(facts)["ended by"], "--steps 40")
+        manifest = json.loads((self.folder / "run/manifest.json").read_text())
+        for status, key, why in (("failed", "error", "a grain < has left"), ("stopped", "stopped", "SIGTERM came")):
+            (self.folder / "run/manifest.json").write_text(json.dumps({**manifest, "status": status, key: why}))
+            self.opened("run")
+            self.assertIn(why, self.text("#content > .bad"))
+            self.assertEqual(self.browser.value(facts)["why"], why)
+
     def test_figures_say_over_which_part_of_the_run_they_are(self):
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["run", "grains.toml", "--out", "run", "--steps", "400"])
         end = grouser.open_run("run").manifest["simulated_time_s"]
         self.assertAlmostEqual(end, 0.04)
         figures = [{"name": "force [N]", "value": 1.5}]
-        early = "The run ended at 0.04\u00a0s, before the 0.1\u00a0s of its scene."
+        early = "The run ended at 0.04\u00a0s, before the 0.1\u00a0s of its scene, by --steps 400."
         for since, words in ((None, "it has no steady part"), (0.05, "which would begin at 0.05\u00a0s"),
                              (0.02, "Means and extremes from 0.02\u00a0s on")):
             (self.folder / "figures.json").write_text(json.dumps({"figures": figures, "steady_from": since}))
@@ -347,11 +367,12 @@ class Pages(PageTest):
             caption = self.browser.value("document.querySelector('#figures caption').textContent")
             self.assertIn(words, caption)
             self.assertIn(early, caption)
-        grouser.call(["run", "grains.toml", "--out", "whole"])
-        self.opened("whole")
-        caption = self.browser.value("document.querySelector('#figures caption').textContent")
-        self.assertIn("Means and extremes from 0.05\u00a0s on", caption)
-        self.assertNotIn("ended at", caption)
+        for step in ("1e-4", "1.4e-4"):  # of which the last one ends before the duration of the scene
+            grouser.call(["run", "grains.toml", "--out", f"whole{step}", "--set", f"run.time_step={step}"])
+            self.opened(f"whole{step}")
+            caption = self.browser.value("document.querySelector('#figures caption').textContent")
+            self.assertIn("Means and extremes from 0.05\u00a0s on", caption)
+            self.assertNotIn("ended at", caption)
 
     def test_a_narrow_screen_shows_a_run_without_scrolling_sideways(self):
         long_name = "a_run_whose_folder_has_a_long_name_without_a_blank_in_it"
