@@ -9,6 +9,7 @@ own file. Exit status: 0; 2 where the folder holds no results or damaged ones, o
 is missing, 4 where the page cannot be written, 130 where it is interrupted; the last line then says what.
 """
 import argparse
+import contextlib
 import json
 import os
 import sys
@@ -68,14 +69,13 @@ def put(text, file):
     """Writes the page under another name and renames it: whoever opens it finds it whole."""
     fresh = file.with_name(file.name + ".part")
     try:
-        fresh.write_text(text, encoding="utf-8")
+        fresh.write_text(text, encoding="utf-8", errors="replace")  # names of files may be no UTF-8
         os.replace(fresh, file)
     except OSError as error:
-        fresh.unlink(missing_ok=True)
         end(NOT_WRITTEN, f"{file}: cannot be written: {error.strerror}")
-    except KeyboardInterrupt:
-        fresh.unlink(missing_ok=True)
-        raise
+    finally:
+        with contextlib.suppress(OSError):
+            fresh.unlink()
 
 
 def check_places(options):
@@ -97,6 +97,7 @@ def main():
     parser.add_argument("--program")
     parser.add_argument("--frames", type=int, default=60)
     parser.add_argument("--grains", type=int, default=40000)
+    sys.stdout.reconfigure(errors="surrogateescape")  # names of files as they are
     make(parser.parse_args())
 
 
@@ -108,12 +109,15 @@ def make(options):
         end(packages.MISSING, "the Python package grouser is missing, which the program is installed with; set "
                               "PYTHONPATH to the folder that it lies in")
     check_places(options)
-    kind = kind_of(options.folder)
+    try:
+        kind = kind_of(options.folder)
+    except OSError as error:
+        end(WRONG, f"{options.folder}: cannot be read: {error.strerror}; change that, or name another folder")
     if kind is None:
         end(WRONG, f"{options.folder}: holds no results; {instead(options.folder)}")
     try:
         options.figures = json.loads(options.figures.read_text(encoding="utf-8")) if options.figures else {}
-        made = contents(options.folder, kind, options)
+        text = contents(options.folder, kind, options).html()
     except grouser.FileError as error:
         end(WRONG, str(error).replace("\n", " "))
     except FileNotFoundError as error:
@@ -124,9 +128,8 @@ def make(options):
         end(WRONG, f"{options.folder}: its files of a {kind} cannot be read: {' '.join(str(error).split())}")
     except (ValueError, RuntimeError, IndexError, TypeError, AttributeError):
         end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version; make them again")
-    text = made.html()
     put(text, options.page)
-    print(f"report    {options.page}, {len(text.encode()) / 1e6:.1f} MB; open it in a browser")
+    print(f"report    {options.page}, {options.page.stat().st_size / 1e6:.1f} MB; open it in a browser")
 
 
 if __name__ == "__main__":

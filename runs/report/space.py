@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Grains and parts of a run over time, as the 3-D view takes them: fewer frames and grains where there are many,
 places as 16-bit numbers, shapes of parts once."""
+from types import SimpleNamespace
+
 import numpy
 
 import damage
@@ -44,26 +46,36 @@ def chosen_grains(first, last, most):
     return numpy.sort(ids[numpy.argsort(-score, kind="stable")[:most]])
 
 
+def whole_grains(frame):
+    """Those of a frame whose place, radius and speed are numbers, and how many others are lost."""
+    if not len(frame):
+        return SimpleNamespace(id=numpy.empty(0, int), position=numpy.empty((0, 3)), radius=numpy.empty(0),
+                               speed=numpy.empty(0), lost=0)
+    read = {"id": frame.id, "position": frame.position, "radius": frame.radius, "speed": frame.grains("speed")}
+    there = numpy.isfinite(read["position"]).all(axis=1) & numpy.isfinite(read["radius"]) & numpy.isfinite(read["speed"])
+    return SimpleNamespace(**{name: values[there] for name, values in read.items()}, lost=int((~there).sum()))
+
+
 def grains_of(made, frames, picked, most, most_places):
-    """Places, speeds and radii of the grains in the frames picked; nothing where there are none."""
-    first, last = frames[picked[0]], frames[picked[-1]]
-    if len(first) + len(last) == 0:
-        return None, None, 0
-    total = len(numpy.union1d(first.id, last.id))
+    """Places, speeds and radii of the grains in the frames picked, how many there are and are left of them, and the
+    most in a frame that cannot be drawn; nothing where there are none."""
+    first, last = whole_grains(frames[picked[0]]), whole_grains(frames[picked[-1]])
+    total, lost = len(numpy.union1d(first.id, last.id)), 0
+    if total == 0:
+        return None, 0, 0, max(first.lost, last.lost)
     ids = chosen_grains(first, last, min(most, int(most_places / len(picked))))
     places = numpy.full((len(picked), len(ids), 3), numpy.nan)
     speed = numpy.zeros((len(picked), len(ids)))
     radius = numpy.zeros(len(ids))
     for k, index in enumerate(picked):
-        frame = frames[index]
-        if not len(frame):
-            continue
+        frame = whole_grains(frames[index])
+        lost = max(lost, frame.lost)
         at = numpy.searchsorted(ids, frame.id)
         here = (at < len(ids)) & (ids[numpy.minimum(at, len(ids) - 1)] == frame.id)
         places[k, at[here]] = frame.position[here]
-        speed[k, at[here]] = frame.grains("speed")[here]
+        speed[k, at[here]] = frame.speed[here]
         radius[at[here]] = frame.radius[here]
-    return {"places": places, "speed": speed, "radius": radius}, total, len(ids)
+    return {"places": places, "speed": speed, "radius": radius}, total, len(ids), lost
 
 
 def shapes_of(frames):
@@ -120,7 +132,8 @@ def box_of(places, corners, ground):
     """Corners of all that is drawn."""
     clouds = [cloud.reshape(-1, 3) for cloud in (places, corners, ground) if cloud is not None and cloud.size]
     points = numpy.concatenate(clouds)
-    return numpy.nanmin(points, axis=0), numpy.nanmax(points, axis=0)
+    points = points[numpy.isfinite(points).all(axis=1)]
+    return points.min(axis=0), points.max(axis=0)
 
 
 def add_grains(made, name, drawn, middle, data):
@@ -187,7 +200,7 @@ def data_of(made, run, place, options, places):
     if frames is None:
         return None
     picked = chosen_frames(count, options.frames)
-    drawn, total, left = grains_of(made, frames, picked, options.grains, places)
+    drawn, total, left, lost = grains_of(made, frames, picked, options.grains, places)
     shapes = shapes_of(frames)
     ground = frames.ground
     poses = numpy.array([frames[k].poses for k in picked]) if shapes else None
@@ -201,7 +214,7 @@ def data_of(made, run, place, options, places):
     name = f"space{place}"
     data = {"name": run.folder.name, "time": made.array(f"{name}.time", frames.time[picked]), "middle": middle.tolist(),
             "names": frames.parts, "box": [(low - middle).tolist(), (high - middle).tolist()], "shapes": [],
-            "words": words_of(len(picked), words, left, total, drawn is not None)}
+            "words": words_of(len(picked), words, left, total, lost)}
     if drawn is not None:
         add_grains(made, name, drawn, middle, data)
     if poses is not None:
@@ -222,11 +235,13 @@ def data_of(made, run, place, options, places):
     return data
 
 
-def words_of(shown, frames, count, total, grains):
+def words_of(shown, frames, count, total, lost):
     words = f"{shown} {frames}"
-    if grains:
+    if total:
         left_out = "" if count == total else ": those at the surface and the sides first, then those that moved most"
         words += f"; {count} of {total} grains{left_out}; places to 1/65534 of the bed's extent"
+    if lost:
+        words += f"; up to {lost} grains of a frame are left out: their places, radii or speeds are no numbers"
     return words + "."
 
 

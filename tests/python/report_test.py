@@ -11,6 +11,7 @@ import subprocess
 import time
 import unittest
 
+import h5py
 import numpy
 from fixture import ROOT, FolderTest
 from report_pages import FILM, FILM_TEXT, GRAINS, PageTest, report
@@ -119,6 +120,31 @@ class Refused(FolderTest):
         self.assertFalse((self.folder / "damaged.html").exists())
         self.assertEqual(list(self.folder.glob("**/*.part")), [])
 
+    def test_what_cannot_be_entered(self):
+        done = subprocess.run([*SCRIPT, "long" * 99, "page.html"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (2, ""))
+        self.assertIn("cannot be read: File name too long", done.stdout)
+
+    def test_a_library_that_is_missing(self):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["run", "grains.toml", "--out", "run", "--steps", "40"])
+        code = ("import sys; sys.path.insert(0, sys.argv.pop(1)); import report; from pathlib import Path; import page; "
+                "page.DEBIAN = Path('javascript'); report.main()")
+        done = subprocess.run(["/usr/bin/python3", "-B", "-c", code, str(ROOT / "runs/report"), "run", "page.html"],
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (3, ""))
+        self.assertIn("is missing; install libjs-", done.stdout)
+
+    def test_names_that_are_no_text(self):
+        """A folder whose name is no UTF-8 has its page, and its own bytes in what is told."""
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["run", "grains.toml", "--out", "run", "--steps", "40"])
+        (self.folder / "run").rename(os.fsdecode(b"r\xffn"))
+        done = subprocess.run([*SCRIPT, b"r\xffn", b"r\xffn/page.html"], capture_output=True)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertTrue(done.stdout.startswith(b"report    r\xffn/page.html"), done.stdout)
+        self.assertIn("r?n (run)", (self.folder / os.fsdecode(b"r\xffn/page.html")).read_text())
+        self.assertEqual(list(self.folder.glob("**/*.part")), [])
 
     def test_what_is_interrupted_leaves_nothing(self):
         """Ctrl-C while the page is made, here while the script asks the program for a unit: one line, exit code 130."""
@@ -331,6 +357,17 @@ class Pages(PageTest):
         (self.folder / "out").rename("before")
         subprocess.run(facts["command"], shell=True, check=True, capture_output=True)
         self.assertTrue((self.folder / "out/the run's/results.h5").is_file())
+
+    def test_grains_without_a_place_are_left_out(self):
+        self.run_of_grains("run")
+        with h5py.File("run/frames.h5", "r+") as frames:
+            grains = frames[sorted(name for name in frames if name.isdigit())[-1]]["grains"]
+            for name, row, value in (("position", 3, math.nan), ("position", 4, math.inf), ("speed", 5, math.inf)):
+                grains[name][row] = value
+        self.opened("run")
+        words = self.browser.value("document.getElementById('space-words').textContent")
+        self.assertIn("up to 3 grains of a frame are left out", words)
+        self.assertTrue(math.isfinite(self.browser.value("report.space.grains.fastest")))
 
     def text(self, place):
         return self.browser.value(f"document.querySelector('{place}').textContent")
