@@ -151,15 +151,12 @@ def error_over_time(made, check, cost):
                      "A point for each step that was run.", log="xy") if drawn else ""
 
 
-def first_runs(check):
-    """Folders of the first run of each case that has one which has finished, the scene as it is before all."""
-    folders = []
-    for case in check.json["cases"]:
-        if case["runs"] and case["runs"][0].get("status", "finished") == "finished":
-            seeded = check.folder / f"{case['name']},seed={case['runs'][0]['seed']}"
-            plain = check.folder / case["name"]  # without seeds
-            folders.append(plain if plain.is_dir() and not seeded.is_dir() else seeded)
-    return folders
+def runs_of(check, case):
+    """Folders of the runs of a case that have finished."""
+    plain = check.folder / case["name"]  # without seeds
+    return [plain if plain.is_dir() and not seeded.is_dir() else seeded for run in case["runs"]
+            if run.get("status", "finished") == "finished"
+            for seeded in [check.folder / f"{case['name']},seed={run['seed']}"]]
 
 
 def machine_of(check):
@@ -189,8 +186,8 @@ def page(folder, options):
     made.section("shares", "What makes the bars", shares(made, check))
     made.section("plots", "Series with their bars", bands(made, check))
     made.section("costs", "What it cost", costs(made, check))
-    folders = first_runs(check)
-    damage.warn(made, sweep_page.faults_of(folders))
+    folders, faults = sweep_page.first_whole([runs_of(check, case) for case in check.json["cases"]])
+    damage.warn(made, faults)
     sweep_page.add_runs(made, folders, options, "The first run of each case.")
     made.section("provenance", "Where it comes from", provenance(check))
     return made

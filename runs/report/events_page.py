@@ -111,6 +111,12 @@ def plots(made, rows):
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
+def runs_of(folder, row):
+    """Folders of the runs of a level that came to a verdict; of files that do not tell them, of the one in its picture."""
+    told = [run["run"] for run in row.get("each", []) if run["verdict"] != "failed"]
+    return [folder / name for name in told or [row.get("picture", "").rpartition("/")[0]] if name]
+
+
 def page(folder, options):
     events = grouser.open_events(folder).json
     made = pages.Page(f"{folder.resolve().name} (events)", "series of mobility events", folder)
@@ -128,8 +134,8 @@ def page(folder, options):
                                                                 ("drawbar.png", "Drawbar pull over slip"))))
     made.section("numbers", "Figures", figures(rows))
     made.section("plots", "Plots", plots(made, rows))
-    folders = [folder / row["picture"].rpartition("/")[0] for row in rows if row.get("picture")]
-    damage.warn(made, sweep_page.faults_of(folders))
+    folders, faults = sweep_page.first_whole([runs_of(folder, row) for row in rows])
+    damage.warn(made, faults)
     sweep_page.add_runs(made, folders, options, "The first run of each level.")
     made.section("provenance", "Where it comes from", facts([
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),

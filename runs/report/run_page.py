@@ -165,7 +165,8 @@ def part_told(run, since):
         words = f"Of the end of the run, and of all of it: it has not come to the steady part, which would begin at " \
                 f"{number(since, 's', 'steady from')}."
     else:
-        words = f"Means and extremes from {number(since, 's', 'steady from')} on, as the summary of a sweep has them."
+        words = (f"Means and extremes from {number(since, 's', 'steady from')} on, as the summary of a sweep has them; "
+                 "works, errors and what is \u201cat the end\u201d are of the end.")
     by, step = run.manifest.get("ended_by"), end / max(1, run.manifest.get("steps", 1))
     if by or end < planned - 1.001 * step:  # the last step may end before the duration of the scene
         words += f" The run ended at {number(end, 's', 'end')}, before the {number(planned, 's', 'duration')} of its scene"
@@ -187,6 +188,8 @@ def figures(run, options):
     for figure in told.get("figures", []):
         name, value = figure["name"], figure["value"]
         plain, unit = grouser.series.split_unit(name)
+        if plain == "steady from":  # which is said above the figures
+            continue
         checked = barred.get(name)
         bar = "none"
         if checked and checked["bar"] is not None:

@@ -23,7 +23,19 @@ MOST_FILMS = 6e6  # bytes
 
 
 def text_of(keys):
-    return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in keys.items()) or "as the scene says"
+    return ", ".join(f"{name} = {value}" for name, value in zip(short_keys(keys), keys.values())) or "as the scene says"
+
+
+def short_keys(keys):
+    """Their last words, and as many before these as keep them apart: "sand.friction" and "rock.friction"."""
+    words = [key.split(".") for key in keys]
+
+    def end(of, count):
+        return ".".join(of[-count:])
+
+    return [end(of, next((count for count in range(1, len(of)) if sum(end(other, count) == end(of, count)
+                                                                      for other in words) == 1), len(of)))
+            for of in words]
 
 
 def follows(sweep, name):
@@ -172,6 +184,12 @@ def opened(folders):
 def faults_of(folders):
     """{run: what is wrong with its files}, of those of which something is."""
     return {folder.name: fault for folder in folders if (fault := damage.fault_of(folder))}
+
+
+def first_whole(groups):
+    """Of groups of folders of runs, the first of each that is whole, or its first; and what is wrong with any of them."""
+    faults = faults_of([folder for group in groups for folder in group])
+    return [next((folder for folder in group if folder.name not in faults), group[0]) for group in groups if group], faults
 
 
 def add_runs(made, folders, options, words):

@@ -80,11 +80,24 @@ class Pages(PageTest):
     def test_a_check_names_runs_whose_files_are_missing(self):
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["check", "grains.toml", "--axes", "step", "--seeds", "2", "--out", "check"])
+        def opened():
+            self.opened("check")
+            return (self.browser.value("document.querySelector('#content > .bad').textContent"),
+                    self.browser.value("report.data.spaces.map(s => s.name)"))
+
+        lost = self.folder / "check/base,seed=2/results.h5"
+        lost.rename("kept")
+        top, spaces = opened()
+        self.assertIn("base,seed=2: without results.h5", top)
+        self.assertIn("1 run has missing or damaged files", top)
+        self.assertEqual(spaces[0], "base,seed=1")
+        (self.folder / "kept").rename(lost)
         rmtree(self.folder / "check/base,seed=1")
-        self.opened("check")
-        top = self.browser.value("document.querySelector('#content > .bad').textContent")
+        top, spaces = opened()
         self.assertIn("base,seed=1: ", top)
         self.assertIn("1 run has missing or damaged files", top)
+        self.assertEqual(spaces[0], "base,seed=2", "the next seed")
+        self.assertIn("base,seed=2", self.browser.value("document.querySelector('#scene summary').textContent"))
 
     def test_sweeps_without_seeds_or_numbers_have_points_without_bars(self):
         (self.folder / "grains.toml").write_text(GRAINS)
@@ -102,6 +115,14 @@ class Pages(PageTest):
             self.assertIn("no bars: one run a level", told)
             if name == "cases":
                 self.assertIn("1: case = slippery; 2: case = rough", told)
+
+    def test_the_same_key_of_two_materials_keeps_its_material(self):
+        (self.folder / "grains.toml").write_text(GRAINS + "[material.rock]\n")
+        grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.4", "--set",
+                      "material.rock.friction=0.2,0.4", "--seeds", "2", "--out", "sweep"])
+        self.opened("sweep")
+        names = self.browser.value("[...document.querySelectorAll('#figures thead th')].map(h => h.textContent)")
+        self.assertIn("sand.friction = 0.2, rock.friction = 0.4", ", ".join(names))
 
     def test_a_narrow_screen_shows_a_sweep_without_scrolling_sideways(self):
         """Names break behind commas, long tables stand in a box that is scrolled, their headings stay in sight."""
@@ -185,9 +206,9 @@ class Pages(PageTest):
     def test_events(self):
         folder = self.folder / "events"
         (self.folder / "grains.toml").write_text(GRAINS)
-        for level in (0.1, 0.2):
+        for level, name in ((0.1, "0.1,seed=1"), (0.1, "0.1,seed=2"), (0.2, "0.2")):
             grouser.call(["run", "grains.toml", "--set", f"run.gravity=[-{level}, 0, -9.81]", "--out",
-                          f"events/grade={level}"])
+                          f"events/grade={name}"])
         def row(level, pull):
             each = [{"run": f"grade={level},seed=1", "verdict": "go", "why": "5.0 m in 6.2 s"},
                     {"run": f"grade={level},seed=2", "verdict": "no-go", "why": "throws a <track>"}]
@@ -210,7 +231,13 @@ class Pages(PageTest):
         self.assertIn("throws a <track>", rows[1], "of a file that does not tell of each run")
         self.assertEqual(self.browser.value("[...document.querySelectorAll('#numbers th')].map(h => h.textContent)"),
                          ["figure", "unit", "0.1", "0.2"], "levels in their order")
-        self.runs_are_chosen([folder / "grade=0.1", folder / "grade=0.2"])
+        self.assertEqual(self.browser.value("document.querySelectorAll('#content > .bad').length"), 0)
+        self.runs_are_chosen([folder / "grade=0.1,seed=1", folder / "grade=0.2"])
+        (folder / "grade=0.1,seed=1/results.h5").unlink()
+        self.opened("events")
+        self.assertIn("grade=0.1,seed=1: without results.h5",
+                      self.browser.value("document.querySelector('#content > .bad').textContent"))
+        self.assertEqual(self.browser.value("report.data.spaces.map(s => s.name)"), ["grade=0.1,seed=2", "grade=0.2"])
         self.fits_narrow_screens()
 
     @staticmethod

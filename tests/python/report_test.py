@@ -394,16 +394,19 @@ class Pages(PageTest):
         grouser.call(["run", "grains.toml", "--out", "run", "--steps", "400"])
         end = grouser.open_run("run").manifest["simulated_time_s"]
         self.assertAlmostEqual(end, 0.04)
-        figures = [{"name": "force [N]", "value": 1.5}]
+        figures = [{"name": "force [N]", "value": 1.5}, {"name": "steady from [s]", "value": 0.02}]
         early = "The run ended at 0.04\u00a0s, before the 0.1\u00a0s of its scene, by --steps 400."
         for since, words in ((None, "it has no steady part"), (0.05, "which would begin at 0.05\u00a0s"),
-                             (0.02, "Means and extremes from 0.02\u00a0s on")):
+                             (0.02, "Means and extremes from 0.02\u00a0s on, as the summary of a sweep has them; works, errors and "
+                                    "what is \u201cat the end\u201d are of the end.")):
             (self.folder / "figures.json").write_text(json.dumps({"figures": figures, "steady_from": since}))
             subprocess.run([*SCRIPT, "run", "page.html", "--figures", "figures.json"], check=True, capture_output=True)
             self.browser.open(self.folder / "page.html")
             caption = self.browser.value("document.querySelector('#figures caption').textContent")
             self.assertIn(words, caption)
             self.assertIn(early, caption)
+            self.assertEqual(self.browser.value("[...document.querySelectorAll('#figures table')[0].querySelectorAll("
+                                                "'tbody tr')].map(r => r.cells[0].textContent)"), ["force"])
         for step in ("1e-4", "1.4e-4"):  # of which the last one ends before the duration of the scene
             grouser.call(["run", "grains.toml", "--out", f"whole{step}", "--set", f"run.time_step={step}"])
             self.opened(f"whole{step}")
