@@ -10,6 +10,7 @@ import page as pages
 import run_page
 from page import esc, facts, folded, number, table, with_bar
 
+MOST_SERIES = 8
 MOST_FIGURES = 24  # headline figures first; more are folded
 
 
@@ -74,13 +75,17 @@ def shares(made, check):
 
 
 def bands(made, check):
-    """The series with bars that matter: those of a vehicle and the ledger first."""
+    """The series with bars that matter: those of a vehicle and the ledger, and where these are few others."""
     if not (check.folder / "series.csv").is_file() or not check.series:
         return ""
     wanted = ("vehicle.position.x", "vehicle.position.z", "vehicle.velocity.x", "vehicle.left.speed",
               "vehicle.left.slip", "vehicle.left.drive_torque", "vehicle.gross_traction", "ledger.drive_work",
               "ledger.integration_error")
-    names = [n for n in wanted if n in check.series] or list(check.series)[:8]
+    names = [n for n in wanted if n in check.series]
+    others = [n for n, s in check.series.items() if n not in names and not n.startswith("ledger.")
+              and numpy.nanmax(s.bar, initial=0.0) > 0]
+    others.sort(key=lambda name: not name.startswith("surfaces."))
+    names = others[:max(0, MOST_SERIES - len(names))] + names
     inner = []
     for name in names:
         s = check.series[name]
@@ -148,7 +153,7 @@ def error_over_time(made, check, cost):
         if len(points) > 1 and len(drawn) < 7:
             drawn.append((grouser.series.split_unit(one["name"])[0], *map(list, zip(*points))))
     return made.plot("Error over run time", "wall time of a run [s]", "error bar of the step [% of the value]", drawn,
-                     "A point for each step that was run.", log="xy") if drawn else ""
+                     "A point for each step that was run.", log="xy", marks=True) if drawn else ""
 
 
 def runs_of(check, case):

@@ -102,8 +102,8 @@ def plots(made, rows):
             levels, means, halves = (list(column) for column in zip(*sorted(points)))
             told = "Mean over the runs of a level; bar: its 95 % interval, where there are several."
             if not any(map(math.isfinite, halves)):
-                told = "A point for each level; no bars: one run a level."
-            columns = [levels, means, [half if math.isfinite(half) else 0.0 for half in halves]]
+                told = "A point for each level; no bars: one run each."
+            columns = [levels, means, [half if math.isfinite(half) else math.nan for half in halves]]
             across = level if "[" in level else f"{level} [-]"
             inner.append(made.plot(f"{title}: {grouser.series.split_unit(name)[0]}", across,
                                    name if "[" in name else f"{name} [-]", [(name, *columns)],
@@ -141,7 +141,7 @@ def page(folder, options):
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),
         ("soil", esc(events.get("soil", ""))), ("seeds", esc(str(events.get("seeds", "")))),
         ("speed", number(events.get("speed_m_s"), "m/s", "speed_m_s")),
-        ("grain radius", number(events.get("grain_radius_m"), "m", "grain_radius_m")),
-        ("depth of beds", number(events.get("bed_depth_m"), "m", "bed_depth_m")),
+        *((what, number(events[key], "m", key)) for what, key in (("grain radius", "grain_radius_m"),
+                                                                  ("depth of beds", "bed_depth_m")) if events.get(key)),
         ("commit", f"<code>{esc(events.get('commit', ''))}</code>"), ("machine", esc(events.get("machine", "")))]))
     return made

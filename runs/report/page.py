@@ -108,10 +108,13 @@ def folded(title, inner, opened=False):
 
 
 def picture(file, words):
-    """A PNG in the page, or nothing where there is none."""
+    """A PNG in the page, or nothing where there is none; of a damaged one words that say so."""
     if not file.is_file():
         return ""
-    data = base64.b64encode(file.read_bytes()).decode()
+    picture_ = file.read_bytes()
+    if not picture_.startswith(b"\x89PNG\r\n\x1a\n") or picture_[-8:-4] != b"IEND":
+        return f'<p class="bad">{esc(file.name)} is damaged: it is no whole PNG picture.</p>'
+    data = base64.b64encode(picture_).decode()
     return (f'<figure><img src="data:image/png;base64,{data}" alt="{esc(words)}"><figcaption>{esc(words)} '
             f'({esc(file.name)})</figcaption></figure>')
 

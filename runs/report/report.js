@@ -184,7 +184,8 @@ class Plot {
       const values = [];
       this.curves.forEach((curve, k) => {
         const value = at && curve.label === name ? at[k + 1] : null;
-        if (Array.isArray(value) && value[1] !== null)
+        if (Array.isArray(value) && value[1] !== null && value[0] === value[2]) values.push(report.shown(value[1]));
+        else if (Array.isArray(value) && value[1] !== null)
           values.push(`${report.shown(value[1])} (${report.shown(value[0])} to ${report.shown(value[2])})`);
         else if (value !== null && !Array.isArray(value)) values.push(report.shown(value));
       });

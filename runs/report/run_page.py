@@ -3,8 +3,10 @@
 import base64
 import math
 import re
+import tomllib
 from pathlib import Path
 
+import h5py
 import numpy
 
 import damage
@@ -43,6 +45,7 @@ CURVES = (
 LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissipated_damping", "dissipated_friction",
           "dissipated_rolling", "dissipated_yielding", "dissipated_crushing", "dissipated_parts", "dissipated_joints",
           "integration_error", "residual", "turnover")
+ENDINGS = {unit: unit for unit in ("s", "m", "J", "kg")}  # of names in manifest.json, and their units
 #: What is said of a run by its status, unless it is finished.
 ENDED = {"running": "This run is still going on, or was killed: what is told here is what it had written by then.",
          "failed": "This run has failed.", "stopped": "This run was stopped before its end; --resume goes on with it."}
@@ -73,8 +76,9 @@ def meanings(columns):
     """What the curves are: "speed: of the hull at this track; ..."."""
     told = {}
     for _, _, series in columns:
-        told.setdefault(re.sub(r"^(left|right) ", "", short(series.name)), series.help)
-    return "; ".join(f"{what}: {help}" for what, help in told.items())
+        help_ = series.help.replace("sum of the seven below", "all that is lost")  # results list its parts below it
+        told.setdefault(re.sub(r"^(left|right) ", "", short(series.name)), help_)
+    return "; ".join(f"{what}: {help_}" for what, help_ in told.items())
 
 
 def within(columns, low, high):
@@ -214,9 +218,10 @@ def constants(run):
     for name, q in run.constants.items():
         if q.value.shape == () and q.value.dtype.kind in "fiu":
             rows.append([f"<code>{esc(name)}</code>", number(float(q), "", name), esc(q.unit), esc(q.help)])
-    told = run.manifest.get("figures", {})
-    rows += [[f"<code>{esc(key)}</code>", number(float(value), "", key), "", "of the run, from manifest.json"]
-             for key, value in told.items()]
+    begun = run.manifest.get("resumed_from_step")
+    of = "of the run" if begun is None else f"of its last part, resumed from step {begun}"
+    rows += [[f"<code>{esc(key)}</code>", number(float(value), "", key), ENDINGS.get(key.rpartition("_")[2], ""),
+              f"{esc(of)}; from manifest.json"] for key, value in run.manifest.get("figures", {}).items()]
     return table(["what", "value", "unit", ""], rows, numeric=(1,)) if rows else ""
 
 
@@ -339,12 +344,20 @@ def page(folder, options):
     made.section("ledger", "Energy ledger", ledger([run]))
     made.section("series", "All series", any_series(made, run))
     made.section("switches", "What was on and off", switches(run.manifest))
-    made.section("scene", "Scene", folded("The resolved scene: every key with its value",
-                                          f'<pre>{esc(pages_text(run))}</pre>'))
+    made.section("scene", "Scene", scene(run, "The resolved scene"))
     made.section("provenance", "Where it comes from", provenance(run))
     return made
 
 
-def pages_text(run):
-    file = run.folder / "scene.toml"
-    return file.read_text(encoding="utf-8") if file.is_file() else ""
+def scene(run, title):
+    """The scene of a run, from scene.toml, or where that is none any more from results.h5."""
+    text, words = (run.folder / "scene.toml").read_text(encoding="utf-8"), ""
+    try:
+        whole = bool(tomllib.loads(text))
+    except tomllib.TOMLDecodeError:
+        whole = False
+    if not whole:
+        with h5py.File(run.file, "r", locking=False) as results:
+            text = grouser.run.text_of(results.attrs["scene"])
+        words = '<p class="bad">scene.toml is damaged: it holds no scene. This one is from results.h5.</p>'
+    return words + folded(f"{title}: every key with its value", f"<pre>{esc(text)}</pre>")

@@ -105,7 +105,7 @@ def curves_of(sweep, name, place, curve):
     for mean in sweep.means.get(name, []):
         half = mean.mean.half_width
         groups.setdefault(curve(mean.keys), []).append(
-            (place(mean.keys), mean.mean.value, half if math.isfinite(half) else 0.0))
+            (place(mean.keys), mean.mean.value, half if math.isfinite(half) else math.nan))
     for run in sweep.runs if not groups else []:
         groups.setdefault(curve(run.keys), []).append((place(run.keys), run.figures[name]))
     return {label: sorted(p for p in points if math.isfinite(p[1])) for label, points in groups.items()}
@@ -116,14 +116,16 @@ def plots(made, sweep, program):
     if across is None:
         return ""
     axis, place, curve, words = across
-    told = "Mean over the seeds; bar: its 95 % interval." if sweep.means else "A point for each run; no bars: one run a level."
+    told = "Mean over the seeds; bar: its 95 % interval." if sweep.means else "A point for each run; no bars: one run each."
     inner = []
     for name in lively(sweep):
         groups = curves_of(sweep, name, place, curve)
         drawn = [(label if len(groups) > 1 else name, *map(list, zip(*points)))
                  for label, points in list(groups.items())[:MOST_CURVES] if points]
         if drawn:
-            more = f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
+            alone = sum(math.isnan(half) for _, _, _, *halves in drawn for half in (halves[0] if halves else ()))
+            more = f" No bar where one seed alone has ended: {alone} of the points." if alone else ""
+            more += f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
             inner.append(made.plot(name[:1].upper() + name[1:], axis, f"{name} [{sweep.units[name]}]", drawn,
                                    told + words + more, marks=True, whole=bool(words)))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
@@ -206,8 +208,7 @@ def add_runs(made, folders, options, words):
         name = esc(runs[0].folder.name)
         made.section("switches", "What was on and off",
                      f"<p>In the run <code>{name}</code>.</p>{run_page.switches(runs[0].manifest)}")
-        made.section("scene", "Scene", folded(f"The resolved scene of {runs[0].folder.name}: every key with its value",
-                                              f"<pre>{esc(run_page.pages_text(runs[0]))}</pre>"))
+        made.section("scene", "Scene", run_page.scene(runs[0], f"The resolved scene of {runs[0].folder.name}"))
         made.section("first", "The first run", run_page.provenance(runs[0]))
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Reports of several runs and of soils, opened in Chromium: sweeps, checks, events, soils' tests, calibrations."""
+import csv
 import json
 import math
 import unittest
@@ -112,9 +113,31 @@ class Pages(PageTest):
             force = [plot for plot in plots if plot[0] == "Ground force z"]
             self.assertEqual(force, [["Ground force z", 2, places, grouser.open_sweep(name)["ground force z"].value.tolist()]])
             told = self.browser.value("document.querySelector('#plots figcaption').textContent")
-            self.assertIn("no bars: one run a level", told)
+            self.assertIn("no bars: one run each", told)
             if name == "cases":
                 self.assertIn("1: case = slippery; 2: case = rough", told)
+
+    def test_one_seed_alone_has_no_bar(self):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.6", "--seeds", "2", "--out", "sweep"])
+        self.opened("sweep")
+        caption = "[...document.querySelectorAll('#plots figure')].find(f => f.textContent.startsWith('Ground force z'))" \
+                  ".querySelector('figcaption').textContent"
+        self.assertNotIn("No bar", self.browser.value(caption))
+        table = self.folder / "sweep/intervals.csv"
+        with open(table, newline="") as kept:
+            rows = list(csv.DictReader(kept))
+        row = next(row for row in rows if row["figure"].startswith("ground force z"))
+        row.update({"seeds": "1", "half width": "inf"})  # as the program writes it of one seed
+        with open(table, "w", newline="") as fresh:
+            writer = csv.DictWriter(fresh, rows[0])
+            writer.writeheader()
+            writer.writerows(rows)
+        self.opened("sweep")
+        self.assertIn("No bar where one seed alone has ended: 1 of the points.", self.browser.value(caption))
+        halves = self.browser.value("Array.from(report.plots.find(p => p.entry.title === 'Ground force z').curves[0]"
+                                    ".columns[2]).map(Number.isFinite)")
+        self.assertEqual(sorted(halves), [False, True])
 
     def test_the_same_key_of_two_materials_keeps_its_material(self):
         (self.folder / "grains.toml").write_text(GRAINS + "[material.rock]\n")
@@ -190,6 +213,11 @@ class Pages(PageTest):
             figure["seeds_half_width"], figure["bar"] = 0.1 * abs(figure["value"]), 0.75 * abs(figure["value"])
         (self.folder / "check/check.json").write_text(json.dumps(check.json))
         self.opened("check")
+        over = "report.plots.find(p => p.entry.title === 'Error over run time')"
+        self.assertTrue(self.browser.value(f"{over}.looks.length && {over}.looks.every(look => look.marked)"))
+        drawn = self.browser.value("[...document.querySelectorAll('#plots h3')].map(h => h.textContent)")
+        self.assertIn("surfaces.ground.force.z", drawn)
+        self.assertIn("ledger.integration_error", drawn)
         largest = self.browser.value("[...document.querySelectorAll('#shares td:last-child')].map(c => c.textContent)")
         self.assertEqual(set(largest), {"step (70 %)"}, "precision is in no bar where seeds matter")
         # Its runs write no frames: what is seen is the checkpoint's.
@@ -232,8 +260,11 @@ class Pages(PageTest):
         self.assertEqual(self.browser.value("[...document.querySelectorAll('#numbers th')].map(h => h.textContent)"),
                          ["figure", "unit", "0.1", "0.2"], "levels in their order")
         self.assertEqual(self.browser.value("document.querySelectorAll('#content > .bad').length"), 0)
+        self.assertEqual((shown["grain_radius_m"], shown["bed_depth_m"]), (0.02, 0.3))
         self.runs_are_chosen([folder / "grade=0.1,seed=1", folder / "grade=0.2"])
         (folder / "grade=0.1,seed=1/results.h5").unlink()
+        told = json.loads((folder / "events.json").read_text())
+        (folder / "events.json").write_text(json.dumps({**told, "grain_radius_m": 0.0, "bed_depth_m": 0.0}))
         self.opened("events")
         self.assertIn("grade=0.1,seed=1: without results.h5",
                       self.browser.value("document.querySelector('#content > .bad').textContent"))

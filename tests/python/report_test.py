@@ -369,6 +369,32 @@ class Pages(PageTest):
         self.assertIn("up to 3 grains of a frame are left out", words)
         self.assertTrue(math.isfinite(self.browser.value("report.space.grains.fastest")))
 
+    def test_what_is_damaged_beside_the_results(self):
+        """The scene comes from results.h5, a picture is told instead of drawn; figures of the last part say so."""
+        self.run_of_grains("run", "--steps", "40")
+        grouser.call(["run", "grains.toml", "--out", "run", "--resume"])
+        begun = grouser.open_run("run").manifest["resumed_from_step"]
+        scene, picture = self.folder / "run/scene.toml", self.folder / "run/picture.png"
+        whole, drawn = scene.read_text(), picture.read_bytes()
+        self.opened("run")
+        self.assertEqual(self.text("#scene pre"), whole)
+        self.assertNotIn("is damaged", self.text("#content"))
+        rows = self.browser.value("[...document.querySelectorAll('#figures details tbody tr')].map(r => [...r.cells].map("
+                                  "c => c.textContent))")
+        wall = next(row for row in rows if row[0] == "wall_steps_s")
+        self.assertEqual(wall[2:], ["s", f"of its last part, resumed from step {begun}; from manifest.json"])
+        self.assertNotIn("seven below", self.text("#plots"))
+        for broken in ("", "version = [1"):
+            scene.write_text(broken)
+            self.opened("run")
+            self.assertEqual(self.text("#scene pre").strip(), whole.strip())
+            self.assertIn("scene.toml is damaged: it holds no scene. This one is from results.h5.", self.text("#scene"))
+        for broken in (b"", b"no picture", drawn[:-20]):
+            picture.write_bytes(broken)
+            self.opened("run")
+            self.assertIn("picture.png is damaged", self.text("#pictures"))
+            self.assertEqual(self.browser.value("document.querySelectorAll('#pictures img').length"), 0)
+
     def text(self, place):
         return self.browser.value(f"document.querySelector('{place}').textContent")
 
