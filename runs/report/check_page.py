@@ -10,7 +10,6 @@ import page as pages
 import run_page
 from page import esc, facts, folded, number, table, with_bar
 
-MOST_SERIES = 8
 MOST_FIGURES = 24  # headline figures first; more are folded
 
 
@@ -75,17 +74,13 @@ def shares(made, check):
 
 
 def bands(made, check):
-    """The series with bars that matter: those of a vehicle and the ledger, and where these are few others."""
+    """The series with bars that matter: those of a vehicle and the ledger first."""
     if not (check.folder / "series.csv").is_file() or not check.series:
         return ""
     wanted = ("vehicle.position.x", "vehicle.position.z", "vehicle.velocity.x", "vehicle.left.speed",
               "vehicle.left.slip", "vehicle.left.drive_torque", "vehicle.gross_traction", "ledger.drive_work",
               "ledger.integration_error")
-    names = [n for n in wanted if n in check.series]
-    others = [n for n, s in check.series.items() if n not in names and not n.startswith("ledger.")
-              and numpy.nanmax(s.bar, initial=0.0) > 0]
-    others.sort(key=lambda name: not name.startswith("surfaces."))
-    names = others[:max(0, MOST_SERIES - len(names))] + names
+    names = [n for n in wanted if n in check.series] or list(check.series)[:8]
     inner = []
     for name in names:
         s = check.series[name]

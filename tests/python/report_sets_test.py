@@ -215,9 +215,6 @@ class Pages(PageTest):
         self.opened("check")
         over = "report.plots.find(p => p.entry.title === 'Error over run time')"
         self.assertTrue(self.browser.value(f"{over}.looks.length && {over}.looks.every(look => look.marked)"))
-        drawn = self.browser.value("[...document.querySelectorAll('#plots h3')].map(h => h.textContent)")
-        self.assertIn("surfaces.ground.force.z", drawn)
-        self.assertIn("ledger.integration_error", drawn)
         largest = self.browser.value("[...document.querySelectorAll('#shares td:last-child')].map(c => c.textContent)")
         self.assertEqual(set(largest), {"step (70 %)"}, "precision is in no bar where seeds matter")
         # Its runs write no frames: what is seen is the checkpoint's.
@@ -269,6 +266,7 @@ class Pages(PageTest):
         self.assertIn("grade=0.1,seed=1: without results.h5",
                       self.browser.value("document.querySelector('#content > .bad').textContent"))
         self.assertEqual(self.browser.value("report.data.spaces.map(s => s.name)"), ["grade=0.1,seed=2", "grade=0.2"])
+        self.assertFalse({"grain_radius_m", "bed_depth_m"} & set(self.numbers()), "of rigid ground")
         self.fits_narrow_screens()
 
     @staticmethod
