@@ -12,6 +12,7 @@ import argparse
 import contextlib
 import json
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -132,7 +133,12 @@ def make(options):
     print(f"report    {options.page}, {options.page.stat().st_size / 1e6:.1f} MB; open it in a browser")
 
 
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, interrupt)  # what the program passes on
     try:
         main()
     except KeyboardInterrupt:

@@ -165,6 +165,22 @@ class Refused(FolderTest):
         self.assertEqual((started.returncode, told), (130, "interrupted; no page was written\n"))
         self.assertEqual({file.name for file in self.folder.iterdir()}, {"sweep", "program", "asked"})
 
+    def test_a_signal_to_the_program_reaches_the_script(self):
+        (self.folder / "run").mkdir()
+        (self.folder / "bin").mkdir()
+        script = self.folder / "bin/python3"
+        script.write_text("#!/bin/sh\ntrap 'exit 130' TERM\ntouch asked\nsleep 60 & wait\n")
+        script.chmod(0o755)
+        path = {"PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"}
+        started = subprocess.Popen([str(grouser.find_program()), "report", "run"], env={**os.environ, **path},
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        end = time.monotonic() + 60
+        while not (self.folder / "asked").exists() and started.poll() is None and time.monotonic() < end:
+            time.sleep(0.02)
+        started.send_signal(signal.SIGTERM)
+        told = started.communicate(timeout=60)[1]
+        self.assertEqual((started.returncode, told), (143, "grouser: stopped by SIGTERM; no page was written\n"))
+
     def test_a_page_that_is_interrupted_while_it_is_written_is_taken_back(self):
         code = ("import os, sys; sys.argv = ['report.py', *sys.argv[2:]]; sys.path.insert(0, sys.argv.pop(1)); "
                 "import report; from pathlib import Path\n"
