@@ -167,13 +167,12 @@ class Refused(FolderTest):
 
     def test_a_signal_to_the_program_reaches_the_script(self):
         (self.folder / "run").mkdir()
-        (self.folder / "bin").mkdir()
-        script = self.folder / "bin/python3"
-        script.write_text("#!/bin/sh\ntrap 'exit 130' TERM\ntouch asked\nsleep 60 & wait\n")
-        script.chmod(0o755)
-        path = {"PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"}
-        started = subprocess.Popen([str(grouser.find_program()), "report", "run"], env={**os.environ, **path},
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        script = self.folder / "share/runs/report/report.py"
+        script.parent.mkdir(parents=True)
+        script.write_text("import pathlib, signal, sys, time\nsignal.signal(signal.SIGTERM, lambda *_: sys.exit(130))\n"
+                          "pathlib.Path('asked').touch()\ntime.sleep(60)\n")
+        started = subprocess.Popen([str(grouser.find_program()), "report", "run"], stderr=subprocess.PIPE, text=True,
+                                   env={**os.environ, "GROUSER_SHARE": str(self.folder / "share")})
         end = time.monotonic() + 60
         while not (self.folder / "asked").exists() and started.poll() is None and time.monotonic() < end:
             time.sleep(0.02)
