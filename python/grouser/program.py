@@ -7,7 +7,6 @@ import os
 import pty
 import re
 import shutil
-import signal
 import subprocess
 import threading
 from collections.abc import Callable, Iterable
@@ -104,7 +103,7 @@ class Job:
     def stop(self) -> None:
         """Asks it to stop; a run leaves a checkpoint, and `wait()` then raises StoppedError."""
         if self.running:
-            self._process.send_signal(signal.SIGINT)
+            self._process.terminate()  # SIGINT means nothing to what was started in the background
 
     def wait(self) -> str:
         """Waits for its end and returns what it printed. Raises InputError, SimulationError, DeviceError, StoppedError

@@ -185,7 +185,7 @@ class Calls(FolderTest):
         job.stop()
         with self.assertRaises(grouser.StoppedError) as caught:
             job.wait()
-        self.assertEqual(caught.exception.exit_code, 128 + signal.SIGINT)
+        self.assertEqual(caught.exception.exit_code, 128 + signal.SIGTERM)
         self.assertGreaterEqual(len(told), 3)
         fractions = [progress.fraction for progress in told]
         self.assertEqual(fractions, sorted(fractions))
