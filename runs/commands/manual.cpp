@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/manual.hpp"
 
+#include "base/error.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/text_file.hpp"
 
