@@ -19,4 +19,10 @@ NotWritten notWritten(const fs::path& file, const std::string& what) {
   return NotWritten(fmt::format("{}: {}; {}", file.string(), what, why));
 }
 
+void putInPlace(const fs::path& whole, const fs::path& path) {
+  std::error_code error;
+  fs::rename(whole, path, error);
+  if (error) throw notWritten(path, fmt::format("could not be put in place ({})", error.message()));
+}
+
 } // namespace grouser::support

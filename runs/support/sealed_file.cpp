@@ -134,9 +134,7 @@ void writeSealed(const fs::path& path, const char* kind, int version,
       return;
     }
     seal(part, kind, version);
-    std::error_code error;
-    fs::rename(part, path, error);
-    if (error) throw notWritten(path, fmt::format("could not be put in place ({})", error.message()));
+    putInPlace(part, path);
   } catch (...) {
     std::error_code error;
     fs::remove(part, error);

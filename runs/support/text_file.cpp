@@ -43,9 +43,7 @@ void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_
     fs::remove(part, error);
     throw;
   }
-  std::error_code error;
-  fs::rename(part, path, error);
-  if (error) throw notWritten(path, fmt::format("could not be put in place ({})", error.message()));
+  putInPlace(part, path);
 }
 
 void overwriteTextFile(const fs::path& path, const std::string& text) {
