@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 namespace grouser::bevameter {
 
@@ -24,7 +25,6 @@ using support::Estimate;
 
 constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin with
 constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
-constexpr double kSameStiffness = 1e-9; // of a stiffness
 constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
 constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
 constexpr double kBeds = 0.75;          // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
@@ -166,6 +166,7 @@ private:
     const double start = numberOf(soil_, springKey(), 0), least = std::min(start, softest());
     double stiffness = start;
     std::vector<Trial> trials;
+    std::map<double, double> stiffnesses; // by the x of their trials
     const double wanted = base::log(kTrackPressure);
     for (int trial = 1;; ++trial) {
       SoilResults r;
@@ -178,16 +179,17 @@ private:
           });
       record_.plate(name, soil_, pressure, sinkageOf(done, TestKind::small));
       trials.push_back({base::log(stiffness), base::log(pressure.value)});
+      stiffnesses[trials.back().x] = stiffness;
       fmt::print("          {} {:.4g}: {} kPa where {:g} are wanted\n", springKey(), stiffness,
                  studies::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
       const std::optional<double> next = nextTrial(trials, wanted, std::log1p(targets_.stiffnessTolerance),
                                                    base::log(least), base::log(kStiffer * start), kStiffnessSlope);
       if (!next) break;
-      setNumber(soil_, springKey(), stiffness = base::exp(*next));
+      setNumber(soil_, springKey(), stiffness = fourDigits(base::exp(*next)));
     }
-    const double found = base::exp(nearestTrial(trials, wanted).x);
+    const double found = stiffnesses.at(nearestTrial(trials, wanted).x);
     if (trials.size() > 1) setNumber(soil_, springKey(), found);
-    return trials.size() > 1 && std::fabs(found / start - 1) > kSameStiffness;
+    return found != start;
   }
 
   /// Where a plate is to carry the track's pressure [m].

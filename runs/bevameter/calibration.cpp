@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace grouser::bevameter {
@@ -133,6 +134,13 @@ std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted,
   return x;
 }
 
+double fourDigits(double value) {
+  const std::string text = fmt::format("{:.3e}", value);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
 Trial nearestTrial(const std::vector<Trial>& trials, double wanted) {
   return *std::min_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) {
     return std::fabs(a.y - wanted) < std::fabs(b.y - wanted);
@@ -183,14 +191,15 @@ StrengthSearch::Two StrengthSearch::stepFrom(const Done& trial) const {
 
 bool StrengthSearch::tried(double angle, double cohesion) {
   const StrengthPoint was = at();
-  Done trial{{was.way / unit_[0], was.pull / unit_[1]}, {0, 0}};
+  Done trial{was, {was.way / unit_[0], was.pull / unit_[1]}, {0, 0}};
   if (targets_[0]) trial.off[0] = (targets_[0]->wanted - angle) / targets_[0]->tolerance;
   if (targets_[1]) trial.off[1] = (targets_[1]->wanted - cohesion) / targets_[1]->tolerance;
   if (!trials_.empty()) learn(trials_.back(), trial);
   trials_.push_back(trial);
   if (farOff(trial) <= 1 || trials_.size() >= kMostTrials) return false;
   const Two step = stepFrom(trial);
-  next_ = {std::clamp(was.way + step[0] * unit_[0], kLeastWay, kMostWay), std::max(0.0, was.pull + step[1] * unit_[1])};
+  next_ = {fourDigits(std::clamp(was.way + step[0] * unit_[0], kLeastWay, kMostWay)),
+           fourDigits(std::max(0.0, was.pull + step[1] * unit_[1]))};
   const double moved = std::max(std::fabs(next_.way - was.way) / unit_[0], std::fabs(next_.pull - was.pull) / unit_[1]);
   return moved >= kSame;
 }
@@ -198,7 +207,7 @@ bool StrengthSearch::tried(double angle, double cohesion) {
 StrengthPoint StrengthSearch::nearest() const {
   const auto best = std::min_element(trials_.begin(), trials_.end(),
                                      [this](const Done& a, const Done& b) { return farOff(a) < farOff(b); });
-  return best == trials_.end() ? start_ : StrengthPoint{best->x[0] * unit_[0], best->x[1] * unit_[1]};
+  return best == trials_.end() ? start_ : best->where;
 }
 
 Strength strengthAt(double way, double startFriction) {

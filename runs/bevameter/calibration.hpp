@@ -42,6 +42,8 @@ struct Trial {
 /// to the trial next to it, at first by `slope`, about which it stays.
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope);
+/// To four significant digits, as people read them in a soil's file: far nearer than trials scatter.
+double fourDigits(double value);
 /// The trial whose y is nearest.
 Trial nearestTrial(const std::vector<Trial>& trials, double wanted);
 
@@ -72,12 +74,13 @@ public:
   StrengthPoint at() const { return trials_.empty() ? start_ : next_; }
   /// What the trial at() has come to [deg], [kPa]. Returns whether another one is worth while, then at the new at().
   bool tried(double angle, double cohesion);
-  /// The trial that came nearest, by the greater of both distances in tolerances.
+  /// The trial that came nearest, by the greater of both distances in tolerances; to the bit, for who compares soils.
   StrengthPoint nearest() const;
 
 private:
   using Two = std::array<double, 2>;
   struct Done {
+    StrengthPoint where;
     Two x, off; ///< in units: where, and what is missing
   };
   double farOff(const Done& trial) const;

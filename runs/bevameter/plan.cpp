@@ -19,6 +19,7 @@ constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: sa
 constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
 constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high that grains lie between
 constexpr double kFall = 0.5;              // [s] simulated for a lift, for the time left only
+constexpr double kYielding = 8;            // times farther than into a bed of columns a plate goes, for the same
 constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
 
 /// Of two grains pressed together by a force, as if they were elastic [m].
@@ -51,8 +52,10 @@ double volumeOf(const studies::Soil& soil, const PlateSinkage& plate) {
 
 double plateCost(const studies::Soil& soil, const PlateSinkage& plate) {
   const double lifts = plate.strip.depth * plate.strip.breadth / plate.lift;
-  const double push = 1.2 * plate.strip.sinkage * plate.strip.breadth * soil.grains.diameter() /
-                      std::sqrt(plate.pace(soil).first() * plate.fastest(soil));
+  const double d = soil.grains.diameter(), breadth = plate.strip.breadth * d;
+  const double way =
+      std::min(1.2 * plate.strip.sinkage * breadth, d + kYielding * breadth * plate.mostPressure / plate.firstModulus);
+  const double push = way / std::sqrt(plate.pace(soil).first() * plate.fastest(soil));
   return volumeOf(soil, plate) / soil.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0) *
          (0.6 * kFall * std::max(1.0, lifts) + push);
 }
@@ -86,6 +89,9 @@ void addTests(TestPlan& plan) {
   }
   for (int seed = 1; o.wide && seed <= o.seeds; ++seed)
     add(TestKind::wide, "wide", 0, seed, plateCost(plan.grains, plan.wide));
+  // So that no process is left alone with a long one at the end.
+  std::stable_sort(plan.tests.begin(), plan.tests.end(),
+                   [](const PlannedTest& a, const PlannedTest& b) { return a.cost > b.cost; });
 }
 
 /// Between periodic boundaries no grain may touch two images of another.

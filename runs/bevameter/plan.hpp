@@ -58,7 +58,7 @@ struct TestPlan {
   PlateSinkage small, large, wide;
   studies::ShearCell cell;
   ReposeTest repose;
-  std::vector<PlannedTest> tests; ///< seed by seed
+  std::vector<PlannedTest> tests; ///< the longest first, of those that take as long the seeds in turn
 
   const PlateSinkage& plate(TestKind kind) const;
   double breadth(TestKind kind) const; ///< [m]

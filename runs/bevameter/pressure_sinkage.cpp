@@ -151,13 +151,14 @@ BekkerFit fitBekker(const std::array<PlateTests, 2>& plates, const std::vector<s
   return fit;
 }
 
-BekkerFit fitOnePlate(const PlateTests& plate) {
+BekkerFit fitOnePlate(const PlateTests& plate, const std::vector<int>& counts, std::optional<double> givenN) {
   BekkerFit fit = nothing();
-  const Breadth breadth(plate, {});
+  const Breadth breadth(plate, counts);
   if (!breadth.isThere()) return fit;
-  fit.n = fit.ownN[0] = breadth.covariance / breadth.variance;
+  fit.ownN[0] = breadth.covariance / breadth.variance;
+  fit.n = givenN.value_or(fit.ownN[0]);
   fit.k[0] = breadth.k(fit.n);
-  fit.goodness[0] = goodnessOf(plate, {}, fit.k[0], fit.n);
+  fit.goodness[0] = goodnessOf(plate, counts, fit.k[0], fit.n);
   return fit;
 }
 

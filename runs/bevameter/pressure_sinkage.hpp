@@ -51,6 +51,6 @@ BekkerFit fitBekker(const std::array<PlateTests, 2>& plates, const std::vector<s
                     std::optional<double> givenN = {});
 
 /// The same with one plate: n and k of a breadth; [0] is filled, the rest holds no numbers.
-BekkerFit fitOnePlate(const PlateTests& plate);
+BekkerFit fitOnePlate(const PlateTests& plate, const std::vector<int>& counts = {}, std::optional<double> givenN = {});
 
 } // namespace grouser::bevameter

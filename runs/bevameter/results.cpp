@@ -88,21 +88,44 @@ std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide
 void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vector<Table>, 2>& runs) {
   const std::array<PlateTests, 2> plates{plateTests(plan, runs[0], TestKind::small),
                                          plateTests(plan, runs[1], TestKind::large)};
-  for (const PublishedValue& p : plan.soil.published)
-    if (p.quantity == Quantity::exponent && !r.givenN) r.givenN = p.value;
   const auto statistic = [&](const TestCounts& counts) {
     const BekkerFit f = fitBekker(plates, counts), given = fitBekker(plates, counts, r.givenN);
-    return std::vector<double>{
-        f.n,           1e-3 * f.kc,   1e-3 * f.kphi,   1e-3 * f.k[0],
-        1e-3 * f.k[1], f.ownN[0],     f.ownN[1],       1e3 * f.sinkageAt(kTrackPressure, kTrackBreadth),
-        f.goodness[0], f.goodness[1], 1e-3 * given.kc, 1e-3 * given.kphi};
+    return std::vector<double>{f.n,
+                               1e-3 * f.kc,
+                               1e-3 * f.kphi,
+                               1e-3 * f.k[0],
+                               1e-3 * f.k[1],
+                               f.ownN[0],
+                               f.ownN[1],
+                               1e3 * f.sinkageAt(kTrackPressure, kTrackBreadth),
+                               f.goodness[0],
+                               f.goodness[1],
+                               1e-3 * given.kc,
+                               1e-3 * given.kphi,
+                               1e-3 * given.k[0],
+                               1e-3 * given.k[1]};
   };
   const std::vector<Estimate> e =
       intervalsOfTests({static_cast<int>(runs[0].size()), static_cast<int>(runs[1].size())}, statistic);
   r.measured[Quantity::exponent] = e[0], r.measured[Quantity::cohesionModulus] = e[1];
   r.measured[Quantity::frictionModulus] = e[2];
   r.k = {e[3], e[4]}, r.ownN = {e[5], e[6]}, r.sinkage = e[7], r.goodness = {e[8], e[9]};
-  if (r.givenN) r.atGivenN = {{Quantity::cohesionModulus, e[10]}, {Quantity::frictionModulus, e[11]}};
+  if (!r.givenN) return;
+  r.atGivenN = {{Quantity::cohesionModulus, e[10]}, {Quantity::frictionModulus, e[11]}};
+  r.kAtGivenN = {e[12], e[13]};
+}
+
+/// One breadth alone, while the other is missing.
+void addOneBreadth(SoilResults& r, const TestPlan& plan, std::size_t i, const std::vector<Table>& runs) {
+  const PlateTests tests = plateTests(plan, runs, i == 0 ? TestKind::small : TestKind::large);
+  const auto statistic = [&](const TestCounts& counts) {
+    const BekkerFit f = fitOnePlate(tests, counts[0]);
+    return std::vector<double>{1e-3 * f.k[0], f.ownN[0], f.goodness[0],
+                               1e-3 * fitOnePlate(tests, counts[0], r.givenN).k[0]};
+  };
+  const std::vector<Estimate> e = intervalsOfTests({static_cast<int>(runs.size())}, statistic);
+  r.k[i] = e[0], r.ownN[i] = e[1], r.goodness[i] = e[2];
+  if (r.givenN) r.kAtGivenN[i] = e[3];
 }
 
 void addShear(SoilResults& r, const std::vector<std::vector<ShearCurve>>& tests) {
@@ -185,12 +208,21 @@ SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces) {
                                                  runsOf(plan, pieces, TestKind::large)};
   for (std::size_t i = 0; i < 2; ++i) {
     r.plates[i] = static_cast<int>(plates[i].size());
-    if (plates[i].empty()) continue;
+    if (plates[i].empty()) {
+      for (auto* of : {&r.k, &r.ownN, &r.goodness, &r.kAtGivenN, &r.bedding, &r.unloading, &r.reloading,
+                       &r.unloadedFrom, &r.addedByMotion})
+        of->at(i) = {std::nan(""), INFINITY};
+      continue;
+    }
     addUnloading(r, i, plates[i]);
     r.bedding[i] = beddingOf(plan, plates[i]);
     r.costs.push_back(costsOf(i == 0 ? "small" : "large", plates[i]));
   }
+  for (const PublishedValue& p : plan.soil.published)
+    if (p.quantity == Quantity::exponent && !r.givenN) r.givenN = p.value;
   if (r.hasPlates()) addPlates(r, plan, plates);
+  for (std::size_t i = 0; i < 2 && !r.hasPlates(); ++i)
+    if (r.plates[i] > 0) addOneBreadth(r, plan, i, plates[i]);
   if (const std::vector<Table> wide = runsOf(plan, pieces, TestKind::wide); !wide.empty()) {
     r.wider = widerBin(plateTests(plan, plates[0], TestKind::small), plateTests(plan, wide, TestKind::wide));
     r.costs.push_back(costsOf("wide", wide));

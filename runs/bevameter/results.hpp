@@ -26,7 +26,8 @@ struct SoilResults {
   support::Estimate hump, misfit;                 ///< peak over residual strength; see ShearFit [-]
   double sheared = 0, leastSheared = 0;           ///< share of the plates' way, of all shear tests, of the worst [-]
   support::Estimate sinkage;                      ///< under the track, by Bekker's form with what was measured [mm]
-  std::array<support::Estimate, 2> k, ownN;       ///< of each breadth [kN/m^(n+2)], [-]
+  std::array<support::Estimate, 2> k, ownN;       ///< of each breadth [kN/m^(n+2)], [-]; of one alone k with its ownN
+  std::array<support::Estimate, 2> kAtGivenN;     ///< the same k with the n that is published
   std::array<support::Estimate, 2> goodness;      ///< Wong's [-]
   std::array<support::Estimate, 2> bedding;       ///< origin of the corrected curves below the mean surface [mm]
   std::optional<double> givenN;                   ///< the n that is published

@@ -123,9 +123,9 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     if (r.plates[i] == 0) continue;
     const double b = plan.breadth(i == 0 ? TestKind::small : TestKind::large);
     text += fmt::format("  plate {:.3g} m, {} seeds: ", b, r.plates[i]);
-    if (r.hasPlates())
-      text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
-                          studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
+    text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
+                        studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
+    if (r.givenN) text += fmt::format("k {} with n = {:g}; ", studies::valueText(r.kAtGivenN[i]), *r.givenN);
     text += fmt::format("origin {} mm below the mean surface; ", studies::valueText(r.bedding[i]));
     text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded; ", studies::valueText(r.unloading[i]),
                         studies::valueText(r.unloadedFrom[i]), studies::valueText(r.reloading[i])) +
@@ -218,10 +218,12 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
       one["verdict"] = verdictOf(given != r.atGivenN.end() ? given->second : e, *span);
     json["constants"][symbolOf(q)] = one;
   }
-  if (r.hasPlates()) {
-    json["track_sinkage"] = estimateJson(r.sinkage, "mm");
+  if (r.hasPlates()) json["track_sinkage"] = estimateJson(r.sinkage, "mm");
+  if (r.plates[0] + r.plates[1] > 0) {
+    const auto atGivenN = [&](std::size_t i) { return r.givenN ? r.kAtGivenN[i] : Estimate{std::nan(""), 0}; };
     for (std::size_t i = 0; i < 2; ++i)
       json["plates"].push_back({{"k", estimateJson(r.k[i], "kN/m^(n+2)")},
+                                {"k_at_published_n", estimateJson(atGivenN(i), "kN/m^(n+2)")},
                                 {"n_alone", estimateJson(r.ownN[i], "-")},
                                 {"goodness", estimateJson(r.goodness[i], "-")},
                                 {"origin", estimateJson(r.bedding[i], "mm")},

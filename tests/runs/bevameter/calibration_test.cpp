@@ -56,6 +56,28 @@ TEST(CalibrationSearch, FindsAngleAndCohesionThatDependOnBothNumbers) {
   EXPECT_NEAR(0.3 + 0.005 * found.pull, 3.7, 0.5);
 }
 
+/// Tests are taken over from a trial of the very same soil: a last digit makes it another one.
+TEST(CalibrationSearch, TheNearestIsWhatWasTriedToTheBit) {
+  const double tolerance = 0.7, slope = 0.75e-3 / 0.007 * std::tan(31.1 * 3.141592653589793 / 180);
+  for (double pull = 1; pull < 100; ++pull) {
+    const StrengthPoint start{0.56 + 1e-3 * pull, pull};
+    StrengthSearch search({{31.1, 1.2, 12}}, {{1.3, tolerance, slope}}, start);
+    EXPECT_FALSE(search.tried(31.1, 1.3));
+    EXPECT_EQ(search.nearest().pull, start.pull);
+    EXPECT_EQ(search.nearest().way, start.way);
+  }
+}
+
+TEST(CalibrationSearch, NumbersThatAreTriedHaveFourDigits) {
+  EXPECT_EQ(fourDigits(1645189418.8213131), 1.645e9);
+  EXPECT_EQ(fourDigits(-0.29584732191569063), -0.2958);
+  EXPECT_EQ(fourDigits(0), 0);
+  StrengthSearch search({{29.8, 1, 12}}, {{3.7, 0.5, 0.0165}}, {0.48, 220});
+  ASSERT_TRUE(search.tried(26, 1.1));
+  EXPECT_EQ(search.at().way, fourDigits(search.at().way));
+  EXPECT_EQ(search.at().pull, fourDigits(search.at().pull));
+}
+
 TEST(CalibrationSearch, MayLeaveOneOfBothAlone) {
   StrengthSearch onlyAngle({{28, 0.2, 12}}, {}, {0.1, 50});
   while (onlyAngle.tried(22 + 10 * onlyAngle.at().way, 1)) EXPECT_EQ(onlyAngle.at().pull, 50);

@@ -85,6 +85,10 @@ TEST(BekkerForm, AGivenExponentIsKept) {
   const BekkerFit other = fitBekker(both, {}, 1.0);
   EXPECT_EQ(other.n, 1);
   EXPECT_GT(other.kphi, 1.2 * kKphi) << "of other units, and more of them where sinkages are parts of a metre";
+  const BekkerFit alone = fitOnePlate(both[0], {}, 1.0);
+  EXPECT_EQ(alone.n, 1);
+  EXPECT_EQ(alone.k[0], other.k[0]);
+  EXPECT_EQ(alone.ownN[0], other.ownN[0]);
 }
 
 // A plate that beds into a rough surface over the first 5 mm, and then meets 12 MN/m3.

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 
 namespace grouser::bevameter {
@@ -20,7 +22,8 @@ namespace fs = std::filesystem;
 constexpr const char* kSand =
     "version = 1\n[soil]\ntitle = \"a trial\"\ndescription = \"soft\"\n[material]\nstiffness = 5e3\nrestitution = "
     "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
-    "value = 25\nunit = \"deg\"\nsource = \"a book\"\n";
+    "value = 25\nunit = \"deg\"\nsource = \"a book\"\n[[published]]\nquantity = \"n\"\nvalue = 1\nunit = \"-\"\n"
+    "source = \"a book\"\n";
 /// The smallest tests that are tests.
 constexpr const char* kSmallest =
     " --quick --plate-grains 5 --plate-ratio 1.5 "
@@ -59,6 +62,21 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   ASSERT_EQ(again.code, 0) << again.errors;
   EXPECT_EQ(contents(folder_ / "results" / "constants.csv"), before) << "the same tests, the same numbers";
   EXPECT_EQ(call(words).code, 2) << "there are results in it";
+  // Without the large plate: what the small one gives alone.
+  for (const int seed : {1, 2}) fs::remove(folder_ / "results" / "runs" / fmt::format("coarse_large_seed{}.csv", seed));
+  const Outcome alone = call(words + " --resume --seconds 1e-6");
+  ASSERT_EQ(alone.code, 0) << alone.errors;
+  EXPECT_NE(alone.out.find("n alone"), std::string::npos) << alone.out;
+  EXPECT_NE(alone.out.find("with n = 1;"), std::string::npos) << alone.out;
+  const auto small = nlohmann::json::parse(contents(folder_ / "results" / "soil.json"));
+  EXPECT_EQ(small.at("missing_tests"), 2);
+  EXPECT_FALSE(small.at("constants").contains("n"));
+  EXPECT_NEAR(small.at("plates").at(0).at("n_alone").at("value").get<double>(),
+              json.at("plates").at(0).at("n_alone").at("value").get<double>(), 1e-12);
+  EXPECT_NEAR(small.at("plates").at(0).at("k_at_published_n").at("value").get<double>(),
+              json.at("plates").at(0).at("k_at_published_n").at("value").get<double>(), 1e-9);
+  EXPECT_TRUE(small.at("plates").at(1).at("k").at("value").is_null());
+  EXPECT_TRUE(small.at("plates").at(1).at("k_u").at("value").is_null());
   const Outcome other = call(words + " --resume --grain-radius 0.012");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
