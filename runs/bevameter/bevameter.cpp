@@ -146,6 +146,7 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
   });
   int missing = 0;
   for (const PlannedTest& test : plan.tests) missing += !pieces.has(test.name);
+  if (missing == 0) studies::removePoured(pieces.folder() / "runs");
   progress.finish(fmt::format("{} of {} tests are there", plan.tests.size() - static_cast<std::size_t>(missing),
                               plan.tests.size()));
   return missing;

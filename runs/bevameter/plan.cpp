@@ -63,7 +63,7 @@ double plateCost(const studies::Soil& soil, const PlateSinkage& plate) {
 double shearCost(const studies::Soil& soil, const studies::ShearCell& cell, double load) {
   const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / load);
   return cell.length * cell.width * cell.depth *
-         (2 * kFall + unit * ((cell.pressesIn ? 2 : 1) * kPressed + cell.strain / cell.inertialNumber));
+         (kFall + unit * ((cell.pressesIn ? 2 : 1) * kPressed + cell.strain / cell.inertialNumber));
 }
 
 double reposeCost(const studies::Soil& soil, const ReposeTest& test) {
@@ -201,7 +201,7 @@ studies::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::
   if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
   if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
   tell(0, "shearing");
-  return studies::shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec);
+  return studies::shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, folder.parent_path());
 }
 
 ShearCurve shearCurve(const studies::Table& run, double diameter) {

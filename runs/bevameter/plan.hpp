@@ -70,7 +70,7 @@ struct TestPlan {
 /// Throws InputError where a bed cannot be.
 TestPlan planOf(const TestedSoil& soil, const PlanOptions& options);
 
-/// Does a test. `folder`: for files on the way.
+/// Does a test. `folder`: for files on the way; samples that are poured stay beside it, for the other loads.
 studies::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
                       const base::Exec& exec, const studies::PlateProgress& tell);
 

@@ -192,12 +192,15 @@ CoreStress coreStress(const terrain::Grains& grains, const BedSize& size, double
 }
 
 Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int64_t seed,
-                const std::filesystem::path& folder, const base::Exec& exec) {
+                const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept) {
   const double d = soil.grains.diameter();
   const BedSize size{cell.length * d, cell.width * d, cell.depth * d};
   writePlates(cell, size, d, folder);
   Layer layer;
-  layer.grains = pourBed(soil, size, plateSection("lower", d, 0, ""), seed, folder, exec);
+  // The mesh is not in the scene that is poured, but what it is made of.
+  const std::string below =
+      plateSection("lower", d, 0, "") + fmt::format("# teeth {:.17g} {:.17g}\n", cell.tooth, cell.tip);
+  layer.grains = pourBed(soil, size, below, seed, folder, exec, kept);
   double top = 0;
   for (const BedGrain& g : layer.grains) {
     top = std::max(top, g.position.z + g.radius);

@@ -27,9 +27,10 @@ inline const std::vector<std::string> kShearColumns = {"strain [-]",       "shea
                                                        "core xz [Pa]",     "core zx [Pa]",        "porosity [-]",
                                                        "coordination [-]", "inertial number [-]", "sheared [-]"};
 
-/// Prepares a sample and shears it under `stress` [Pa]. Meshes of the plates are written into `folder`.
+/// Prepares a sample and shears it under `stress` [Pa]. Meshes of the plates are written into `folder`. `kept`: a
+/// folder where the sample that is poured stays for the same seed under another stress; empty: none does.
 Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int64_t seed,
-                const std::filesystem::path& folder, const base::Exec& exec);
+                const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept = {});
 
 /// What one run says: of the ratios of stresses, the greatest as mean over a twentieth of the strain (peak) and the
 /// mean over the second half (residual).

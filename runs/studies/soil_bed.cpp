@@ -2,6 +2,7 @@
 #include "runs/studies/soil_bed.hpp"
 
 #include "base/error.hpp"
+#include "base/hash.hpp"
 #include "base/math.hpp"
 #include "base/random.hpp"
 #include "base/sphere.hpp"
@@ -13,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 namespace grouser::studies {
 
@@ -68,8 +71,20 @@ std::string BedSize::run() const {
   return fmt::format("periodic = [true, true]\ndomain_x = [0, {:.17g}]\ndomain_y = [0, {:.17g}]\n", length, width);
 }
 
+namespace {
+
+constexpr auto kKeptName = "poured_"; // of a file that pourBed keeps; then the hash of its scene
+
+std::filesystem::path keptFile(const std::filesystem::path& kept, const std::string& scene) {
+  base::StateHash hash;
+  for (const char c : scene) hash.add(static_cast<std::uint64_t>(c));
+  return kept / fmt::format("{}{:016x}.txt", kKeptName, hash.value());
+}
+
+} // namespace
+
 BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& below, std::int64_t seed,
-                  const std::filesystem::path& folder, const base::Exec& exec) {
+                  const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept) {
   const double d = soil.grains.diameter(), r = soil.grains.radius, area = size.length * size.width;
   const auto number = static_cast<std::int64_t>(std::llround(kPoured * area * size.depth / soil.meanVolume()));
   // The cloud leaves a grain's width open where the boundaries join.
@@ -81,6 +96,8 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
       fmt::format("[[grains]]\nform = \"random\"\nlow = [0, 0, {0:.17g}]\nhigh = [{1:.17g}, {2:.17g}, {3:.17g}]\n"
                   "number = {4}\nradius = {5:.17g}\nradius_to = {6:.17g}\nmaterial = \"grain\"\n",
                   d, size.length, size.width, d + cloud, number, r * (1 - soil.spread), r * (1 + soil.spread));
+  const std::filesystem::path file = kept.empty() ? kept : keptFile(kept, text);
+  if (!file.empty() && std::filesystem::exists(file)) return readBed(file);
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "pour.toml")), exec,
                                     [](double, double) {});
   const double limit = kSettlingPatience * std::max(1.0, std::sqrt(size.depth / 0.25));
@@ -91,7 +108,19 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
     throw base::InputError(fmt::format("the bed of seed {} did not come to rest within {:.1f} s; give it less rolling "
                                        "friction or more preparation friction",
                                        seed, limit));
-  return grainsOf(simulation, size);
+  if (file.empty()) return grainsOf(simulation, size);
+  // Of calls at the same time each writes its own, and all are the same.
+  const std::filesystem::path own = folder / file.filename();
+  writeBed(own, grainsOf(simulation, size));
+  std::filesystem::rename(own, file);
+  return readBed(file); // as the next one will
+}
+
+void removePoured(const std::filesystem::path& kept) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(kept))
+    if (entry.path().filename().string().rfind(kKeptName, 0) == 0) files.push_back(entry.path());
+  for (const std::filesystem::path& file : files) std::filesystem::remove(file);
 }
 
 double roughFloorDepth(const Soil& soil) { return (1 + soil.spread + kFloorScatter) * soil.grains.diameter(); }
@@ -120,6 +149,21 @@ void writeBed(const std::filesystem::path& file, const BedGrains& grains, const 
   for (const BedGrain& g : grains)
     text += fmt::format("{:.12g} {:.12g} {:.12g} {:.9g}\n", g.position.x, g.position.y, g.position.z, g.radius);
   support::replaceTextFile(file, text);
+}
+
+BedGrains readBed(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  BedGrains grains;
+  while (std::getline(in, line)) {
+    if (line.empty() || line.front() == '#') continue;
+    BedGrain g;
+    if (!(std::istringstream(line) >> g.position.x >> g.position.y >> g.position.z >> g.radius))
+      throw base::InputError(fmt::format("{}: \"{}\" is no line of x, y, z, r; remove the file", file.string(), line));
+    grains.push_back(g);
+  }
+  if (grains.empty()) throw base::InputError(fmt::format("{}: no grains in it; remove the file", file.string()));
+  return grains;
 }
 
 BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size) {

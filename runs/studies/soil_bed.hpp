@@ -42,9 +42,12 @@ struct BedSize {
 };
 
 /// Pours a bed from a cloud upon `below` (sections of a scene that bear it at about z = 0) and lets it come to rest.
-/// `folder`: where `below` looks for its files. Throws InputError where it does not come to rest.
+/// `folder`: where `below` looks for its files. `kept`: a folder where what was poured stays for the next call of the
+/// very same scene; empty: none does. Throws InputError where it does not come to rest.
 BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& below, std::int64_t seed,
-                  const std::filesystem::path& folder, const base::Exec& exec);
+                  const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept = {});
+/// Takes away what pourBed has kept there.
+void removePoured(const std::filesystem::path& kept);
 
 /// A rough floor: places of grains that never move, in a layer whose tops reach to about z = 0.
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed);
@@ -54,6 +57,8 @@ double roughFloorDepth(const Soil& soil);
 /// Lines of x, y, z, r [m], as [[grains]] of form "file" reads them, behind a line of comment that ends with `more`.
 /// The file is there whole or not at all.
 void writeBed(const std::filesystem::path& file, const BedGrains& grains, const std::string& more = "");
+/// Such a file; to its digits what was written. Throws InputError where it cannot be read.
+BedGrains readBed(const std::filesystem::path& file);
 /// The grains of a run as they are now, back between their periodic boundaries of `size`.
 BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size);
 

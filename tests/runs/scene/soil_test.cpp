@@ -330,7 +330,8 @@ TEST_F(Soils, ResumedRunsNeedTheSameSoil) {
 TEST(AssetSoils, AreReadAndSayTheirSources) {
   const fs::path assets = fs::path(GROUSER_SOURCE_DIR) / "assets";
   const auto known = knownSoils(assets / "scene.toml");
-  for (const char* name : {"dry_sand", "lete_sand", "sandy_loam", "gravel", "grc1", "reference_spheres"}) {
+  for (const char* name :
+       {"dry_sand", "grenville_loam", "lete_sand", "sandy_loam", "gravel", "grc1", "reference_spheres"}) {
     ASSERT_TRUE(known.contains(name)) << name;
     const Soil soil = readSoil(known.at(name));
     EXPECT_GT(soil.grains.radius, 0) << name;

@@ -141,6 +141,34 @@ TEST_F(SoilSample, StressFromContactsIsThatOnThePlates) {
   EXPECT_LT(s.porosityBefore, 0.46);
 }
 
+/// What is poured does not depend on the load: it is kept, and whether it was there changes nothing.
+TEST_F(SoilSample, WhatIsPouredIsKeptForOtherLoads) {
+  ShearCell cell;
+  cell.length = 6, cell.width = 5, cell.depth = 5, cell.inertialNumber = 5e-2, cell.strain = 0.04, cell.rows = 4;
+  const fs::path one = folder_ / "one", other = folder_ / "other", kept = folder_ / "kept";
+  for (const fs::path& folder : {one, other, kept}) fs::create_directories(folder);
+  const auto run = [&](const fs::path& folder, double stress, const fs::path& where) {
+    return shearCell(softSoil(), cell, stress, 3, folder, base::cpuExec(1), where).rows;
+  };
+  const auto poured = [&] { return std::distance(fs::directory_iterator(kept), fs::directory_iterator()); };
+  run(one, 1000, kept);
+  EXPECT_EQ(poured(), 1);
+  const fs::path file = fs::directory_iterator(kept)->path();
+  const auto written = fs::last_write_time(file);
+  const auto second = run(one, 2000, kept);
+  EXPECT_EQ(poured(), 1);
+  EXPECT_EQ(fs::last_write_time(file), written);
+  EXPECT_EQ(second, run(other, 2000, other)) << "poured anew";
+  cell.tooth = 0.9;
+  run(one, 2000, kept);
+  EXPECT_EQ(poured(), 2) << "upon other teeth";
+  put(file, "0.1 0.1 nowhere 0.01\n");
+  cell.tooth = 0.7;
+  EXPECT_THROW(run(one, 2000, kept), base::InputError);
+  removePoured(kept);
+  EXPECT_EQ(poured(), 0);
+}
+
 /// Grains of 10 mm that pull with 0.47 N: a strength of 0.75 w / r = 4.5 kPa (Rumpf 1962) beside the load of 1 kPa.
 TEST_F(SoilSample, ALayerThatSticksIsShearedItself) {
   ShearCell cell;
