@@ -116,6 +116,7 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
     if (pieces.due(test.name)) due.push_back(&test);
     all += test.cost;
   }
+  if (jobs > 1 && options.seconds <= 0) longestFirst(due); // in a slice short ones may still fit
   support::Progress progress("testing");
   const auto there = [&] {
     double sum = 0;
@@ -134,7 +135,7 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
       if (jobs == 1) progress.update(share(now + done * test.cost / all), test.name + ", " + phase);
     };
     try {
-      pieces.keep(test.name, doTest(plan, test, folder, device.exec(), tell));
+      pieces.keep(test.name, doTest(plan, test, folder, folder.parent_path(), device.exec(), tell));
     } catch (const base::SimulationError& e) {
       support::replaceTextFile(noteOf(pieces, test), e.what()); // the others go on
       return;
@@ -146,7 +147,10 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
   });
   int missing = 0;
   for (const PlannedTest& test : plan.tests) missing += !pieces.has(test.name);
-  if (missing == 0) studies::removePoured(pieces.folder() / "runs");
+  const bool isSheared = std::all_of(plan.tests.begin(), plan.tests.end(), [&](const PlannedTest& test) {
+    return test.kind != TestKind::shear || pieces.has(test.name) || std::filesystem::exists(noteOf(pieces, test));
+  });
+  if (isSheared) studies::removePoured(pieces.folder() / "runs");
   progress.finish(fmt::format("{} of {} tests are there", plan.tests.size() - static_cast<std::size_t>(missing),
                               plan.tests.size()));
   return missing;

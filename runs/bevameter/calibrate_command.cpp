@@ -185,7 +185,10 @@ private:
       const std::optional<double> next = nextTrial(trials, wanted, std::log1p(targets_.stiffnessTolerance),
                                                    base::log(least), base::log(kStiffer * start), kStiffnessSlope);
       if (!next) break;
-      setNumber(soil_, springKey(), stiffness = fourDigits(base::exp(*next)));
+      stiffness = fourDigits(base::exp(*next));
+      const auto isIt = [&](const auto& tried) { return tried.second == stiffness; };
+      if (std::any_of(stiffnesses.begin(), stiffnesses.end(), isIt)) break;
+      setNumber(soil_, springKey(), stiffness);
     }
     const double found = stiffnesses.at(nearestTrial(trials, wanted).x);
     if (trials.size() > 1) setNumber(soil_, springKey(), found);

@@ -18,9 +18,10 @@ constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as `
 constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: samples of 16 x 8 d scatter by a tenth
 constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
 constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high that grains lie between
-constexpr double kFall = 0.5;              // [s] simulated for a lift, for the time left only
-constexpr double kYielding = 8;            // times farther than into a bed of columns a plate goes, for the same
-constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
+constexpr double kFall = 0.5;              // [s] simulated for a lift, for costs only
+constexpr double kYielding =
+    8; // times as far as into a bed that is as stiff as columns of grains: measured, for the same
+constexpr double kPressed = 70; // [d sqrt(density / stress)] before shearing begins, for the same
 
 /// Of two grains pressed together by a force, as if they were elastic [m].
 double overlapUnder(const TestedSoil& soil, double force) {
@@ -89,9 +90,6 @@ void addTests(TestPlan& plan) {
   }
   for (int seed = 1; o.wide && seed <= o.seeds; ++seed)
     add(TestKind::wide, "wide", 0, seed, plateCost(plan.grains, plan.wide));
-  // So that no process is left alone with a long one at the end.
-  std::stable_sort(plan.tests.begin(), plan.tests.end(),
-                   [](const PlannedTest& a, const PlannedTest& b) { return a.cost > b.cost; });
 }
 
 /// Between periodic boundaries no grain may touch two images of another.
@@ -196,12 +194,17 @@ nlohmann::ordered_json TestPlan::recipe() const {
           {"repose_stage", repose.stage}};
 }
 
+void longestFirst(std::vector<const PlannedTest*>& tests) {
+  std::stable_sort(tests.begin(), tests.end(),
+                   [](const PlannedTest* a, const PlannedTest* b) { return a->cost > b->cost; });
+}
+
 studies::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
-                      const base::Exec& exec, const studies::PlateProgress& tell) {
+                      const std::filesystem::path& kept, const base::Exec& exec, const studies::PlateProgress& tell) {
   if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
   if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
   tell(0, "shearing");
-  return studies::shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, folder.parent_path());
+  return studies::shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, kept);
 }
 
 ShearCurve shearCurve(const studies::Table& run, double diameter) {

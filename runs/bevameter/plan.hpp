@@ -48,7 +48,7 @@ struct PlannedTest {
   TestKind kind{};
   double load = 0; ///< [Pa] of shear tests
   int seed = 0;
-  double cost = 0; ///< grains times simulated time, for the time left only
+  double cost = 0; ///< about grains times simulated time: for the time left, and for which go first
 };
 
 struct TestPlan {
@@ -58,7 +58,7 @@ struct TestPlan {
   PlateSinkage small, large, wide;
   studies::ShearCell cell;
   ReposeTest repose;
-  std::vector<PlannedTest> tests; ///< the longest first, of those that take as long the seeds in turn
+  std::vector<PlannedTest> tests; ///< seed by seed
 
   const PlateSinkage& plate(TestKind kind) const;
   double breadth(TestKind kind) const; ///< [m]
@@ -70,9 +70,12 @@ struct TestPlan {
 /// Throws InputError where a bed cannot be.
 TestPlan planOf(const TestedSoil& soil, const PlanOptions& options);
 
-/// Does a test. `folder`: for files on the way; samples that are poured stay beside it, for the other loads.
+/// The longest first, of those that take as long in their order: so no process is left alone with a long one.
+void longestFirst(std::vector<const PlannedTest*>& tests);
+
+/// Does a test. `folder`: for files on the way; `kept`: where samples that are poured stay, for the other loads.
 studies::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
-                      const base::Exec& exec, const studies::PlateProgress& tell);
+                      const std::filesystem::path& kept, const base::Exec& exec, const studies::PlateProgress& tell);
 
 /// The curve of a shear test.
 ShearCurve shearCurve(const studies::Table& run, double diameter);

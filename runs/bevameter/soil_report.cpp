@@ -220,9 +220,11 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   }
   if (r.hasPlates()) json["track_sinkage"] = estimateJson(r.sinkage, "mm");
   if (r.plates[0] + r.plates[1] > 0) {
-    const auto atGivenN = [&](std::size_t i) { return r.givenN ? r.kAtGivenN[i] : Estimate{std::nan(""), 0}; };
+    const auto atGivenN = [&](std::size_t i) { return r.givenN ? r.kAtGivenN[i] : Estimate{std::nan(""), INFINITY}; };
+    const auto ofK = [&](std::size_t i) { return r.hasPlates() ? r.measured.at(Quantity::exponent) : r.ownN[i]; };
     for (std::size_t i = 0; i < 2; ++i)
       json["plates"].push_back({{"k", estimateJson(r.k[i], "kN/m^(n+2)")},
+                                {"k_n", estimateJson(ofK(i), "-")},
                                 {"k_at_published_n", estimateJson(atGivenN(i), "kN/m^(n+2)")},
                                 {"n_alone", estimateJson(r.ownN[i], "-")},
                                 {"goodness", estimateJson(r.goodness[i], "-")},

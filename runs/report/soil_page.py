@@ -102,7 +102,7 @@ def details(soil):
 
 
 #: What is measured beside the constants, by its key in soil.json.
-BESIDE = {"k": "modulus of the plate, at the common n (of one plate alone at its own)",
+BESIDE = {"k": "modulus of the plate", "k_n": "exponent of that modulus",
           "k_at_published_n": "modulus of the plate, at the published n", "n_alone": "exponent of this plate alone",
           "goodness": "goodness of fit", "origin": "depth of the fit's origin below the mean surface",
           "k_u": "stiffness of unloading", "k_reloading": "stiffness of loading again",

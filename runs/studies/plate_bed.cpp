@@ -183,8 +183,7 @@ PreparedBed keptBed(const Soil& soil, const BedPreparation& bed, std::int64_t se
   std::getline(in, head);
   long steps = 0;
   if (std::sscanf(head.c_str(), kHead, &steps, &made.seconds) == 2) made.steps = steps;
-  made.grains.clear();
-  for (const scene::Grain& g : scene::readGrainFile(file.string(), {})) made.grains.push_back({g.position, g.radius});
+  made.grains = readBed(file);
   return made;
 }
 

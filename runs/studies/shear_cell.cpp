@@ -117,7 +117,7 @@ std::string grainsSection(const std::string& file) {
 void pressIn(const Soil& soil, const BedSize& size, double stress, std::int64_t seed,
              const std::filesystem::path& folder, const base::Exec& exec, Layer& layer) {
   const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / stress);
-  const std::string bed = fmt::format("poured_{:g}_{}.txt", stress, seed);
+  const std::string bed = fmt::format("unpressed_{:g}_{}.txt", stress, seed);
   writeBed(folder / bed, layer.grains);
   const std::string text =
       soil.prepared().scene(kPressed * unit, seed, soil.preparationFriction, {0, 0, 0}, size.run()) +

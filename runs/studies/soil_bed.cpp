@@ -6,6 +6,7 @@
 #include "base/math.hpp"
 #include "base/random.hpp"
 #include "base/sphere.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/studies/common.hpp"
 #include "runs/support/text_file.hpp"
@@ -14,8 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <optional>
+#include <system_error>
+#include <utility>
 
 namespace grouser::studies {
 
@@ -77,8 +79,18 @@ constexpr auto kKeptName = "poured_"; // of a file that pourBed keeps; then the 
 
 std::filesystem::path keptFile(const std::filesystem::path& kept, const std::string& scene) {
   base::StateHash hash;
-  for (const char c : scene) hash.add(static_cast<std::uint64_t>(c));
+  for (const char c : scene) hash.add(static_cast<unsigned char>(c));
   return kept / fmt::format("{}{:016x}.txt", kKeptName, hash.value());
+}
+
+/// Nothing where the file is not there, or not whole: another call may take it away just now.
+std::optional<BedGrains> keptSample(const std::filesystem::path& file, std::int64_t number) {
+  if (file.empty() || !std::filesystem::exists(file)) return {};
+  try {
+    BedGrains grains = readBed(file);
+    if (static_cast<std::int64_t>(grains.size()) == number) return grains;
+  } catch (const base::InputError&) {}
+  return {};
 }
 
 } // namespace
@@ -97,7 +109,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
                   "number = {4}\nradius = {5:.17g}\nradius_to = {6:.17g}\nmaterial = \"grain\"\n",
                   d, size.length, size.width, d + cloud, number, r * (1 - soil.spread), r * (1 + soil.spread));
   const std::filesystem::path file = kept.empty() ? kept : keptFile(kept, text);
-  if (!file.empty() && std::filesystem::exists(file)) return readBed(file);
+  if (std::optional<BedGrains> sample = keptSample(file, number)) return std::move(*sample);
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "pour.toml")), exec,
                                     [](double, double) {});
   const double limit = kSettlingPatience * std::max(1.0, std::sqrt(size.depth / 0.25));
@@ -109,11 +121,13 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
                                        "friction or more preparation friction",
                                        seed, limit));
   if (file.empty()) return grainsOf(simulation, size);
-  // Of calls at the same time each writes its own, and all are the same.
+  // Read back as the next one will. Of calls at the same time each writes its own, and all are the same.
   const std::filesystem::path own = folder / file.filename();
   writeBed(own, grainsOf(simulation, size));
-  std::filesystem::rename(own, file);
-  return readBed(file); // as the next one will
+  BedGrains made = readBed(own);
+  std::error_code error; // without it the next one pours anew
+  std::filesystem::rename(own, file, error);
+  return made;
 }
 
 void removePoured(const std::filesystem::path& kept) {
@@ -152,17 +166,8 @@ void writeBed(const std::filesystem::path& file, const BedGrains& grains, const 
 }
 
 BedGrains readBed(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
   BedGrains grains;
-  while (std::getline(in, line)) {
-    if (line.empty() || line.front() == '#') continue;
-    BedGrain g;
-    if (!(std::istringstream(line) >> g.position.x >> g.position.y >> g.position.z >> g.radius))
-      throw base::InputError(fmt::format("{}: \"{}\" is no line of x, y, z, r; remove the file", file.string(), line));
-    grains.push_back(g);
-  }
-  if (grains.empty()) throw base::InputError(fmt::format("{}: no grains in it; remove the file", file.string()));
+  for (const scene::Grain& g : scene::readGrainFile(file.string(), {})) grains.push_back({g.position, g.radius});
   return grains;
 }
 

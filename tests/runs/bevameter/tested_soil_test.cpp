@@ -153,9 +153,22 @@ TEST(SoilPlan, FullCareIsWhatASoilNeeds) {
   EXPECT_GT(plan.options.loads.back(), kTrackPressure);
   EXPECT_EQ(plan.care(), "full");
   EXPECT_EQ(planOf(sand(true), coarsePlan()).care(), "coarse");
-  EXPECT_EQ(planOf(sand(true), coarsePlan()).tests.front().name, "coarse_large_seed1") << "the longest first";
+  EXPECT_EQ(planOf(sand(true), coarsePlan()).tests.front().name, "coarse_small_seed1");
   // Both breadths lie on beds that are rained in lifts of one thickness.
   EXPECT_EQ(plan.large.preparation(plan.grains).lift, plan.small.preparation(plan.grains).lift);
+}
+
+TEST(SoilPlan, SeveralProcessesBeginWithTheLongest) {
+  const TestPlan plan = planOf(sand(true), coarsePlan());
+  std::vector<const PlannedTest*> tests;
+  for (const PlannedTest& test : plan.tests) tests.push_back(&test);
+  longestFirst(tests);
+  ASSERT_EQ(tests.size(), plan.tests.size());
+  EXPECT_EQ(tests.front()->name, "coarse_large_seed1");
+  for (std::size_t k = 1; k < tests.size(); ++k) {
+    EXPECT_GE(tests[k - 1]->cost, tests[k]->cost);
+    EXPECT_TRUE(tests[k - 1]->cost > tests[k]->cost || tests[k - 1]->seed < tests[k]->seed) << tests[k]->name;
+  }
 }
 
 TEST(SoilPlan, OnlyLawsThatKnowTheRadiusAreGraded) {
