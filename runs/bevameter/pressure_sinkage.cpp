@@ -110,20 +110,33 @@ BeddedCurve correctedForBedding(const SinkageCurve& measured, double room) {
   const double most = *std::max_element(measured.pressure.begin(), measured.pressure.end());
   const std::size_t first = firstWith(measured, kFirst * most);
   Straight steepest;
+  double begins = 0;
   for (int k = 0; kFirst + kStride * k <= kLast; ++k) {
     const double share = kFirst + kStride * k;
     const std::size_t from = firstWith(measured, share * most), to = firstWith(measured, (share + kSpan) * most);
     if (to < from + kLeast || to > measured.pressure.size() || measured.sinkage[from] > measured.sinkage[first] + room)
       continue;
     const Straight line = straightThrough(measured, from, to);
-    if (std::isfinite(line.slope) && line.slope > steepest.slope) steepest = line;
+    if (std::isfinite(line.slope) && line.slope > steepest.slope) steepest = line, begins = share;
   }
   if (steepest.slope <= 0) return bedded;
-  bedded.origin = steepest.origin;
+  bedded.origin = steepest.origin, bedded.begins = begins;
   for (std::size_t i = 0; i < measured.sinkage.size(); ++i)
     bedded.curve.sinkage[i] = i < steepest.from ? std::max(0.0, measured.pressure[i]) / steepest.slope
                                                 : measured.sinkage[i] - steepest.origin;
   return bedded;
+}
+
+SinkageCurve fromFirstContact(const SinkageCurve& measured) {
+  SinkageCurve curve;
+  if (measured.pressure.empty()) return curve;
+  const double most = *std::max_element(measured.pressure.begin(), measured.pressure.end());
+  const std::size_t first = firstWith(measured, kFirst * most);
+  for (std::size_t i = first; i < measured.sinkage.size(); ++i) {
+    curve.sinkage.push_back(measured.sinkage[i] - measured.sinkage[first]);
+    curve.pressure.push_back(measured.pressure[i]);
+  }
+  return curve;
 }
 
 double BekkerFit::sinkageAt(double pressure, double breadth) const {

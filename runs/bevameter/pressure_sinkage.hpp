@@ -22,9 +22,12 @@ struct SinkageCurve {
 struct BeddedCurve {
   SinkageCurve curve;
   double origin = 0; ///< [m] in the measured sinkage
+  double begins = 0; ///< share of the greatest pressure at which the line begins: below it n is 1 by construction
 };
 /// A curve without such a line stays as it is.
 BeddedCurve correctedForBedding(const SinkageCurve& measured, double room);
+/// Instead: sinkage counts from where the plate first carries 2 % of the greatest pressure, and nothing is replaced.
+SinkageCurve fromFirstContact(const SinkageCurve& measured);
 
 /// A plate's breadth, and all of its tests.
 struct PlateTests {

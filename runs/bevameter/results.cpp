@@ -44,10 +44,19 @@ TestCosts costsOf(const std::string& name, const std::vector<Table>& runs) {
   return c;
 }
 
-Estimate beddingOf(const TestPlan& plan, const std::vector<Table>& runs) {
-  std::vector<double> origins;
-  for (const Table& run : runs) origins.push_back(1e3 * beddedCurve(plan, run).origin);
-  return studies::interval95(origins);
+void addBedding(SoilResults& r, const TestPlan& plan, std::size_t i, const std::vector<Table>& runs) {
+  std::vector<double> origins, begins;
+  PlateTests asMeasured{plan.breadth(i == 0 ? TestKind::small : TestKind::large), {}};
+  for (const Table& run : runs) {
+    const BeddedCurve bedded = beddedCurve(plan, run);
+    origins.push_back(1e3 * bedded.origin), begins.push_back(bedded.begins);
+    asMeasured.curves.push_back(fromFirstContact(loadingCurve(run)));
+  }
+  r.bedding[i] = studies::interval95(origins), r.lineBegins[i] = studies::interval95(begins);
+  const auto statistic = [&](const TestCounts& counts) {
+    return std::vector<double>{fitOnePlate(asMeasured, counts[0]).n};
+  };
+  r.nFromContact[i] = intervalsOfTests({static_cast<int>(runs.size())}, statistic).front();
 }
 
 void addUnloading(SoilResults& r, std::size_t i, const std::vector<Table>& runs) {
@@ -209,13 +218,13 @@ SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces) {
   for (std::size_t i = 0; i < 2; ++i) {
     r.plates[i] = static_cast<int>(plates[i].size());
     if (plates[i].empty()) {
-      for (auto* of : {&r.k, &r.ownN, &r.goodness, &r.kAtGivenN, &r.bedding, &r.unloading, &r.reloading,
-                       &r.unloadedFrom, &r.addedByMotion})
+      for (auto* of : {&r.k, &r.ownN, &r.goodness, &r.kAtGivenN, &r.bedding, &r.lineBegins, &r.nFromContact,
+                       &r.unloading, &r.reloading, &r.unloadedFrom, &r.addedByMotion})
         of->at(i) = {std::nan(""), INFINITY};
       continue;
     }
     addUnloading(r, i, plates[i]);
-    r.bedding[i] = beddingOf(plan, plates[i]);
+    addBedding(r, plan, i, plates[i]);
     r.costs.push_back(costsOf(i == 0 ? "small" : "large", plates[i]));
   }
   for (const PublishedValue& p : plan.soil.published)

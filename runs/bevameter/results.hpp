@@ -30,6 +30,8 @@ struct SoilResults {
   std::array<support::Estimate, 2> kAtGivenN;     ///< the same k with the n that is published
   std::array<support::Estimate, 2> goodness;      ///< Wong's [-]
   std::array<support::Estimate, 2> bedding;       ///< origin of the corrected curves below the mean surface [mm]
+  std::array<support::Estimate, 2> lineBegins;    ///< of the greatest pressure: below it n is 1 by that correction [-]
+  std::array<support::Estimate, 2> nFromContact;  ///< without it, sinkage counted from the first contact [-]
   std::optional<double> givenN;                   ///< the n that is published
   std::map<Quantity, support::Estimate> atGivenN; ///< k_c and k_phi with that n
   std::array<support::Estimate, 2> unloading, reloading; ///< k_u [kN/m3]; interval over the tests

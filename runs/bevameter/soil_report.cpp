@@ -126,7 +126,10 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
                         studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
     if (r.givenN) text += fmt::format("k {} with n = {:g}; ", studies::valueText(r.kAtGivenN[i]), *r.givenN);
-    text += fmt::format("origin {} mm below the mean surface; ", studies::valueText(r.bedding[i]));
+    text += fmt::format("origin {} mm below the mean surface, its line from {:.0f} % of the pressure on; n from the "
+                        "first contact {}; ",
+                        studies::valueText(r.bedding[i]), 100 * r.lineBegins[i].value,
+                        studies::valueText(r.nFromContact[i]));
     text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded; ", studies::valueText(r.unloading[i]),
                         studies::valueText(r.unloadedFrom[i]), studies::valueText(r.reloading[i])) +
             motionText(r.addedByMotion[i]);
@@ -229,6 +232,8 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
                                 {"n_alone", estimateJson(r.ownN[i], "-")},
                                 {"goodness", estimateJson(r.goodness[i], "-")},
                                 {"origin", estimateJson(r.bedding[i], "mm")},
+                                {"line_begins_at", estimateJson(r.lineBegins[i], "-")},
+                                {"n_from_first_contact", estimateJson(r.nFromContact[i], "-")},
                                 {"k_u", estimateJson(r.unloading[i], "kN/m3")},
                                 {"k_reloading", estimateJson(r.reloading[i], "kN/m3")},
                                 {"unloaded_from", estimateJson(r.unloadedFrom[i], "kPa")},

@@ -105,6 +105,8 @@ def details(soil):
 BESIDE = {"k": "modulus of the plate", "k_n": "exponent of that modulus",
           "k_at_published_n": "modulus of the plate, at the published n", "n_alone": "exponent of this plate alone",
           "goodness": "goodness of fit", "origin": "depth of the fit's origin below the mean surface",
+          "line_begins_at": "of the greatest pressure, where the line for the bedding begins",
+          "n_from_first_contact": "exponent of this plate without that line, from the first contact",
           "k_u": "stiffness of unloading", "k_reloading": "stiffness of loading again",
           "unloaded_from": "pressure it was unloaded from", "peak_phi": "phi at the peak", "peak_c": "c at the peak",
           "peak_over_residual": "peak over residual strength", "janosi_misfit": "misfit of 1 - exp(-j / K)"}

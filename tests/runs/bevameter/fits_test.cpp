@@ -102,9 +102,25 @@ SinkageCurve bedding(double firstContact) {
   return curve;
 }
 
+/// A bed that stiffens all along: the line takes the place of most of its curve, and says so.
+TEST(Bedding, AStiffeningCurveHasItsExponentFromTheFirstContact) {
+  SinkageCurve curve;
+  for (int i = 0; i <= 200; ++i) {
+    const double z = 1e-4 * i;
+    curve.sinkage.push_back(-3e-3 + z), curve.pressure.push_back(100e3 * std::pow(z / 0.02, 1.5));
+  }
+  const BeddedCurve bedded = correctedForBedding(curve, 1);
+  EXPECT_NEAR(bedded.begins, 0.6, 1e-9) << "as late as may be";
+  EXPECT_NEAR(fitOnePlate(PlateTests{0.28, {bedded.curve}}).n, 1, 0.1);
+  const double n = fitOnePlate(PlateTests{0.28, {fromFirstContact(curve)}}).n;
+  EXPECT_NEAR(n, 1.29, 0.01) << "less than its own: what is sunk before 2 % of the pressure is left out";
+  EXPECT_EQ(fromFirstContact(curve).sinkage.front(), 0);
+}
+
 TEST(Bedding, OriginIsWhereTheSteepestLineComesToNoPressure) {
   const BeddedCurve bedded = correctedForBedding(bedding(-3e-3), 0.014);
   EXPECT_NEAR(bedded.origin, -0.5e-3, 1e-9);
+  EXPECT_GE(bedded.begins, 0.2 - 0.02) << "the straight part begins at 5 mm, with 30 of 150 kPa";
   PlateTests plate{0.28, {bedded.curve}};
   EXPECT_NEAR(fitOnePlate(plate).n, 1, 1e-6);
   EXPECT_NEAR(fitOnePlate(plate).k[0], 12e6, 100);
