@@ -156,7 +156,7 @@ TEST_F(SoilCommandTest, WrongWordsEndWithTwoAndWriteNothing) {
   EXPECT_NE(unknown.error().find("no_such_soil"), std::string::npos) << unknown.errors;
   const Outcome key = call("soil wrong.toml --quick");
   EXPECT_EQ(key.code, 2);
-  EXPECT_NE(key.error().find("wrong.toml:16"), std::string::npos) << key.errors;
+  EXPECT_NE(key.error().find("wrong.toml:21"), std::string::npos) << key.errors;
   EXPECT_EQ(call("soil").code, 2);
   EXPECT_EQ(call("soil sand.toml --calibrate sand.toml").code, 2);
   EXPECT_EQ(call("soil sand.toml --quick --thickness 3.6").code, 2);
