@@ -14,6 +14,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <thread>
 
 namespace grouser::studies {
@@ -145,19 +147,21 @@ TEST_F(SoilSample, StressFromContactsIsThatOnThePlates) {
 TEST_F(SoilSample, WhatIsPouredIsKeptForOtherLoads) {
   ShearCell cell;
   cell.length = 6, cell.width = 5, cell.depth = 5, cell.inertialNumber = 5e-2, cell.strain = 0.04, cell.rows = 4;
-  const fs::path one = folder_ / "one", other = folder_ / "other", kept = folder_ / "kept";
-  for (const fs::path& folder : {one, other, kept}) fs::create_directories(folder);
-  const auto run = [&](const fs::path& folder, double stress, const fs::path& where) {
+  const std::filesystem::path one = folder_ / "one", other = folder_ / "other", kept = folder_ / "kept";
+  for (const std::filesystem::path& folder : {one, other, kept}) std::filesystem::create_directories(folder);
+  const auto run = [&](const std::filesystem::path& folder, double stress, const std::filesystem::path& where) {
     return shearCell(softSoil(), cell, stress, 3, folder, base::cpuExec(1), where).rows;
   };
-  const auto poured = [&] { return std::distance(fs::directory_iterator(kept), fs::directory_iterator()); };
+  const auto poured = [&] {
+    return std::distance(std::filesystem::directory_iterator(kept), std::filesystem::directory_iterator());
+  };
   run(one, 1000, kept);
   EXPECT_EQ(poured(), 1);
-  const fs::path file = fs::directory_iterator(kept)->path();
-  const auto written = fs::last_write_time(file);
+  const std::filesystem::path file = std::filesystem::directory_iterator(kept)->path();
+  const auto written = std::filesystem::last_write_time(file);
   const auto second = run(one, 2000, kept);
   EXPECT_EQ(poured(), 1);
-  EXPECT_EQ(fs::last_write_time(file), written);
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);
   EXPECT_EQ(second, run(other, 2000, other)) << "poured anew";
   cell.tooth = 0.9;
   run(one, 2000, kept);
