@@ -19,9 +19,8 @@ constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: sa
 constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
 constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high that grains lie between
 constexpr double kFall = 0.5;              // [s] simulated for a lift, for costs only
-constexpr double kYielding =
-    8; // times as far as into a bed that is as stiff as columns of grains: measured, for the same
-constexpr double kPressed = 70; // [d sqrt(density / stress)] before shearing begins, for the same
+constexpr double kYielding = 8;            // times as far as into a bed as stiff as columns of grains, for the same
+constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
 
 /// Of two grains pressed together by a force, as if they were elastic [m].
 double overlapUnder(const TestedSoil& soil, double force) {

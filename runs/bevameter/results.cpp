@@ -46,7 +46,7 @@ TestCosts costsOf(const std::string& name, const std::vector<Table>& runs) {
 
 void addBedding(SoilResults& r, const TestPlan& plan, std::size_t i, const std::vector<Table>& runs) {
   std::vector<double> origins, begins;
-  PlateTests asMeasured{plan.breadth(i == 0 ? TestKind::small : TestKind::large), {}};
+  PlateTests asMeasured{plan.breadth(kBreadths[i]), {}};
   for (const Table& run : runs) {
     const BeddedCurve bedded = beddedCurve(plan, run);
     origins.push_back(1e3 * bedded.origin), begins.push_back(bedded.begins);
@@ -68,7 +68,7 @@ void addUnloading(SoilResults& r, std::size_t i, const std::vector<Table>& runs)
     from.push_back(1e-3 * u.from), added.push_back(addedByMotion(run));
   }
   const auto over = [](const std::vector<double>& values) {
-    return values.empty() ? Estimate{std::nan(""), INFINITY} : studies::interval95(values);
+    return values.empty() ? kUnmeasured : studies::interval95(values);
   };
   r.unloading[i] = over(stiffness), r.reloading[i] = over(reloading), r.unloadedFrom[i] = over(from);
   r.addedByMotion[i] = over(added);
@@ -126,7 +126,7 @@ void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vecto
 
 /// One breadth alone, while the other is missing.
 void addOneBreadth(SoilResults& r, const TestPlan& plan, std::size_t i, const std::vector<Table>& runs) {
-  const PlateTests tests = plateTests(plan, runs, i == 0 ? TestKind::small : TestKind::large);
+  const PlateTests tests = plateTests(plan, runs, kBreadths[i]);
   const auto statistic = [&](const TestCounts& counts) {
     const BekkerFit f = fitOnePlate(tests, counts[0]);
     return std::vector<double>{1e-3 * f.k[0], f.ownN[0], f.goodness[0],
@@ -217,12 +217,7 @@ SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces) {
                                                  runsOf(plan, pieces, TestKind::large)};
   for (std::size_t i = 0; i < 2; ++i) {
     r.plates[i] = static_cast<int>(plates[i].size());
-    if (plates[i].empty()) {
-      for (auto* of : {&r.k, &r.ownN, &r.goodness, &r.kAtGivenN, &r.bedding, &r.lineBegins, &r.nFromContact,
-                       &r.unloading, &r.reloading, &r.unloadedFrom, &r.addedByMotion})
-        of->at(i) = {std::nan(""), INFINITY};
-      continue;
-    }
+    if (plates[i].empty()) continue;
     addUnloading(r, i, plates[i]);
     addBedding(r, plan, i, plates[i]);
     r.costs.push_back(costsOf(i == 0 ? "small" : "large", plates[i]));
@@ -267,6 +262,30 @@ std::optional<PublishedSpan> publishedSpan(const TestedSoil& soil, Quantity quan
     span = PublishedSpan{span->low - tolerance, span->high + tolerance, true};
   }
   return span;
+}
+
+std::vector<PublishedBekker> publishedBekker(const TestedSoil& soil) {
+  std::vector<PublishedBekker> found;
+  for (const PublishedValue& n : soil.published) {
+    if (n.quantity != Quantity::exponent) continue;
+    BekkerFit fit;
+    fit.n = n.value;
+    int parts = 0;
+    for (const PublishedValue& p : soil.published) {
+      if (p.source != n.source) continue;
+      if (p.quantity == Quantity::cohesionModulus) fit.kc = 1e3 * p.value, ++parts;
+      if (p.quantity == Quantity::frictionModulus) fit.kphi = 1e3 * p.value, ++parts;
+    }
+    if (parts == 2) found.push_back({fit, n.source});
+  }
+  return found;
+}
+
+std::optional<PublishedSpan> publishedModulus(const TestedSoil& soil, double breadth) {
+  const std::vector<PublishedBekker> all = publishedBekker(soil);
+  if (all.empty()) return {};
+  const double k = 1e-3 * all.front().fit.kAt(breadth), tolerance = toleranceOf(Quantity::frictionModulus, k);
+  return PublishedSpan{k - tolerance, k + tolerance, true};
 }
 
 std::string verdictOf(const support::Estimate& measured, const PublishedSpan& span) {

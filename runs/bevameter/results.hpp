@@ -6,8 +6,12 @@
 #include "runs/studies/pieces.hpp"
 #include "runs/support/line_fit.hpp"
 
+#include <array>
+#include <limits>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 /// A soil's constants with intervals, from the tests that are there.
 namespace grouser::bevameter {
@@ -20,25 +24,34 @@ struct TestCosts {
   double porosity = 0, porosityHalfWidth = 0;
 };
 
+/// Of the small plate and the large one; not a number where it has not been measured.
+using OfBreadths = std::array<support::Estimate, 2>;
+inline constexpr support::Estimate kUnmeasured{std::numeric_limits<double>::quiet_NaN(),
+                                               std::numeric_limits<double>::infinity()};
+inline constexpr OfBreadths kUnmeasuredBoth{kUnmeasured, kUnmeasured};
+inline constexpr std::array<TestKind, 2> kBreadths{TestKind::small, TestKind::large};
+
 struct SoilResults {
   std::map<Quantity, support::Estimate> measured; ///< in unitOf(); none where tests are missing
   support::Estimate peakAngle, peakCohesion;      ///< of the curves' peaks [deg], [kPa]
   support::Estimate hump, misfit;                 ///< peak over residual strength; see ShearFit [-]
   double sheared = 0, leastSheared = 0;           ///< share of the plates' way, of all shear tests, of the worst [-]
   support::Estimate sinkage;                      ///< under the track, by Bekker's form with what was measured [mm]
-  std::array<support::Estimate, 2> k, ownN;       ///< of each breadth [kN/m^(n+2)], [-]; of one alone k with its ownN
-  std::array<support::Estimate, 2> kAtGivenN;     ///< the same k with the n that is published
-  std::array<support::Estimate, 2> goodness;      ///< Wong's [-]
-  std::array<support::Estimate, 2> bedding;       ///< origin of the corrected curves below the mean surface [mm]
-  std::array<support::Estimate, 2> lineBegins;    ///< of the greatest pressure: below it n is 1 by that correction [-]
-  std::array<support::Estimate, 2> nFromContact;  ///< without it, sinkage counted from the first contact [-]
+  OfBreadths k = kUnmeasuredBoth;                 ///< with the n of both; of a plate alone with its own [kN/m^(n+2)]
+  OfBreadths ownN = kUnmeasuredBoth;              ///< that each breadth alone would give [-]
+  OfBreadths kAtGivenN = kUnmeasuredBoth;         ///< k with the n that is published
+  OfBreadths goodness = kUnmeasuredBoth;          ///< Wong's [-]
+  OfBreadths bedding = kUnmeasuredBoth;           ///< origin of the corrected curves below the mean surface [mm]
+  OfBreadths lineBegins = kUnmeasuredBoth;        ///< of the greatest pressure: below it n is 1 by that correction [-]
+  OfBreadths nFromContact = kUnmeasuredBoth;      ///< without it, sinkage counted from the first contact [-]
+  OfBreadths unloading = kUnmeasuredBoth;         ///< k_u; interval over the tests [kN/m3]
+  OfBreadths reloading = kUnmeasuredBoth;         ///< [kN/m3]
+  OfBreadths unloadedFrom = kUnmeasuredBoth;      ///< [kPa]
+  OfBreadths addedByMotion = kUnmeasuredBoth;     ///< share of that, gone when the plate is held [-]
   std::optional<double> givenN;                   ///< the n that is published
   std::map<Quantity, support::Estimate> atGivenN; ///< k_c and k_phi with that n
-  std::array<support::Estimate, 2> unloading, reloading; ///< k_u [kN/m3]; interval over the tests
-  std::array<support::Estimate, 2> unloadedFrom;         ///< [kPa]
-  std::array<support::Estimate, 2> addedByMotion;        ///< share of that, gone when the plate is held [-]
-  std::optional<support::Estimate> wider; ///< mean pressure of the wide bin over that of the other, less 1 [-]
-  support::Estimate stability;            ///< angle at which a tilted bed begins to flow [deg]
+  std::optional<support::Estimate> wider;         ///< mean pressure of the wide bin over that of the other, less 1 [-]
+  support::Estimate stability;                    ///< angle at which a tilted bed begins to flow [deg]
   int reposeTests = 0;
   std::array<int, 2> plates{}; ///< tests of each breadth
   int shearTests = 0;          ///< seeds under all loads
@@ -64,6 +77,16 @@ struct PublishedSpan {
   bool isTolerance = false; ///< of one source, widened
 };
 std::optional<PublishedSpan> publishedSpan(const TestedSoil& soil, Quantity quantity);
+
+/// What one source has of n, k_c and k_phi, where it has all three.
+struct PublishedBekker {
+  BekkerFit fit;
+  std::string source;
+};
+std::vector<PublishedBekker> publishedBekker(const TestedSoil& soil);
+/// k_c / b + k_phi of the first of them for a plate of one breadth, +- 40 %, [kN/m^(n+2)]: what the k of a plate alone
+/// is held against, with the n of that source.
+std::optional<PublishedSpan> publishedModulus(const TestedSoil& soil, double breadth);
 /// "inside": the whole interval; "inside, interval is wider"; "outside, interval reaches in"; "outside".
 std::string verdictOf(const support::Estimate& measured, const PublishedSpan& span);
 

@@ -38,22 +38,12 @@ nlohmann::ordered_json publishedJson(const TestedSoil& soil, Quantity quantity) 
   return all;
 }
 
-/// Sinkage that Bekker's form gives under the track with the numbers of each source that has all three [mm].
-std::vector<PublishedValue> publishedSinkages(const TestedSoil& soil) {
-  std::vector<PublishedValue> found;
-  for (const PublishedValue& n : soil.published) {
-    if (n.quantity != Quantity::exponent) continue;
-    BekkerFit fit;
-    fit.n = n.value;
-    int parts = 0;
-    for (const PublishedValue& p : soil.published) {
-      if (p.source != n.source) continue;
-      if (p.quantity == Quantity::cohesionModulus) fit.kc = 1e3 * p.value, ++parts;
-      if (p.quantity == Quantity::frictionModulus) fit.kphi = 1e3 * p.value, ++parts;
-    }
-    if (parts == 2) found.push_back({{}, 1e3 * fit.sinkageAt(kTrackPressure, kTrackBreadth), {}, {}, n.source});
-  }
-  return found;
+/// A plate's k with the n that is published, and what is published of a plate of its breadth.
+std::string atGivenNText(const TestPlan& plan, const SoilResults& r, std::size_t i) {
+  if (!r.givenN) return {};
+  const std::optional<PublishedSpan> span = publishedModulus(plan.soil, plan.breadth(kBreadths[i]));
+  return fmt::format("k {} with n = {:g}{}; ", studies::valueText(r.kAtGivenN[i]), *r.givenN,
+                     span ? fmt::format(" ({}: {})", spanText(*span), verdictOf(r.kAtGivenN[i], *span)) : "");
 }
 
 std::string row(const std::string& name, const Estimate& e, const std::string& unit, const std::string& rest) {
@@ -108,8 +98,8 @@ std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
   if (r.hasPlates()) {
     text += row("z", r.sinkage, "mm",
                 fmt::format("by Bekker's form at {:g} kPa under {:g} m", 1e-3 * kTrackPressure, kTrackBreadth));
-    for (const PublishedValue& p : publishedSinkages(plan.soil))
-      text += pad() + fmt::format("{:.3g}  {}\n", p.value, p.source);
+    for (const PublishedBekker& p : publishedBekker(plan.soil))
+      text += pad() + fmt::format("{:.3g}  {}\n", 1e3 * p.fit.sinkageAt(kTrackPressure, kTrackBreadth), p.source);
   }
   return text;
 }
@@ -121,11 +111,11 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
                       1e3 * d, plan.small.strip.breadth, plan.large.strip.breadth);
   for (std::size_t i = 0; i < 2; ++i) {
     if (r.plates[i] == 0) continue;
-    const double b = plan.breadth(i == 0 ? TestKind::small : TestKind::large);
+    const double b = plan.breadth(kBreadths[i]);
     text += fmt::format("  plate {:.3g} m, {} seeds: ", b, r.plates[i]);
     text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
                         studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
-    if (r.givenN) text += fmt::format("k {} with n = {:g}; ", studies::valueText(r.kAtGivenN[i]), *r.givenN);
+    text += atGivenNText(plan, r, i);
     text += fmt::format("origin {} mm below the mean surface, its line from {:.0f} % of the pressure on; n from the "
                         "first contact {}; ",
                         studies::valueText(r.bedding[i]), 100 * r.lineBegins[i].value,
@@ -208,7 +198,7 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   json["file"] = plan.soil.file.string();
   json["grain_radius_m"] = plan.soil.grainRadius;
   json["plate_over_grain"] = {plan.small.strip.breadth, plan.large.strip.breadth};
-  json["breadth_m"] = {plan.breadth(TestKind::small), plan.breadth(TestKind::large)};
+  json["breadth_m"] = {plan.breadth(kBreadths[0]), plan.breadth(kBreadths[1])};
   json["seeds"] = {{"small", r.plates[0]}, {"large", r.plates[1]}, {"shear", r.shearTests}, {"repose", r.reposeTests}};
   json["missing_tests"] = missing;
   for (const auto& [q, e] : r.measured) {
@@ -223,12 +213,11 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   }
   if (r.hasPlates()) json["track_sinkage"] = estimateJson(r.sinkage, "mm");
   if (r.plates[0] + r.plates[1] > 0) {
-    const auto atGivenN = [&](std::size_t i) { return r.givenN ? r.kAtGivenN[i] : Estimate{std::nan(""), INFINITY}; };
     const auto ofK = [&](std::size_t i) { return r.hasPlates() ? r.measured.at(Quantity::exponent) : r.ownN[i]; };
-    for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t i = 0; i < 2; ++i) {
       json["plates"].push_back({{"k", estimateJson(r.k[i], "kN/m^(n+2)")},
                                 {"k_n", estimateJson(ofK(i), "-")},
-                                {"k_at_published_n", estimateJson(atGivenN(i), "kN/m^(n+2)")},
+                                {"k_at_published_n", estimateJson(r.kAtGivenN[i], "kN/m^(n+2)")},
                                 {"n_alone", estimateJson(r.ownN[i], "-")},
                                 {"goodness", estimateJson(r.goodness[i], "-")},
                                 {"origin", estimateJson(r.bedding[i], "mm")},
@@ -238,6 +227,10 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
                                 {"k_reloading", estimateJson(r.reloading[i], "kN/m3")},
                                 {"unloaded_from", estimateJson(r.unloadedFrom[i], "kPa")},
                                 {"added_by_motion", estimateJson(r.addedByMotion[i], "-")}});
+      if (const auto span = publishedModulus(plan.soil, plan.breadth(kBreadths[i])); span && r.plates[i] > 0)
+        json["plates"].back()["k_at_published_n"]["span"] = {span->low, span->high},
+        json["plates"].back()["k_at_published_n"]["verdict"] = verdictOf(r.kAtGivenN[i], *span);
+    }
   }
   if (r.wider) json["wide_over_small_less_one"] = estimateJson(*r.wider, "-");
   if (r.hasShear())

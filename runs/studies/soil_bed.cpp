@@ -2,13 +2,13 @@
 #include "runs/studies/soil_bed.hpp"
 
 #include "base/error.hpp"
-#include "base/hash.hpp"
 #include "base/math.hpp"
 #include "base/random.hpp"
 #include "base/sphere.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/studies/common.hpp"
+#include "runs/support/file_hash.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -77,12 +77,6 @@ namespace {
 
 constexpr auto kKeptName = "poured_"; // of a file that pourBed keeps; then the hash of its scene
 
-std::filesystem::path keptFile(const std::filesystem::path& kept, const std::string& scene) {
-  base::StateHash hash;
-  for (const char c : scene) hash.add(static_cast<unsigned char>(c));
-  return kept / fmt::format("{}{:016x}.txt", kKeptName, hash.value());
-}
-
 /// Nothing where the file is not there, or not whole: another call may take it away just now.
 std::optional<BedGrains> keptSample(const std::filesystem::path& file, std::int64_t number) {
   if (file.empty() || !std::filesystem::exists(file)) return {};
@@ -108,7 +102,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
       fmt::format("[[grains]]\nform = \"random\"\nlow = [0, 0, {0:.17g}]\nhigh = [{1:.17g}, {2:.17g}, {3:.17g}]\n"
                   "number = {4}\nradius = {5:.17g}\nradius_to = {6:.17g}\nmaterial = \"grain\"\n",
                   d, size.length, size.width, d + cloud, number, r * (1 - soil.spread), r * (1 + soil.spread));
-  const std::filesystem::path file = kept.empty() ? kept : keptFile(kept, text);
+  const std::filesystem::path file = kept.empty() ? kept : kept / (kKeptName + support::hashOfText(text) + ".txt");
   if (std::optional<BedGrains> sample = keptSample(file, number)) return std::move(*sample);
   simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "pour.toml")), exec,
                                     [](double, double) {});

@@ -12,6 +12,20 @@
 
 namespace grouser::support {
 
+namespace {
+
+void addBytes(base::StateHash& hash, std::string_view bytes) {
+  for (const char c : bytes) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+}
+
+} // namespace
+
+std::string hashOfText(std::string_view text) {
+  base::StateHash hash;
+  addBytes(hash, text);
+  return hash.hex();
+}
+
 std::string hashOfFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw base::InputError(fmt::format("{}: cannot be read", path.string()));
@@ -19,8 +33,7 @@ std::string hashOfFile(const std::filesystem::path& path) {
   std::vector<char> block(std::size_t{1} << 20);
   do {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(block[static_cast<std::size_t>(i)])));
+    addBytes(hash, {block.data(), static_cast<std::size_t>(file.gcount())});
   } while (file);
   return hash.hex();
 }

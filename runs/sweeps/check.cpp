@@ -5,6 +5,7 @@
 #include "runs/output/plots.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
+#include "runs/support/file_hash.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/progress.hpp"
@@ -54,7 +55,7 @@ public:
     if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.seeds)
       throw base::InputError(
           fmt::format("run.seed = {}: has no {} seeds after it; choose a smaller one", scene_.run.seed, options.seeds));
-    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = hashOfOrigin(origin_);
+    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = support::hashOfText(origin_);
     record_.cases = checkCases(file, fixed_, scene_);
     keepAxes();
     record_.runs.plan.scene = file, record_.runs.plan.keys = {kCaseKey, kSeedKey};

@@ -2,7 +2,6 @@
 #include "runs/sweeps/kept_checks.hpp"
 
 #include "base/error.hpp"
-#include "base/hash.hpp"
 #include "base/math.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/json_text.hpp"
@@ -92,12 +91,6 @@ std::string checkOrigin(scene::Scene scene, const std::string& inputs) {
   scene.run.checkpointInterval = fresh.checkpointInterval;
   scene.output = {}, scene.parallel = {};
   return identity(scene) + inputs;
-}
-
-std::string hashOfOrigin(const std::string& origin) {
-  base::StateHash hash;
-  for (const char c : origin) hash.add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
-  return hash.hex();
 }
 
 void keepCheck(const std::string& origin, const std::string& json, int runs, const fs::path& folder) {

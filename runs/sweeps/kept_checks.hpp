@@ -12,8 +12,6 @@ namespace grouser::sweeps {
 /// What decides a scene's results, the bytes of the files that it names with it (`inputs`, see setup::inputsOf()), as
 /// text; seed, output and machine aside.
 std::string checkOrigin(scene::Scene scene, const std::string& inputs);
-/// A hash of it.
-std::string hashOfOrigin(const std::string& origin);
 
 /// Keeps check.json of `folder` for later runs, made of so many of them, unless one of more runs by the same commit is
 /// kept. Nothing is said where it cannot be kept.
