@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "runs/bevameter/preparation.hpp"
 #include "runs/bevameter/soil_report.hpp"
+#include "runs/bevameter/test_notes.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/shared_work.hpp"
@@ -16,8 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 
@@ -92,20 +92,24 @@ void printHead(const TestPlan& plan) {
   std::fflush(stdout);
 }
 
-/// Where a test leaves why it has ended unsoundly.
-std::filesystem::path noteOf(const studies::Pieces& pieces, const PlannedTest& test) {
-  return pieces.folder() / "runs" / (test.name + ".unsound.txt");
+/// With shorter steps where it ends unsoundly: one sample of many may have a contact that trembles.
+studies::Table soundTest(const TestPlan& plan, const PlannedTest& test, const studies::Pieces& pieces,
+                         const std::filesystem::path& folder, const base::Exec& exec,
+                         const std::function<void(double, const std::string&)>& tell) {
+  const std::filesystem::path shorter = noteFile(pieces, test, TestNote::shorterSteps);
+  try {
+    studies::Table done = doTest(plan, test, folder, folder.parent_path(), exec, tell);
+    std::filesystem::remove(shorter);
+    return done;
+  } catch (const base::SimulationError& e) {
+    support::replaceTextFile(shorter, e.what());
+  }
+  TestPlan again = plan;
+  again.grains.stepsPerContact *= kShorterSteps;
+  return doTest(again, test, folder, folder.parent_path(), exec, tell);
 }
 
 } // namespace
-
-std::string unsoundTests(const TestPlan& plan, const studies::Pieces& pieces) {
-  std::string text;
-  for (const PlannedTest& test : plan.tests)
-    if (std::ifstream note(noteOf(pieces, test)); note)
-      text += fmt::format("\n  {}: {}", test.name, std::string(std::istreambuf_iterator<char>(note), {}));
-  return text;
-}
 
 int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions& options, int jobs) {
   Device device(options, jobs);
@@ -129,18 +133,18 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
   const auto work = [&](std::size_t i) {
     const PlannedTest& test = *due[i];
     if (!pieces.inTime(test.name)) return;
-    const auto folder = pieces.begin(test.name);
+    const auto folder = pieces.begin(test.name), unsound = noteFile(pieces, test, TestNote::unsound);
     const double now = there();
     const auto tell = [&](double done, const std::string& phase) {
       if (jobs == 1) progress.update(share(now + done * test.cost / all), test.name + ", " + phase);
     };
     try {
-      pieces.keep(test.name, doTest(plan, test, folder, folder.parent_path(), device.exec(), tell));
+      pieces.keep(test.name, soundTest(plan, test, pieces, folder, device.exec(), tell));
     } catch (const base::SimulationError& e) {
-      support::replaceTextFile(noteOf(pieces, test), e.what()); // the others go on
+      support::replaceTextFile(unsound, e.what()); // the others go on
       return;
     }
-    std::filesystem::remove_all(folder), std::filesystem::remove(noteOf(pieces, test));
+    std::filesystem::remove_all(folder), std::filesystem::remove(unsound);
   };
   support::shareWork(std::min<int>(jobs, std::max<int>(1, static_cast<int>(due.size()))), due.size(), work, [&] {
     progress.update(share(there()), jobs > 1 ? "several tests at a time" : "a test has ended");
@@ -148,7 +152,8 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
   int missing = 0;
   for (const PlannedTest& test : plan.tests) missing += !pieces.has(test.name);
   const bool isSheared = std::all_of(plan.tests.begin(), plan.tests.end(), [&](const PlannedTest& test) {
-    return test.kind != TestKind::shear || pieces.has(test.name) || std::filesystem::exists(noteOf(pieces, test));
+    return test.kind != TestKind::shear || pieces.has(test.name) ||
+           std::filesystem::exists(noteFile(pieces, test, TestNote::unsound));
   });
   if (isSheared) studies::removePoured(pieces.folder() / "runs");
   progress.finish(fmt::format("{} of {} tests are there", plan.tests.size() - static_cast<std::size_t>(missing),
@@ -168,10 +173,10 @@ void soilCommand(const SoilCommand& command) {
   const int missing = doTests(plan, pieces, command.pieces, command.jobs);
   if (!pieces.whole()) return;
   reportSoil(plan, pieces, missing);
-  if (const std::string unsound = unsoundTests(plan, pieces); !unsound.empty())
-    throw base::SimulationError(
-        "tests have ended unsoundly and are left out of the tables (--steps-per-contact makes a step smaller):" +
-        unsound);
+  if (const std::string unsound = textOf(notedTests(plan, pieces, TestNote::unsound)); !unsound.empty())
+    throw base::SimulationError("tests have ended unsoundly, with shorter steps too, and are left out of the tables "
+                                "(--steps-per-contact makes a step smaller):" +
+                                unsound);
 }
 
 } // namespace grouser::bevameter

@@ -21,10 +21,8 @@ void soilCommand(const SoilCommand& command);
 
 /// Does the tests of a plan that are not there yet, `jobs` at a time, after the preparation of their beds, which it
 /// puts into the plan. Returns the tests that are missing after that.
-/// A test that ends unsoundly leaves a note, and the others go on.
+/// A test that ends unsoundly is done again with shorter steps; one that does so then leaves a note, and the others go
+/// on (test_notes.hpp).
 int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions& options, int jobs);
-
-/// What the tests say that have ended unsoundly, a line each; empty where all are sound.
-std::string unsoundTests(const TestPlan& plan, const studies::Pieces& pieces);
 
 } // namespace grouser::bevameter

@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "runs/bevameter/calibration_record.hpp"
 #include "runs/bevameter/soil_report.hpp"
+#include "runs/bevameter/test_notes.hpp"
 #include "runs/output/output.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/build_info.hpp"
@@ -79,7 +80,7 @@ private:
     record_.begun();
     takeOver(plan, pieces);
     if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
-      if (const std::string unsound = unsoundTests(plan, pieces); !unsound.empty()) {
+      if (const std::string unsound = textOf(notedTests(plan, pieces, TestNote::unsound)); !unsound.empty()) {
         record_.stopped(name, missing);
         throw base::SimulationError(fmt::format("tests of {} have ended unsoundly (--steps-per-contact makes a step "
                                                 "smaller, in a folder of its own):{}",

@@ -116,7 +116,7 @@ PlanOptions coarsePlan() {
   PlanOptions o;
   o.coarse = true;
   o.plateGrains = 8, o.plateRatio = 2, o.bin = 4, o.depth = 1.5, o.thickness = 6, o.gradedThickness = 9;
-  o.plateWaves = 0.1, o.inertialNumber = 5e-3, o.shearInertialNumber = 4e-3, o.shearStrain = 0.3;
+  o.plateWaves = 0.1, o.inertialNumber = 5e-3, o.shearInertialNumber = 5e-3, o.shearStrain = 0.3;
   o.seeds = 3, o.largeSeeds = 3, o.wide = false;
   return o;
 }

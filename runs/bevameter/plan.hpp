@@ -42,6 +42,9 @@ PlanOptions coarsePlan();
 
 enum class TestKind { small, large, wide, shear, repose };
 
+/// Times as many steps a contact, of a test that has ended unsoundly [-].
+inline constexpr double kShorterSteps = 1.5;
+
 /// One test of the plan: a piece of its own.
 struct PlannedTest {
   std::string name; ///< "small_seed1", "shear25kPa_seed3"; in coarse plans with "coarse_" before it

@@ -283,7 +283,7 @@ std::vector<PublishedBekker> publishedBekker(const TestedSoil& soil) {
 
 std::optional<PublishedSpan> publishedModulus(const TestedSoil& soil, double breadth) {
   const std::vector<PublishedBekker> all = publishedBekker(soil);
-  if (all.empty()) return {};
+  if (all.empty() || !(all.front().fit.kAt(breadth) > 0)) return {};
   const double k = 1e-3 * all.front().fit.kAt(breadth), tolerance = toleranceOf(Quantity::frictionModulus, k);
   return PublishedSpan{k - tolerance, k + tolerance, true};
 }

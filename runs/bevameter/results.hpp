@@ -85,7 +85,7 @@ struct PublishedBekker {
 };
 std::vector<PublishedBekker> publishedBekker(const TestedSoil& soil);
 /// k_c / b + k_phi of the first of them for a plate of one breadth, +- 40 %, [kN/m^(n+2)]: what the k of a plate alone
-/// is held against, with the n of that source.
+/// is held against, with the n of that source. None where that form is not positive.
 std::optional<PublishedSpan> publishedModulus(const TestedSoil& soil, double breadth);
 /// "inside": the whole interval; "inside, interval is wider"; "outside, interval reaches in"; "outside".
 std::string verdictOf(const support::Estimate& measured, const PublishedSpan& span);

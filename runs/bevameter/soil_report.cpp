@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/bevameter/soil_report.hpp"
 
+#include "runs/bevameter/test_notes.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/build_info.hpp"
@@ -257,7 +258,11 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
 
 void reportSoil(const TestPlan& plan, const studies::Pieces& pieces, int missing) {
   const SoilResults results = resultsOf(plan, pieces);
-  const std::string text = constantsTable(plan, results) + detailsTable(plan, results);
+  std::string text = constantsTable(plan, results) + detailsTable(plan, results);
+  const std::vector<NotedTest> noted = notedTests(plan, pieces, TestNote::shorterSteps);
+  if (!noted.empty())
+    text += fmt::format("  with {:g} times as many steps a contact, since these ended unsoundly with the others':{}\n",
+                        kShorterSteps, textOf(noted));
   fmt::print("{}", text);
   if (missing > 0) fmt::print("{} tests are missing: call again with --resume\n", missing);
   const auto& folder = pieces.folder();
@@ -265,7 +270,10 @@ void reportSoil(const TestPlan& plan, const studies::Pieces& pieces, int missing
   support::writeTextFile(folder / "constants.csv", constantsCsv(plan, results), "--out");
   support::writeTextFile(folder / "plates.csv", platesCsv(plan, pieces), "--out");
   support::writeTextFile(folder / "shear.csv", shearCsv(plan, pieces), "--out");
-  support::replaceTextFile(folder / "soil.json", resultsJson(plan, results, missing).dump(2) + "\n");
+  nlohmann::ordered_json json = resultsJson(plan, results, missing);
+  json["tests_with_shorter_steps"] = nlohmann::ordered_json::array();
+  for (const NotedTest& test : noted) json["tests_with_shorter_steps"].push_back(test.name);
+  support::replaceTextFile(folder / "soil.json", json.dump(2) + "\n");
   output::drawPicture("soil.py", {folder / "plates.csv", folder / "shear.csv", folder / "soil.json"},
                       folder / "soil.png");
   fmt::print("tables    {}\n", folder.string());

@@ -47,6 +47,9 @@ void printHead(const EventsCommand& command, const EventPlan& plan) {
     fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {} seeds{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
                plan.seeds, command.options.quick ? "; coarse" : "");
+  if (plan.shoesAlone)
+    fmt::print("          so coarse a soil meets the shoes alone: stones like these would jam the running gear (--set "
+               "vehicle.soil_meets=all lets them)\n");
   for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
   fmt::print("          {} runs\n", plan.sweep.runs.size());
   std::fflush(stdout);
@@ -94,7 +97,8 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
                                  {"seeds", plan.seeds},
                                  {"speed_m_s", plan.course.speed},
                                  {"grain_radius_m", plan.grainRadius},
-                                 {"bed_depth_m", plan.course.depth}};
+                                 {"bed_depth_m", plan.course.depth},
+                                 {"soil_meets_shoes_alone", plan.shoesAlone}};
   json.update(eventsJson(rows, limits, plan));
   support::replaceTextFile(folder / kTable, eventsCsv(rows));
   support::replaceTextFile(folder / kText, text);

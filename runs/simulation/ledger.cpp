@@ -9,7 +9,7 @@ namespace {
 
 /// Calls visit(number) for all that is counted.
 template <class Self, class Visit> void forCounted(Self& l, const Visit& visit) {
-  visit(l.driveWork), visit(l.kinetic), visit(l.potential), visit(l.elastic);
+  visit(l.driveWork), visit(l.kinetic), visit(l.potential), visit(l.elastic), visit(l.grainElastic);
   auto& d = l.dissipated;
   visit(d.damping), visit(d.friction), visit(d.rolling), visit(d.yielding), visit(d.crushing);
   visit(d.parts), visit(d.joints);

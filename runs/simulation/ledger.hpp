@@ -32,6 +32,7 @@ struct Dissipated {
 /// step. The residual is what the state's kinetic energy has more than the work booked: rounding, or else a mistake.
 struct Ledger {
   double driveWork{}, kinetic{}, potential{}, elastic{};
+  double grainElastic{}; ///< of elastic: contacts of grains with each other, floor and walls
   Dissipated dissipated;
   double work{};     ///< of all forces on all bodies
   double turnover{}; ///< the same without signs, a body and a step each: what the errors are to be held against

@@ -212,7 +212,7 @@ Ledger Simulation::wholeLedger() {
   Ledger l;
   if (ground_.grains) {
     const terrain::GrainLedger g = ground_.grains->ledger();
-    l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = g.elastic;
+    l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = l.grainElastic = g.elastic;
     l.dissipated = {g.damped, g.rubbed, g.rolled, g.yielded, 0, 0, 0};
     l.work = g.work, l.turnover = g.turnover;
     l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;

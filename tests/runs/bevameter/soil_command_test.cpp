@@ -134,6 +134,21 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
   EXPECT_EQ(contents(folder_ / "found" / "final" / name), contents(folder_ / "found" / "plate_1" / name));
 }
 
+TEST_F(SoilCommandTest, WhatEndsUnsoundlyIsDoneAgainWithShorterSteps) {
+  std::string sand = kSand;
+  sand.replace(sand.find("0.3"), 3, "0.9"); // grains that bounce, with the longest steps, are thrown about
+  put(folder_ / "sand.toml", sand);
+  const std::string words = "soil sand.toml --out results --steps-per-contact 6" + kSmall;
+  const Outcome part = call(words + " --part 2/100"); // shear of the first seed under the lesser load
+  ASSERT_EQ(part.code, 0) << part.errors;
+  const Outcome o = call(words + " --resume --seconds 1e-6");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  EXPECT_NE(o.out.find("with 1.5 times as many steps a contact"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("coarse_shear5kPa_seed1: step "), std::string::npos) << o.out;
+  const auto json = nlohmann::json::parse(contents(folder_ / "results" / "soil.json"));
+  EXPECT_EQ(json.at("tests_with_shorter_steps"), nlohmann::json({"coarse_shear5kPa_seed1"}));
+}
+
 TEST_F(SoilCommandTest, PartsMayBeginTogether) {
   put(folder_ / "sand.toml",
       std::string(kSand).replace(std::string(kSand).find("[[published"), 0, "porosity = 0.42\n"));

@@ -228,6 +228,21 @@ TEST(SoilVerdict, SpansAreThoseOfTwoSourcesOrOneWidened) {
   EXPECT_EQ(publishedSpan(soil, Quantity::frictionAngle)->low, 27);
 }
 
+TEST(PublishedModulus, IsThatOfAPlateOfItsBreadthFromASourceThatHasAllThree) {
+  TestedSoil soil = sand(true);
+  soil.published = {published(Quantity::exponent, 0.8), published(Quantity::frictionModulus, 5000)};
+  EXPECT_FALSE(publishedModulus(soil, 0.28)) << "without k_c";
+  soil.published.push_back(published(Quantity::cohesionModulus, 140));
+  const PublishedSpan span = *publishedModulus(soil, 0.28);
+  EXPECT_NEAR(span.low, 0.6 * 5500, 1e-9);
+  EXPECT_NEAR(span.high, 1.4 * 5500, 1e-9);
+  EXPECT_TRUE(span.isTolerance);
+  soil.published.back().source = "another source";
+  EXPECT_FALSE(publishedModulus(soil, 0.28)) << "numbers of two sources do not belong together";
+  soil.published.back() = published(Quantity::cohesionModulus, -202);
+  EXPECT_FALSE(publishedModulus(soil, 0.03)) << "a form that is negative says nothing of so small a plate";
+}
+
 TEST(SoilVerdict, AWideIntervalIsNotInside) {
   const PublishedSpan span{30, 32};
   EXPECT_EQ(verdictOf({31, 0.5}, span), "inside");

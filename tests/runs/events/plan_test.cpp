@@ -110,6 +110,16 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   EXPECT_TRUE(weak.terrain->granular());
 }
 
+TEST(EventPlan, GrainsTooCoarseForTheRunningGearMeetTheShoesAlone) {
+  EventOptions options;
+  options.soil = "lete_sand", options.quick = true, options.only = {"pivot_turn"};
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::shoes) << "four on a pad";
+  options.grainRadius = 0.0135;
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "ten on a pad";
+  options.grainRadius.reset(), options.fixed = {"vehicle.soil_meets=all"};
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "as the user says";
+}
+
 TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
   EventOptions options;
   options.only = {"grade"}, options.levels = {0.4};

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/bevameter/test_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace grouser::bevameter {
+
+std::filesystem::path noteFile(const studies::Pieces& pieces, const PlannedTest& test, TestNote kind) {
+  return pieces.folder() / "runs" / (test.name + (kind == TestNote::unsound ? ".unsound.txt" : ".shorter_steps.txt"));
+}
+
+std::vector<NotedTest> notedTests(const TestPlan& plan, const studies::Pieces& pieces, TestNote kind) {
+  std::vector<NotedTest> noted;
+  for (const PlannedTest& test : plan.tests) {
+    if (pieces.has(test.name) != (kind == TestNote::shorterSteps)) continue;
+    if (std::ifstream note(noteFile(pieces, test, kind)); note)
+      noted.push_back({test.name, std::string(std::istreambuf_iterator<char>(note), {})});
+  }
+  return noted;
+}
+
+std::string textOf(const std::vector<NotedTest>& tests) {
+  std::string text;
+  for (const NotedTest& t : tests) text += fmt::format("\n  {}: {}", t.name, t.why);
+  return text;
+}
+
+} // namespace grouser::bevameter
