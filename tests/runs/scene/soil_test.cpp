@@ -350,9 +350,10 @@ TEST(SoilScenes, AreLoadedAndOfTheSizeTheySay) {
   EXPECT_GE(*full.terrain->depth, 0.5);
   EXPECT_LE(*full.terrain->grainRadius, 0.007);
   EXPECT_LT(setup::plannedGrains(full), 3'000'000);
-  EXPECT_EQ(full.terrain->porosity, 0.42) << "the soil's";
+  EXPECT_EQ(full.terrain->porosity, 0.445) << "the soil's";
+  EXPECT_EQ(full.material("grenville_loam").young, 2.68e8) << "the soil's, at its own radius";
   const Scene coarse = setup::loadScene(scenes / "soil_coarse.toml");
-  EXPECT_EQ(coarse.material("lete_sand").young, full.material("lete_sand").young);
+  EXPECT_GT(coarse.material("lete_sand").young, 1e9);
   EXPECT_LT(setup::plannedGrains(coarse), 20'000);
   const Scene wheel = setup::loadScene(scenes / "grc1_wheel.toml");
   EXPECT_EQ(wheel.material("grc1").density, 2580);
