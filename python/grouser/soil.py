@@ -59,6 +59,8 @@ class SoilTest:
             self.name: str = self.json["soil"]
             self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
             self.coarse: bool = self.json["care"] == "coarse"  #: measured with --quick
+            #: Names of tests that ended unsoundly and were done again with shorter steps.
+            self.shorter_steps: list[str] = list(self.json.get("tests_with_shorter_steps", []))
             self.constants: dict[str, Constant] = {
                 name: Constant(Estimate(number(one["value"]), number(one["half_width"]), one["unit"], name),
                                tuple((number(p.get("value")), p["source"]) for p in one["published"]),

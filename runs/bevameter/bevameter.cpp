@@ -92,20 +92,26 @@ void printHead(const TestPlan& plan) {
   std::fflush(stdout);
 }
 
-/// With shorter steps where it ends unsoundly: one sample of many may have a contact that trembles.
-studies::Table soundTest(const TestPlan& plan, const PlannedTest& test, const studies::Pieces& pieces,
-                         const std::filesystem::path& folder, const base::Exec& exec,
-                         const std::function<void(double, const std::string&)>& tell) {
+constexpr auto kAgain = "_shorter_steps"; // of the folder of a test that is done again
+
+/// Once more with shorter steps, from the beginning, where it ends unsoundly: one sample of many may have a contact
+/// that trembles. Nothing where there is no time for that; the next call then begins with shorter steps.
+std::optional<studies::Table> soundTest(const TestPlan& plan, const PlannedTest& test, studies::Pieces& pieces,
+                                        const base::Exec& exec,
+                                        const std::function<void(double, const std::string&)>& tell) {
   const std::filesystem::path shorter = noteFile(pieces, test, TestNote::shorterSteps);
-  try {
-    studies::Table done = doTest(plan, test, folder, folder.parent_path(), exec, tell);
-    std::filesystem::remove(shorter);
-    return done;
-  } catch (const base::SimulationError& e) {
-    support::replaceTextFile(shorter, e.what());
+  if (!std::filesystem::exists(shorter)) {
+    const std::filesystem::path folder = pieces.begin(test.name);
+    try {
+      return doTest(plan, test, folder, folder.parent_path(), exec, tell);
+    } catch (const base::SimulationError& e) {
+      support::replaceTextFile(shorter, e.what());
+    }
+    if (!pieces.inTime(test.name)) return {};
   }
   TestPlan again = plan;
   again.grains.stepsPerContact *= kShorterSteps;
+  const std::filesystem::path folder = pieces.begin(test.name + kAgain);
   return doTest(again, test, folder, folder.parent_path(), exec, tell);
 }
 
@@ -133,18 +139,22 @@ int doTests(TestPlan& plan, studies::Pieces& pieces, const studies::PieceOptions
   const auto work = [&](std::size_t i) {
     const PlannedTest& test = *due[i];
     if (!pieces.inTime(test.name)) return;
-    const auto folder = pieces.begin(test.name), unsound = noteFile(pieces, test, TestNote::unsound);
+    const std::filesystem::path unsound = noteFile(pieces, test, TestNote::unsound);
     const double now = there();
     const auto tell = [&](double done, const std::string& phase) {
       if (jobs == 1) progress.update(share(now + done * test.cost / all), test.name + ", " + phase);
     };
     try {
-      pieces.keep(test.name, soundTest(plan, test, pieces, folder, device.exec(), tell));
+      const std::optional<studies::Table> done = soundTest(plan, test, pieces, device.exec(), tell);
+      if (!done) return;
+      pieces.keep(test.name, *done);
     } catch (const base::SimulationError& e) {
       support::replaceTextFile(unsound, e.what()); // the others go on
       return;
     }
-    std::filesystem::remove_all(folder), std::filesystem::remove(unsound);
+    const std::filesystem::path runs = pieces.folder() / "runs";
+    std::filesystem::remove_all(runs / test.name), std::filesystem::remove_all(runs / (test.name + kAgain));
+    std::filesystem::remove(unsound);
   };
   support::shareWork(std::min<int>(jobs, std::max<int>(1, static_cast<int>(due.size()))), due.size(), work, [&] {
     progress.update(share(there()), jobs > 1 ? "several tests at a time" : "a test has ended");
@@ -173,10 +183,8 @@ void soilCommand(const SoilCommand& command) {
   const int missing = doTests(plan, pieces, command.pieces, command.jobs);
   if (!pieces.whole()) return;
   reportSoil(plan, pieces, missing);
-  if (const std::string unsound = textOf(notedTests(plan, pieces, TestNote::unsound)); !unsound.empty())
-    throw base::SimulationError("tests have ended unsoundly, with shorter steps too, and are left out of the tables "
-                                "(--steps-per-contact makes a step smaller):" +
-                                unsound);
+  if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty())
+    throw base::SimulationError("tests are left out of the tables: " + unsoundText(unsound));
 }
 
 } // namespace grouser::bevameter

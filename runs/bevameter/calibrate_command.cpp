@@ -80,11 +80,9 @@ private:
     record_.begun();
     takeOver(plan, pieces);
     if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
-      if (const std::string unsound = textOf(notedTests(plan, pieces, TestNote::unsound)); !unsound.empty()) {
+      if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty()) {
         record_.stopped(name, missing);
-        throw base::SimulationError(fmt::format("tests of {} have ended unsoundly (--steps-per-contact makes a step "
-                                                "smaller, in a folder of its own):{}",
-                                                name, unsound));
+        throw base::SimulationError(fmt::format("{} has no result: {}", name, unsoundText(unsound)));
       }
       throw Unfinished{name, missing};
     }
@@ -102,7 +100,13 @@ private:
         if (!pieces.has(name) && trial.second.has(name)) pieces.keep(name, trial.second.read(name));
       };
       take(plan.preparationName());
-      for (const PlannedTest& test : plan.tests) take(test.name);
+      for (const PlannedTest& test : plan.tests) {
+        take(test.name);
+        const std::filesystem::path note = noteFile(trial.second, test, TestNote::shorterSteps);
+        if (std::filesystem::exists(note))
+          std::filesystem::copy_file(note, noteFile(pieces, test, TestNote::shorterSteps),
+                                     std::filesystem::copy_options::overwrite_existing);
+      }
     }
   }
 

@@ -224,6 +224,7 @@ SoilResults resultsOf(const TestPlan& plan, const studies::Pieces& pieces) {
   }
   for (const PublishedValue& p : plan.soil.published)
     if (p.quantity == Quantity::exponent && !r.givenN) r.givenN = p.value;
+  if (const auto whole = publishedBekker(plan.soil); !whole.empty()) r.givenN = whole.front().fit.n; // of one source
   if (r.hasPlates()) addPlates(r, plan, plates);
   for (std::size_t i = 0; i < 2 && !r.hasPlates(); ++i)
     if (r.plates[i] > 0) addOneBreadth(r, plan, i, plates[i]);

@@ -199,7 +199,7 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   json["file"] = plan.soil.file.string();
   json["grain_radius_m"] = plan.soil.grainRadius;
   json["plate_over_grain"] = {plan.small.strip.breadth, plan.large.strip.breadth};
-  json["breadth_m"] = {plan.breadth(kBreadths[0]), plan.breadth(kBreadths[1])};
+  json["breadth_m"] = {plan.breadth(TestKind::small), plan.breadth(TestKind::large)};
   json["seeds"] = {{"small", r.plates[0]}, {"large", r.plates[1]}, {"shear", r.shearTests}, {"repose", r.reposeTests}};
   json["missing_tests"] = missing;
   for (const auto& [q, e] : r.measured) {

@@ -15,7 +15,8 @@ std::filesystem::path noteFile(const studies::Pieces& pieces, const PlannedTest&
 std::vector<NotedTest> notedTests(const TestPlan& plan, const studies::Pieces& pieces, TestNote kind) {
   std::vector<NotedTest> noted;
   for (const PlannedTest& test : plan.tests) {
-    if (pieces.has(test.name) != (kind == TestNote::shorterSteps)) continue;
+    const bool isDone = kind == TestNote::shorterSteps; // a note of one that is not may be of a call before
+    if (pieces.has(test.name) != isDone) continue;
     if (std::ifstream note(noteFile(pieces, test, kind)); note)
       noted.push_back({test.name, std::string(std::istreambuf_iterator<char>(note), {})});
   }
@@ -26,6 +27,12 @@ std::string textOf(const std::vector<NotedTest>& tests) {
   std::string text;
   for (const NotedTest& t : tests) text += fmt::format("\n  {}: {}", t.name, t.why);
   return text;
+}
+
+std::string unsoundText(const std::vector<NotedTest>& tests) {
+  return "these have ended unsoundly, with shorter steps too (where the step is to blame, take more "
+         "--steps-per-contact, in a folder of its own):" +
+         textOf(tests);
 }
 
 } // namespace grouser::bevameter

@@ -25,5 +25,7 @@ std::filesystem::path noteFile(const studies::Pieces& pieces, const PlannedTest&
 std::vector<NotedTest> notedTests(const TestPlan& plan, const studies::Pieces& pieces, TestNote kind);
 /// Each on a line of its own, which begins with a line break; empty where there are none.
 std::string textOf(const std::vector<NotedTest>& tests);
+/// What a user is told of tests that have ended unsoundly, and what to do.
+std::string unsoundText(const std::vector<NotedTest>& tests);
 
 } // namespace grouser::bevameter

@@ -70,7 +70,7 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),
            "to which layers are sheared [-]");
   keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7), "on sheared layers [Pa]");
-  keys.add(soil, "--steps-per-contact", &PlanOptions::stepsPerContact, support::between(6, 1000),
+  keys.add(soil, "--steps-per-contact", &PlanOptions::stepsPerContact, support::between(6, 600),
            "of the shortest contact; more where tests end unsoundly");
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
            "of the sheared layer, at least ten grains [m]");

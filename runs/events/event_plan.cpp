@@ -30,7 +30,7 @@ constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the lig
 // Of a bed, in widths of a pad: what the grains measure, how deep it is, and how far it reaches beside the tracks.
 constexpr double kGrain = 1 / 20.8, kDepth = 1.6, kMargin = 4, kQuickGrain = 1 / 8.0, kQuickDepth = 0.9,
                  kQuickMargin = 2;
-constexpr double kFewOnPad = 6; // grains on the width of a pad; larger ones would jam a running gear as no soil does
+constexpr double kFewOnPad = 6;         // grains on the width of a pad; of four tracks skip teeth (docs/events.md)
 constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
 constexpr int kSeeds = 3, kQuickSeeds = 2;
 constexpr double kStart = 1.2, kSlower = 1.2; // s until it drives; over the time at full speed
@@ -112,7 +112,8 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
           fmt::format("terrain.grain_radius={:.4g}", plan.grainRadius),
           fmt::format("terrain.depth={:.4g}", plan.course.depth)})
       sets.push_back(set);
-  if (plan.shoesAlone) sets.emplace_back("vehicle.soil_meets=\"shoes\"");
+  if (!plan.course.rigid && plan.course.shape.padWidth < kFewOnPad * 2 * plan.grainRadius)
+    sets.emplace_back("vehicle.soil_meets=\"shoes\"");
   return sets;
 }
 
@@ -196,7 +197,6 @@ EventPlan planEvents(const EventOptions& options) {
   EventPlan plan;
   plan.vehicleFile = vehicleFile(options.vehicle);
   plan.course = courseOf(options, plan.vehicleFile, plan.grainRadius);
-  plan.shoesAlone = !plan.course.rigid && plan.course.shape.padWidth < kFewOnPad * 2 * plan.grainRadius;
   plan.seeds = plan.course.rigid ? 1 : options.seeds.value_or(options.quick ? kQuickSeeds : kSeeds);
   const std::vector<std::string> common = commonOf(options, plan);
   plan.sweep.keys = {"event", sweeps::kSeedKey};
@@ -230,6 +230,7 @@ EventPlan planEvents(const EventOptions& options) {
     throw InputError(
         fmt::format("--only {}: {}", base::wordOf(plan.omitted.begin()->first), plan.omitted.begin()->second));
   plan.sweep.scene = plan.sweep.runs.front().file;
+  plan.shoesAlone = !plan.course.rigid && plan.sweep.runs.front().scene.vehicle->soilMeets == scene::SoilMeets::shoes;
   return plan;
 }
 

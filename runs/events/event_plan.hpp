@@ -39,7 +39,7 @@ struct EventPlan {
   Course course;
   std::string vehicleFile; ///< as the runs take it
   double grainRadius = 0;  ///< [m]; 0 on rigid ground
-  bool shoesAlone = false; ///< the soil meets only the shoes: its grains are too coarse for the running gear
+  bool shoesAlone = false; ///< the soil meets the shoes alone, not the running gear
   int seeds = 1;           ///< one on rigid ground, which has no chance in it
   sweeps::SweepPlan sweep; ///< all runs; each names its scene
   std::vector<PlannedTrial> trials;

@@ -59,6 +59,10 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
 /// Of the events that have more than one level.
 std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Course& course);
 
+/// Said of such runs, at the head and in the tables.
+inline constexpr const char* kShoesAlone =
+    "soil meets the shoes alone, not the running gear: coarse stones would jam it (vehicle.soil_meets)";
+
 /// Both tables to read.
 std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);
 /// A row for each level and figure, with its runs, mean and half width.

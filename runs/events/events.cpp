@@ -47,9 +47,7 @@ void printHead(const EventsCommand& command, const EventPlan& plan) {
     fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {} seeds{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
                plan.seeds, command.options.quick ? "; coarse" : "");
-  if (plan.shoesAlone)
-    fmt::print("          so coarse a soil meets the shoes alone: stones like these would jam the running gear (--set "
-               "vehicle.soil_meets=all lets them)\n");
+  if (plan.shoesAlone) fmt::print("          {}\n", kShoesAlone);
   for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
   fmt::print("          {} runs\n", plan.sweep.runs.size());
   std::fflush(stdout);

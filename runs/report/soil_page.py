@@ -127,6 +127,9 @@ def beside(soil):
     for key, one in j.get("shear", {}).items():
         if isinstance(one, dict):
             add("shear", BESIDE.get(key, key), one, f"shear {key}")
+    if j.get("tests_with_shorter_steps"):
+        rows.append(["tests", "ended unsoundly, and were done again with shorter steps",
+                     esc(", ".join(j["tests_with_shorter_steps"])), ""])
     if isinstance(j.get("track_sinkage"), dict):
         add("track", "sinkage by Bekker's form at 47.5 kPa under 0.28 m", j["track_sinkage"], "track sinkage")
     return folded("What was measured beside them", table(

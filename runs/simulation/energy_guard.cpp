@@ -47,9 +47,9 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
                        "most",
                        -x.lost, x.taken, kInterval);
-  // A large bed breathes before a vehicle has dissipated much.
-  const double neverAlarms =
-      kRounding * held + kQuiet * (now.turnover + std::fabs(all)) + kSpringShare * std::fabs(now.grainElastic);
+  // A large bed breathes before a vehicle has dissipated much: never more than what was dissipated counts of it.
+  const double springs = kSpringShare * std::min(std::fabs(now.grainElastic), std::fabs(all));
+  const double neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(all)) + springs;
   if (made > kMostMade * (all - made) + neverAlarms)
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};

@@ -43,7 +43,8 @@ public:
   /// Of what springs have taken up or given back that may stand as made or lost, or as taken by dampers [-]: a contact
   /// under the load of others books the loss of its dashpot as if it were alone, which is wrong by gamma dt / 2 of what
   /// its spring takes up, and right again when it lets go. At the limit of stability that is zeta / (2 zeta + sqrt(4
-  /// zeta^2 + 1)) of damping ratio zeta, a quarter at most.
+  /// zeta^2 + 1)) of damping ratio zeta, a quarter at most. Since the start: of contacts of grains with each other,
+  /// floor and walls, and of no more than was dissipated.
   static constexpr double kSpringShare = 0.25;
 
   /// Share that is rounding [-] of the energy that bodies and contacts hold, and of m g radius of all grains: places

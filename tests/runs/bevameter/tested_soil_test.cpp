@@ -243,6 +243,11 @@ TEST(PublishedModulus, IsThatOfAPlateOfItsBreadthFromASourceThatHasAllThree) {
   EXPECT_FALSE(publishedModulus(soil, 0.03)) << "a form that is negative says nothing of so small a plate";
 }
 
+TEST(PublishedModulus, IsKnownOfEverySoilWhoseThreeNumbersArePublished) {
+  for (const char* name : {"dry_sand", "grenville_loam", "lete_sand", "sandy_loam"})
+    EXPECT_TRUE(publishedModulus(readTestedSoil(name, 0), 0.28)) << name << ": of one source, by its very words";
+}
+
 TEST(SoilVerdict, AWideIntervalIsNotInside) {
   const PublishedSpan span{30, 32};
   EXPECT_EQ(verdictOf({31, 0.5}, span), "inside");
