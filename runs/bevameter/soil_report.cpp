@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/bevameter/soil_report.hpp"
 
-#include "runs/bevameter/test_notes.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/build_info.hpp"
@@ -193,7 +192,8 @@ std::string shearCsv(const TestPlan& plan, const studies::Pieces& pieces) {
   return text;
 }
 
-nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, int missing) {
+nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, int missing,
+                                   const std::vector<NotedTest>& shorterSteps) {
   const support::BuildInfo build = support::buildInfo();
   nlohmann::ordered_json json{{"soil", plan.soil.name}, {"title", plan.soil.title}, {"care", plan.care()}};
   json["file"] = plan.soil.file.string();
@@ -202,6 +202,8 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   json["breadth_m"] = {plan.breadth(TestKind::small), plan.breadth(TestKind::large)};
   json["seeds"] = {{"small", r.plates[0]}, {"large", r.plates[1]}, {"shear", r.shearTests}, {"repose", r.reposeTests}};
   json["missing_tests"] = missing;
+  json["tests_with_shorter_steps"] = nlohmann::ordered_json::array();
+  for (const NotedTest& test : shorterSteps) json["tests_with_shorter_steps"].push_back(test.name);
   for (const auto& [q, e] : r.measured) {
     nlohmann::ordered_json one = estimateJson(e, unitOf(q));
     one["published"] = publishedJson(plan.soil, q);
@@ -270,10 +272,7 @@ void reportSoil(const TestPlan& plan, const studies::Pieces& pieces, int missing
   support::writeTextFile(folder / "constants.csv", constantsCsv(plan, results), "--out");
   support::writeTextFile(folder / "plates.csv", platesCsv(plan, pieces), "--out");
   support::writeTextFile(folder / "shear.csv", shearCsv(plan, pieces), "--out");
-  nlohmann::ordered_json json = resultsJson(plan, results, missing);
-  json["tests_with_shorter_steps"] = nlohmann::ordered_json::array();
-  for (const NotedTest& test : noted) json["tests_with_shorter_steps"].push_back(test.name);
-  support::replaceTextFile(folder / "soil.json", json.dump(2) + "\n");
+  support::replaceTextFile(folder / "soil.json", resultsJson(plan, results, missing, noted).dump(2) + "\n");
   output::drawPicture("soil.py", {folder / "plates.csv", folder / "shear.csv", folder / "soil.json"},
                       folder / "soil.png");
   fmt::print("tables    {}\n", folder.string());

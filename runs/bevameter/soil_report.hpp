@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/bevameter/results.hpp"
+#include "runs/bevameter/test_notes.hpp"
 
 /// What is printed and written of a soil's tests.
 namespace grouser::bevameter {
@@ -16,7 +17,8 @@ std::string platesCsv(const TestPlan& plan, const studies::Pieces& pieces);
 std::string shearCsv(const TestPlan& plan, const studies::Pieces& pieces);
 /// Of numbers that are none null.
 nlohmann::ordered_json estimateJson(const support::Estimate& estimate, const std::string& unit);
-nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& results, int missing);
+nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& results, int missing,
+                                   const std::vector<NotedTest>& shorterSteps);
 
 /// Prints the tables, writes soil.json, soil.txt, constants.csv, plates.csv and shear.csv, and draws.
 void reportSoil(const TestPlan& plan, const studies::Pieces& pieces, int missing);

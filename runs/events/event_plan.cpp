@@ -190,6 +190,10 @@ fs::path sceneOf(Event event) {
   return support::shareFolder() / "runs" / "scenes" / fmt::format("event_{}.toml", base::wordOf(file));
 }
 
+bool EventPlan::shoesAlone() const {
+  return !course.rigid && sweep.runs.front().scene.vehicle->soilMeets == scene::SoilMeets::shoes;
+}
+
 EventPlan planEvents(const EventOptions& options) {
   const std::vector<Event> events = chosen(options);
   checkLevels(options, events);
@@ -230,7 +234,6 @@ EventPlan planEvents(const EventOptions& options) {
     throw InputError(
         fmt::format("--only {}: {}", base::wordOf(plan.omitted.begin()->first), plan.omitted.begin()->second));
   plan.sweep.scene = plan.sweep.runs.front().file;
-  plan.shoesAlone = !plan.course.rigid && plan.sweep.runs.front().scene.vehicle->soilMeets == scene::SoilMeets::shoes;
   return plan;
 }
 

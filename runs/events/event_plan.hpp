@@ -39,11 +39,11 @@ struct EventPlan {
   Course course;
   std::string vehicleFile; ///< as the runs take it
   double grainRadius = 0;  ///< [m]; 0 on rigid ground
-  bool shoesAlone = false; ///< the soil meets the shoes alone, not the running gear
   int seeds = 1;           ///< one on rigid ground, which has no chance in it
   sweeps::SweepPlan sweep; ///< all runs; each names its scene
   std::vector<PlannedTrial> trials;
   std::map<Event, std::string> omitted; ///< of those that were asked for: why
+  bool shoesAlone() const;              ///< the soil meets the shoes alone, not the running gear
 };
 
 /// Reads the vehicle and the soil, and loads and checks the scene of every run as `grouser plan` does. Throws

@@ -175,7 +175,7 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
                           f.runs > 1 ? studies::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value));
   }
   for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);
-  if (plan.shoesAlone) text += fmt::format("\n{}\n", kShoesAlone);
+  if (plan.shoesAlone()) text += fmt::format("\n{}\n", kShoesAlone);
   if (!limits.empty()) text += "\nlimits\n";
   for (const EventLimit& limit : limits)
     text += fmt::format("{:<18}{:<42}{:<26}{}\n", base::wordOf(limit.event), levelText(limit.event), limitText(limit),

@@ -47,7 +47,7 @@ void printHead(const EventsCommand& command, const EventPlan& plan) {
     fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {} seeds{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
                plan.seeds, command.options.quick ? "; coarse" : "");
-  if (plan.shoesAlone) fmt::print("          {}\n", kShoesAlone);
+  if (plan.shoesAlone()) fmt::print("          {}\n", kShoesAlone);
   for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
   fmt::print("          {} runs\n", plan.sweep.runs.size());
   std::fflush(stdout);
@@ -96,7 +96,7 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
                                  {"speed_m_s", plan.course.speed},
                                  {"grain_radius_m", plan.grainRadius},
                                  {"bed_depth_m", plan.course.depth},
-                                 {"soil_meets_shoes_alone", plan.shoesAlone}};
+                                 {"soil_meets_shoes_alone", plan.shoesAlone()}};
   json.update(eventsJson(rows, limits, plan));
   support::replaceTextFile(folder / kTable, eventsCsv(rows));
   support::replaceTextFile(folder / kText, text);

@@ -9,6 +9,16 @@
 
 namespace grouser::simulation {
 
+namespace {
+
+/// What is no alarm whatever was exchanged [J]: rounding, what is small beside the whole run, and what springs hide.
+double neverAlarms(const Ledger& now, double held, double springs) {
+  return EnergyGuard::kRounding * held + EnergyGuard::kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
+         EnergyGuard::kSpringShare * springs;
+}
+
+} // namespace
+
 EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   Exchange x;
   const double taken = now.dissipated.total() - last_.dissipated;
@@ -18,8 +28,7 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   x.taken = taken;
   x.rubbed = now.dissipated.friction - last_.rubbed;
   x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
-  x.neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
-                  kSpringShare * std::fabs(now.elastic - last_.elastic);
+  x.neverAlarms = neverAlarms(now, held, std::fabs(now.elastic - last_.elastic));
   return x;
 }
 
@@ -48,9 +57,8 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
                        "most",
                        -x.lost, x.taken, kInterval);
   // A large bed breathes before a vehicle has dissipated much: never more than what was dissipated counts of it.
-  const double springs = kSpringShare * std::min(std::fabs(now.grainElastic), std::fabs(all));
-  const double neverAlarms = kRounding * held + kQuiet * (now.turnover + std::fabs(all)) + springs;
-  if (made > kMostMade * (all - made) + neverAlarms)
+  const double springs = std::min(std::fabs(now.grainElastic), std::fabs(all));
+  if (made > kMostMade * (all - made) + neverAlarms(now, held, springs))
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }

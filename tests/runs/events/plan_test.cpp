@@ -118,9 +118,9 @@ TEST(EventPlan, GrainsTooCoarseForTheRunningGearMeetTheShoesAlone) {
   EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "ten on a pad";
   options.grainRadius.reset(), options.fixed = {"vehicle.soil_meets=all"};
   EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "as the user says";
-  EXPECT_FALSE(planEvents(options).shoesAlone);
+  EXPECT_FALSE(planEvents(options).shoesAlone());
   options.fixed.clear();
-  EXPECT_TRUE(planEvents(options).shoesAlone);
+  EXPECT_TRUE(planEvents(options).shoesAlone());
 }
 
 TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
