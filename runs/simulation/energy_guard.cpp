@@ -12,9 +12,9 @@ namespace grouser::simulation {
 namespace {
 
 /// What is no alarm whatever was exchanged [J]: rounding, what is small beside the whole run, and what springs hide.
-double neverAlarms(const Ledger& now, double held, double springs) {
+double neverAlarms(const Ledger& now, double held, double hidden) {
   return EnergyGuard::kRounding * held + EnergyGuard::kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
-         EnergyGuard::kSpringShare * springs;
+         hidden;
 }
 
 } // namespace
@@ -28,7 +28,7 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   x.taken = taken;
   x.rubbed = now.dissipated.friction - last_.rubbed;
   x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
-  x.neverAlarms = neverAlarms(now, held, std::fabs(now.elastic - last_.elastic));
+  x.neverAlarms = neverAlarms(now, held, kSpringShare * std::fabs(now.elastic - last_.elastic));
   return x;
 }
 
@@ -51,14 +51,15 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
   if (now.dissipated.parts <= now.dissipated.ofGrains()) return {}; // sliding grains book what their steps make
   const Exchange x = since(now, held);
-  const double all = now.dissipated.total(), made = -now.integrationError;
   if (-x.lost > kMostMade * (x.taken + x.lost) + x.neverAlarms)
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
                        "most",
                        -x.lost, x.taken, kInterval);
-  // A large bed breathes before a vehicle has dissipated much: never more than what was dissipated counts of it.
-  const double springs = std::min(std::fabs(now.grainElastic), std::fabs(all));
-  if (made > kMostMade * (all - made) + neverAlarms(now, held, springs))
+  // A large bed breathes before a vehicle has dissipated much, and its dashpots then seem to give what parts take.
+  const double all = now.dissipated.total() - std::min(0.0, now.dissipated.ofGrains()), made = -now.integrationError;
+  const double bed = std::fabs(now.grainElastic);
+  const double hidden = std::clamp(kMostHidden * now.dissipated.parts, kBreath * bed, kSpringShare * bed);
+  if (made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }

@@ -44,8 +44,11 @@ public:
   /// under the load of others books the loss of its dashpot as if it were alone, which is wrong by gamma dt / 2 of what
   /// its spring takes up, and right again when it lets go. At the limit of stability that is zeta / (2 zeta + sqrt(4
   /// zeta^2 + 1)) of damping ratio zeta, a quarter at most. Since the start: of contacts of grains with each other,
-  /// floor and walls, and of no more than was dissipated.
+  /// floor and walls.
   static constexpr double kSpringShare = 0.25;
+  /// Of what parts of a vehicle have dissipated since the start, beyond which a bed's springs hide no more [-] than
+  /// kBreath of what they have taken up or given back: twice what a sound bed of 1.8 million grains does.
+  static constexpr double kMostHidden = 0.5, kBreath = 0.01;
 
   /// Share that is rounding [-] of the energy that bodies and contacts hold, and of m g radius of all grains: places
   /// have a resolution of 1e-8 of a diameter.

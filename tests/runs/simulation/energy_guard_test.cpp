@@ -136,11 +136,31 @@ TEST(EnergyGuard, ABedThatBreathesBeforeAVehicleHasDissipatedMuchIsNoAlarm) {
   EXPECT_NE(guard.judge(l, 0), "") << "springs of the vehicle hide nothing";
   guard.look(l);
   EXPECT_NE(guard.judge(l, 0).find("since the start"), std::string::npos);
-  l.grainElastic = -2; // a tenth of the other 0.306 J, a thousandth of 0.76 J, and a quarter of 0.38 J
+  l.grainElastic = -2; // a tenth of the other 0.306 J, a thousandth of 0.76 J, and half of 0.3 J
   EXPECT_EQ(guard.judge(l, 0), "");
-  l.integrationError = -0.13;
+  l.integrationError = -0.19;
   guard.look(l);
   EXPECT_NE(guard.judge(l, 0).find("since the start"), std::string::npos) << "however much the bed holds";
+  l.grainElastic = -0.1;
+  l.integrationError = -0.074;
+  guard.look(l);
+  EXPECT_NE(guard.judge(l, 0).find("since the start"), std::string::npos) << "a bed that holds little hides less";
+}
+
+/// As of 1.8 million grains 1024 steps after the start: the bed's contacts seem to have given more than parts have
+/// taken.
+TEST(EnergyGuard, ABedThatSeemsToGiveMoreThanPartsTakeIsNoAlarm) {
+  EnergyGuard guard;
+  Ledger l = books(-0.02, 0.21);
+  l.dissipated.parts = 0.044, l.dissipated.joints = 0.041, l.dissipated.damping = -0.105,
+  l.dissipated.friction = -0.066;
+  l.elastic = l.grainElastic = 4.1;
+  guard.look(l);
+  EXPECT_EQ(guard.judge(l, 0), "") << "a tenth of the other 0.065 J, and a hundredth of 4.1 J, are 0.0475 J";
+  l.integrationError = -0.05;
+  guard.look(l);
+  EXPECT_NE(guard.judge(l, 0).find("made 0.05 J of the 0.085 J dissipated since the start"), std::string::npos)
+      << guard.judge(l, 0);
 }
 
 TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsAddsUp) {
