@@ -12,6 +12,7 @@
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/meeting_pairs.hpp"
 #include "runs/setup/obstacles.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
@@ -55,6 +56,22 @@ std::string obstaclesLine(const scene::Scene& scene) {
   for (const setup::Obstacle& o : setup::obstaclesOf(scene)) names += (names.empty() ? "" : ", ") + o.surface.name;
   const std::string hull = setup::hullTouches(scene) ? "the hull touches too" : "the hull touches nothing";
   return onOff(!names.empty(), "obstacles", (names.empty() ? "none to the vehicle" : names) + "; " + hull);
+}
+
+/// Whether grains pull on the parts of the vehicle; empty where they meet none.
+std::string stickingLine(const scene::Scene& scene) {
+  bool meet = false, cohere = false;
+  double pull = 0;
+  for (const setup::MeetingPair& p : setup::meetingPairs(scene)) {
+    cohere |= p.cohesion > 0;
+    if (p.what == "grain on the vehicle") meet = true, pull = std::max(pull, p.cohesion);
+  }
+  if (!meet) return "";
+  return onOff(pull > 0, "soil sticks to vehicle",
+               pull > 0                          ? fmt::format("cohesion of {:.4g} J/m2", pull)
+               : !cohere                         ? "grains have no cohesion"
+               : scene.vehicle->material.empty() ? "vehicle.adhesion = 0"
+                                                 : "cohesion of " + scene.vehicle->material + " and of the grains");
 }
 
 /// "3: drum, lifter, lid; 2 move, 1 free".
@@ -167,6 +184,7 @@ std::string switchesText(const scene::Scene& scene) {
   if (scene.vehicle) text += obstaclesLine(scene);
   const bool shoesAlone = scene.vehicle && bed && scene.vehicle->soilMeets == scene::SoilMeets::shoes;
   text += onOff(shoesAlone, "soil meets shoes alone", shoesAlone ? "vehicle.soil_meets = \"shoes\"" : "");
+  if (scene.vehicle) text += stickingLine(scene);
   text +=
       onOff(setup::crushes(scene), "crushing grains", setup::crushes(scene) ? "against parts" : "no crushing_strength");
   const scene::MechanismSections& m = scene.mechanism;

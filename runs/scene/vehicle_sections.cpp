@@ -37,8 +37,13 @@ Table<Vehicle> vehicleTable() {
   t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
   t.add("material", &S::material, "",
         "of the parts against grains and, for friction, obstacles; where not given they are of the other's own "
-        "material, but with friction_ground of the vehicle file; on rigid ground all contact data are the vehicle "
-        "file's");
+        "material, but with friction_ground of the vehicle file and the pull that adhesion says; on rigid ground all "
+        "contact data are the vehicle file's");
+  t.add("adhesion", &S::adhesion, "-",
+        "share of the soil's own cohesion with which it sticks to the parts, where they have no material: 0 lets it "
+        "fall off")
+      .atLeast(0)
+      .atMost(1);
   t.add(
       "chassis", &S::chassis, "",
       "free to move; held in place as on a bench; or on rails along the heading: \"guided\", it moves along, rises and "
@@ -187,7 +192,13 @@ void checkStop(const Section& section, Stop& s, const Scene& scene) {
 }
 
 void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
-  if (!v.material.empty()) requireMaterial(scene, section, "material", v.material);
+  if (!v.material.empty()) {
+    requireMaterial(scene, section, "material", v.material);
+    if (v.adhesion > 0)
+      section.fail("adhesion", fmt::format("is that of parts without a material, and vehicle.material is \"{0}\"; "
+                                           "remove one of the two, or set cohesion in [contact.\"SOIL|{0}\"]",
+                                           v.material));
+  }
   resolveFile(scene, section, "spec", v.spec);
   if (v.tracks != Tracks::both && v.chassis == ChassisMount::free)
     section.fail("tracks",

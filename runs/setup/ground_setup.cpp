@@ -15,8 +15,8 @@
 #include "runs/setup/size_checks.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_surface.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
-#include "vehicle/spec_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -176,17 +176,12 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   if (!scene.vehicle && scene.meshes.empty()) return all;
   // Of one mass, damping is a constant; of many it follows from each contact's.
   const std::optional<double> mass = kinds.many() ? std::nullopt : std::optional(grainMass);
-  std::optional<double> specFriction;
-  if (scene.vehicle && scene.vehicle->material.empty())
-    specFriction = vehicle::readVehicleSpec(scene.vehicle->source()).contact.frictionGround;
+  const std::optional<VehicleSurface> ofSoil = vehicleSurface(scene);
   for (const std::string& soil : kinds.material) {
-    const std::string& part = !scene.vehicle                    ? scene.meshes.front().material
-                              : scene.vehicle->material.empty() ? soil
-                                                                : scene.vehicle->material;
+    const std::string& part = !scene.vehicle ? scene.meshes.front().material : ofSoil ? soil : scene.vehicle->material;
     // Patches on parts keep springs, but no plastic state.
-    contact::ContactLaw law = pairLaw(scene, soil, part, mass).elastic();
-    if (specFriction) law.friction = *specFriction;
-    all.laws.push_back(law);
+    const contact::ContactLaw law = pairLaw(scene, soil, part, mass).elastic();
+    all.laws.push_back(ofSoil ? ofSoil->with(law) : law);
     all.massPerCube.push_back(base::sphereMass(scene.material(soil).density, 1));
     all.crushing.push_back(scene.material(soil).crushingStrength.value_or(0));
   }

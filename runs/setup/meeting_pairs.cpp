@@ -7,7 +7,7 @@
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"
-#include "vehicle/spec_file.hpp"
+#include "runs/setup/vehicle_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -49,10 +49,10 @@ class Pairs {
 public:
   explicit Pairs(const scene::Scene& scene) : scene_(scene), kinds_(grainKinds(scene)) {}
 
-  /// All grains against `partner`; an empty name: against their own material. `friction`: that of the vehicle's file.
-  void add(const std::string& what, const std::string& partner, std::optional<double> friction = {}) {
+  /// All grains against `partner`; an empty name: against their own material.
+  void add(const std::string& what, const std::string& partner, const std::optional<VehicleSurface>& surface = {}) {
     for (const GrainKinds::Kind& kind : kinds_.kinds)
-      addOne(kind, partner.empty() ? kind.material : partner, what, 1, friction);
+      addOne(kind, partner.empty() ? kind.material : partner, what, 1, surface);
   }
   void addGrains() {
     for (std::size_t a = 0; a < kinds_.kinds.size(); ++a)
@@ -63,11 +63,11 @@ public:
 
 private:
   void addOne(const GrainKinds::Kind& kind, const std::string& partner, const std::string& what, double share,
-              std::optional<double> friction) {
+              const std::optional<VehicleSurface>& surface) {
     if (!seen_.insert({kind.material, partner, what}).second) return;
     const double mass = share * base::sphereMass(scene_.material(kind.material).density, kind.smallest);
     MeetingPair pair{kind.material, partner, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
-    if (friction) pair.law.friction = *friction;
+    if (surface) pair.law = surface->with(pair.law);
     pair.stiffness = pair.law.hertz ? 0.75 * pair.law.stiffness : pair.law.stiffness;
     pair.restitution = restitutionOf(pair.law, mass);
     const double effectiveRadius = share * kind.smallest;
@@ -97,12 +97,7 @@ std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
   }
   for (std::size_t k = 0; k < scene.planes.size(); ++k)
     if (!named.contains(k)) pairs.add("grain on a plane", scene.planes[k].material);
-  if (scene.vehicle) {
-    std::optional<double> friction;
-    if (scene.vehicle->material.empty())
-      friction = vehicle::readVehicleSpec(scene.vehicle->source()).contact.frictionGround;
-    pairs.add("grain on the vehicle", scene.vehicle->material, friction);
-  }
+  if (scene.vehicle) pairs.add("grain on the vehicle", scene.vehicle->material, vehicleSurface(scene));
   return pairs.take();
 }
 

@@ -3,7 +3,7 @@
 
 #include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"
-#include "vehicle/spec_file.hpp"
+#include "runs/setup/vehicle_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,11 +82,9 @@ double topOfMesh(const SurfaceSetup& surface, double x, double y) {
 std::vector<Obstacle> obstaclesOf(const scene::Scene& scene) {
   std::vector<Obstacle> all;
   if (!scene.vehicle) return all;
-  std::optional<double> ofSpec;
-  if (scene.vehicle->material.empty())
-    ofSpec = vehicle::readVehicleSpec(scene.vehicle->source()).contact.frictionGround;
+  const std::optional<VehicleSurface> own = vehicleSurface(scene);
   const auto add = [&](const SurfaceSetup& s, std::optional<std::size_t> place) {
-    const double friction = ofSpec ? *ofSpec : pairLaw(scene, scene.vehicle->material, s.material, {}).friction;
+    const double friction = own ? own->friction : pairLaw(scene, scene.vehicle->material, s.material, {}).friction;
     all.push_back({s, friction, place});
   };
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);

@@ -6,6 +6,7 @@
 #include "base/sphere.hpp"
 #include "contact/restitution.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/meeting_pairs.hpp"
@@ -303,6 +304,40 @@ TEST(MeetingPairs, OfTheVehicleHaveTheFrictionOfItsFile) {
       return;
     }
   FAIL() << "grains meet the vehicle";
+}
+
+/// J/m2 that grains of a cohesive soil have with the parts of a vehicle, as `grouser plan` tells and as contacts take
+/// it.
+std::pair<double, double> stickingOf(const std::vector<std::string>& overrides) {
+  std::vector<std::string> all{"material.soil.cohesion=8"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  const scene::Scene scene = loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml", all);
+  double told = base::kNaN;
+  for (const MeetingPair& pair : meetingPairs(scene))
+    if (pair.what == "grain on the vehicle") told = pair.cohesion;
+  return {told, groundSetup(scene, 1e-4).grains->partLaws.laws.at(0).pullPerRadius / (2 * base::kPi)};
+}
+
+TEST(MeetingPairs, SoilSticksToAVehicleByTheShareThatIsGiven) {
+  EXPECT_EQ(stickingOf({}), std::pair(0.0, 0.0)) << "unless that is asked for, it falls off";
+  const auto [told, taken] = stickingOf({"vehicle.adhesion=0.25"});
+  EXPECT_NEAR(told, 2, 1e-12);
+  EXPECT_NEAR(taken, 2, 1e-12);
+  const auto plan = [](const std::vector<std::string>& overrides) {
+    return commands::switchesText(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml", overrides));
+  };
+  EXPECT_NE(plan({"material.soil.cohesion=8"}).find("off  soil sticks to vehicle"), std::string::npos);
+  EXPECT_NE(plan({"material.soil.cohesion=8", "vehicle.adhesion=1"}).find("on   soil sticks to vehicle"),
+            std::string::npos);
+}
+
+TEST(MeetingPairs, AVehicleOfAMaterialSticksAsThatSays) {
+  const std::string scene = GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml";
+  EXPECT_EQ(stickingOf({"vehicle.material=soil"}), std::pair(8.0, 8.0));
+  EXPECT_NE(messageOf([&] {
+              loadScene(scene, {"vehicle.material=soil", "vehicle.adhesion=0.5"});
+            }).find("adhesion"),
+            std::string::npos);
 }
 
 } // namespace

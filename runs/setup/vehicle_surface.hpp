@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/contact_law.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <optional>
+
+namespace grouser::setup {
+
+/// What parts of a vehicle have that are of no material of their own, but of whatever they touch.
+struct VehicleSurface {
+  double friction{}; ///< [-] friction_ground of the vehicle file
+  double adhesion{}; ///< [-] vehicle.adhesion: share of a soil's pull that acts between its grains and the parts
+
+  /// `law`: of the soil with itself.
+  contact::ContactLaw with(contact::ContactLaw law) const;
+};
+
+/// Empty without a vehicle, and where vehicle.material is given.
+std::optional<VehicleSurface> vehicleSurface(const scene::Scene& scene);
+
+} // namespace grouser::setup
