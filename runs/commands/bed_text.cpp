@@ -3,12 +3,24 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <variant>
+
 namespace grouser::commands {
 
 namespace {
 
 constexpr double kDeep = 1.6, kWide = 9.6; // of the pad's width
 constexpr double kGrainsInPad = 20;
+
+/// Mean of the grains that a pad presses [m]: of a bed that is coarser below, those at its surface.
+double pressedDiameter(const simulation::Simulation& simulation) {
+  const std::optional<setup::GrainsSetup>& grains = simulation.setup().ground.grains;
+  const auto* random =
+      grains && grains->bed ? std::get_if<terrain::RandomBedOptions>(&grains->bed->options.grains) : nullptr;
+  return random && random->grading.any() ? 2 * random->radii.medianRadius()
+                                         : simulation.ground().structure->meanDiameter;
+}
 
 } // namespace
 
@@ -69,7 +81,7 @@ std::vector<std::string> bedNotes(const simulation::Simulation& simulation) {
   const terrain::GrainSystem& grains = simulation.ground().grains->system();
   const vehicle::VehicleSpec& spec = rig->assembly().spec;
   return bedNotes({2 * spec.shoe.padHalfWidth, 2 * spec.trackOffset, bed->thickness,
-                   simulation.ground().walls->length(), bed->meanDiameter, !grains.constants.period.along(1),
+                   simulation.ground().walls->length(), pressedDiameter(simulation), !grains.constants.period.along(1),
                    grains.fixedCount > 0});
 }
 

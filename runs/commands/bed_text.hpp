@@ -20,7 +20,7 @@ struct TrackOnBed {
   double gauge;        ///< between the middles of the tracks [m]
   double thickness;    ///< of the bed [m]
   double width;        ///< across the vehicle's way [m]
-  double meanDiameter; ///< of the grains [m]
+  double meanDiameter; ///< of the grains at the surface [m]
   bool walls;          ///< at the sides, and not periodic boundaries
   bool roughFloor;
 };

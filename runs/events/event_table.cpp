@@ -20,6 +20,7 @@ constexpr double kEnd = 0.3;             // m, between the vehicle and the end o
 constexpr double kRunUp = 3;             // m, before those on a slope: near the limit it takes long to come up to speed
 constexpr double kCrawl = 0.4;           // of the commanded speed, and m/s at least: over steps, gaps and ditches
 constexpr double kBeyond = 0.3;          // m, driven on behind the course, or drifted to the side in it
+constexpr double kSwerve = 0.2;          // of the way, beside it on rigid ground: obstacles turn vehicles a little
 constexpr double kReferenceRun = 1.7832; // m, ground run of the light vehicle, whose obstacles are scaled to others
 constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of the ditch of ditch.png, over its length
 constexpr double kSettled = 2;                           // s, in which any vehicle stands and drives
@@ -44,6 +45,9 @@ std::string set(const std::string& key, std::initializer_list<double> values) {
   return fmt::format("{}=[{}]", key, fmt::join(words, ", "));
 }
 
+/// Beside the tracks [m]. Rigid ground costs nothing; a bed reaches as far as the tracks work.
+double sideRoom(const Course& c, double distance) { return c.rigid ? kSwerve * distance : std::max(c.margin, kEnd); }
+
 /// A course straight on: where the vehicle stands, how long the ground is.
 struct Straight {
   double start = 0;    ///< x of the sprockets' axle [m]
@@ -60,7 +64,7 @@ Straight straight(const Course& c, Trial& trial, double behind, double obstacle,
   s.obstacle = s.start + c.shape.front + approach;
   trial.distance = obstacle > 0 ? std::max(kWay, approach + c.shape.length() + obstacle) : kWay + runUp;
   s.length = s.start + c.shape.front + trial.distance + 2 * kEnd;
-  s.width = 2 * (c.shape.halfWidth + std::max(c.margin, kEnd) + drift);
+  s.width = 2 * (c.shape.halfWidth + sideRoom(c, trial.distance) + drift);
   const double soft = c.rigid ? 0 : c.margin; // grains before the vehicle are pushed ahead
   s.length += soft;
   trial.overrides.push_back(set("terrain.size", {s.length, s.width}));
@@ -104,7 +108,7 @@ void ditch(const Course& c, Trial& trial, double level) {
                                   (c.shape.length() + ends) / (behind - kDitchWidth)});
   const double wide = kDitchWidth * length;
   trial.distance = std::max(kWay, approach + wide + c.shape.length());
-  trial.overrides = {set("terrain.size", {length, 2 * (c.shape.halfWidth + std::max(c.margin, kEnd))}),
+  trial.overrides = {set("terrain.size", {length, 2 * (c.shape.halfWidth + sideRoom(c, trial.distance))}),
                      set("vehicle.position", {before * length - approach - c.shape.front, 0.0}),
                      set("stop.distance", trial.distance + kBeyond),
                      set("terrain.height_range", {-level * wide / base::kPi, 0.0})};

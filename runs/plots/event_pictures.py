@@ -15,9 +15,10 @@ def draw(path):
     shown = [row for row in results["rows"] if row["picture"]]
     if not shown:
         return None
-    lines = -(-len(shown) // COLUMNS)
-    figure = drawing.Figure(figsize=(3.2 * COLUMNS, 2.05 * lines))
-    axes = figure.subplots(lines, COLUMNS, squeeze=False).flatten()
+    columns = min(COLUMNS, len(shown))
+    lines = -(-len(shown) // columns)
+    figure = drawing.Figure(figsize=(3.2 * columns, 2.05 * lines))
+    axes = figure.subplots(lines, columns, squeeze=False).flatten()
     for axis in axes:
         axis.set_axis_off()
     for axis, row in zip(axes, shown):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run says of its grains, and of a bed that is too small for its vehicle.
 #include "runs/commands/bed_text.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,6 +37,20 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
   TrackOnBed periodic = good;
   periodic.width = 2, periodic.walls = false;
   EXPECT_TRUE(bedNotes(periodic).empty());
+}
+
+TEST(BedNotes, CountTheGrainsAtTheSurfaceOfABedThatIsCoarserBelow) {
+  const std::string text = "version = 1\n[run]\nduration = 0.01\n[material.soil]\nstiffness = 2e5\nfriction = 0.5\n"
+                           "[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\nsize = [3.6, 2.6]\n"
+                           "material = \"soil\"\ngrain_radius = 0.04\ndepth = 0.4\nfine_depth = 0.1\n"
+                           "coarsening = 0.2\ncoarsest_radius = 0.07\nsettle_kinetic_energy = 0.3\n"
+                           "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n";
+  const simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, "scene.toml")),
+                                          base::cpuExec(2), [](double, double) {});
+  ASSERT_GT(simulation.ground().structure->meanDiameter, 0.085) << "of all";
+  bool told = false;
+  for (const std::string& note : bedNotes(simulation)) told |= note.find("a pad is 3.5 mean grains wide") == 0;
+  EXPECT_TRUE(told) << "0.28 m over 0.08 m";
 }
 
 } // namespace grouser::commands

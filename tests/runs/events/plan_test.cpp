@@ -139,6 +139,18 @@ TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
   EXPECT_EQ(turn.sweep.runs[0].expectedEnd, turn.sweep.runs[0].scene.run.duration);
 }
 
+TEST(EventPlan, RigidGroundLeavesRoomForATurnOfATenthOfARadian) {
+  for (const char* event : {"step", "gap", "ditch"}) {
+    EventOptions options;
+    options.vehicle = "robot", options.only = {event};
+    const EventPlan plan = planEvents(options);
+    const scene::Scene& scene = plan.sweep.runs[0].scene;
+    const double aside = 0.1 * plan.trials[0].trial.distance, half = plan.course.shape.halfWidth + aside;
+    EXPECT_GT(0.5 * scene.terrain->size[1], half) << event;
+    for (const scene::BoxSection& box : scene.boxes) EXPECT_GT(0.5 * box.size.y, half) << event;
+  }
+}
+
 TEST(EventPlan, LeansGravityAndKeepsItsSize) {
   EventOptions options;
   options.only = {"grade"}, options.levels = {0.75};
