@@ -13,13 +13,16 @@ namespace {
 constexpr double kDeep = 1.6, kWide = 9.6; // of the pad's width
 constexpr double kGrainsInPad = 20;
 
-/// Mean of the grains that a pad presses [m]: of a bed that is coarser below, those at its surface.
-double pressedDiameter(const simulation::Simulation& simulation) {
+/// Mean of the grains that a pad presses [m]: of a bed that is coarser below those at its surface, where they are as
+/// deep as a plate asks for that is to sink as in a bed of them alone (docs/soil_tests.md).
+double pressedDiameter(const simulation::Simulation& simulation, double padWidth) {
+  constexpr double kFine = 0.1; // of the pad's width
   const std::optional<setup::GrainsSetup>& grains = simulation.setup().ground.grains;
   const auto* random =
       grains && grains->bed ? std::get_if<terrain::RandomBedOptions>(&grains->bed->options.grains) : nullptr;
-  return random && random->grading.any() ? 2 * random->radii.medianRadius()
-                                         : simulation.ground().structure->meanDiameter;
+  return random && random->grading.any() && random->grading.fineDepth >= kFine * padWidth
+             ? 2 * random->radii.meanPower(1)
+             : simulation.ground().structure->meanDiameter;
 }
 
 } // namespace
@@ -63,10 +66,10 @@ std::vector<std::string> bedNotes(const TrackOnBed& t) {
         fmt::format("the bed is {:.2f} m wide, and both tracks work on it {:.2f} m wide: its walls hold the "
                     "soil; a terrain.size of {:.2g} m across frees it of them",
                     t.width, wide, wide));
-  if (t.meanDiameter > fine)
+  if (t.pressedDiameter > fine)
     notes.push_back(fmt::format("a pad is {:.1f} mean grains wide, and {:g} are wanted: so coarse a soil carries more; "
                                 "terrain.grain_radius = {:.2g}, or a terrain.sieve_size of such grains, has them",
-                                t.padWidth / t.meanDiameter, kGrainsInPad, 0.5 * fine));
+                                t.padWidth / t.pressedDiameter, kGrainsInPad, 0.5 * fine));
   if (!t.roughFloor)
     notes.emplace_back(
         "the floor is smooth: grains roll on it as on the balls of a bearing; terrain.floor_grains = true "
@@ -80,9 +83,10 @@ std::vector<std::string> bedNotes(const simulation::Simulation& simulation) {
   if (!rig || !bed || bed->grains == 0) return {};
   const terrain::GrainSystem& grains = simulation.ground().grains->system();
   const vehicle::VehicleSpec& spec = rig->assembly().spec;
-  return bedNotes({2 * spec.shoe.padHalfWidth, 2 * spec.trackOffset, bed->thickness,
-                   simulation.ground().walls->length(), pressedDiameter(simulation), !grains.constants.period.along(1),
-                   grains.fixedCount > 0});
+  const double padWidth = 2 * spec.shoe.padHalfWidth;
+  return bedNotes({padWidth, 2 * spec.trackOffset, bed->thickness, simulation.ground().walls->length(),
+                   bed->meanDiameter, !grains.constants.period.along(1), grains.fixedCount > 0,
+                   pressedDiameter(simulation, padWidth)});
 }
 
 } // namespace grouser::commands

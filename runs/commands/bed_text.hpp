@@ -20,9 +20,10 @@ struct TrackOnBed {
   double gauge;        ///< between the middles of the tracks [m]
   double thickness;    ///< of the bed [m]
   double width;        ///< across the vehicle's way [m]
-  double meanDiameter; ///< of the grains at the surface [m]
+  double meanDiameter; ///< of all grains [m]
   bool walls;          ///< at the sides, and not periodic boundaries
   bool roughFloor;
+  double pressedDiameter; ///< mean of the grains that pads press [m]
 };
 
 /// What so small a bed, or one of so few grains, cannot tell: a note for each rule that it breaks. The mechanism below

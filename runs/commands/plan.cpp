@@ -58,20 +58,34 @@ std::string obstaclesLine(const scene::Scene& scene) {
   return onOff(!names.empty(), "obstacles", (names.empty() ? "none to the vehicle" : names) + "; " + hull);
 }
 
-/// Whether grains pull on the parts of the vehicle; empty where they meet none.
+/// Why grains do not pull on the parts of the vehicle.
+std::string whyNothingSticks(const scene::Scene& scene, bool cohere, bool yield) {
+  if (!cohere)
+    return yield ? "grains pull by surface_energy or adhesion_stiffness alone, which act between grains"
+                 : "grains have no cohesion";
+  const std::string& material = scene.vehicle->material;
+  if (material.empty()) return fmt::format("vehicle.adhesion = {:g}", scene.vehicle->adhesion);
+  return scene.material(material).cohesion > 0 ? "its pair of materials has no cohesion"
+                                               : "material." + material + " has no cohesion";
+}
+
+/// Whether grains pull on the parts of the vehicle.
 std::string stickingLine(const scene::Scene& scene) {
-  bool meet = false, cohere = false;
+  bool meet = false, cohere = false, yield = false;
   double pull = 0;
   for (const setup::MeetingPair& p : setup::meetingPairs(scene)) {
-    cohere |= p.cohesion > 0;
+    if (p.what == "grain on grain" && p.grain == p.partner) {
+      cohere |= p.cohesion > 0;
+      yield |= p.law.plastic.pull > 0 || p.law.plastic.pullGrowth > 0 || p.law.plastic.adhesion > 0;
+    }
     if (p.what == "grain on the vehicle") meet = true, pull = std::max(pull, p.cohesion);
   }
-  if (!meet) return "";
+  if (!meet)
+    return scene.vehicle && scene.vehicle->adhesion > 0
+               ? onOff(false, "soil sticks to vehicle", "no grains: vehicle.adhesion does nothing")
+               : "";
   return onOff(pull > 0, "soil sticks to vehicle",
-               pull > 0                          ? fmt::format("cohesion of {:.4g} J/m2", pull)
-               : !cohere                         ? "grains have no cohesion"
-               : scene.vehicle->material.empty() ? "vehicle.adhesion = 0"
-                                                 : "cohesion of " + scene.vehicle->material + " and of the grains");
+               pull > 0 ? fmt::format("cohesion of {:.4g} J/m2", pull) : whyNothingSticks(scene, cohere, yield));
 }
 
 /// "3: drum, lifter, lid; 2 move, 1 free".

@@ -290,7 +290,8 @@ std::string withCheckpoint(const std::string& message, const Checkpoints& checkp
   return last.empty() ? message : fmt::format("{} (last checkpoint: {})", message, last);
 }
 
-/// Where a file could not be written: the last good state, if there is room for that.
+/// Where a file could not be written, or the device failed: the last good state, which the host has, if there is room
+/// for that.
 void leaveCheckpoint(const simulation::Simulation& simulation, Recorder& recorder, Checkpoints& checkpoints) {
   if (!simulation.comm().alone()) return;
   try {
@@ -298,6 +299,13 @@ void leaveCheckpoint(const simulation::Simulation& simulation, Recorder& recorde
   } catch (const std::exception&) {
     // The user gets the error that ended the run, not this one.
   }
+}
+
+/// Ends the run by this error, which names the checkpoint that is left.
+template <class Error> [[noreturn]] void abandon(const std::string& what, Recorder& recorder, Checkpoints& left) {
+  const std::string message = withCheckpoint(what, left);
+  recorder.writer().abandon(message);
+  throw Error(message);
 }
 
 /// All that is written of a run once its folder is there. What ends the run early is left in the folder.
@@ -310,14 +318,15 @@ void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints&
     throw;
   } catch (const base::SimulationError& error) {
     leaveState(simulation, recorder, checkpoints);
-    const std::string message = withCheckpoint(error.what(), checkpoints);
-    recorder.writer().abandon(message);
-    throw base::SimulationError(message);
+    abandon<base::SimulationError>(error.what(), recorder, checkpoints);
   } catch (const support::NotWritten& error) {
     leaveCheckpoint(simulation, recorder, checkpoints);
-    const std::string message = withCheckpoint(error.what(), checkpoints);
-    recorder.writer().abandon(message);
-    throw support::NotWritten(message);
+    abandon<support::NotWritten>(error.what(), recorder, checkpoints);
+  } catch (const base::DeviceError& error) {
+    leaveCheckpoint(simulation, recorder, checkpoints);
+    abandon<base::DeviceError>(
+        fmt::format("step {}, time {:.4g} s: {}", simulation.steps(), simulation.time(), error.what()), recorder,
+        checkpoints);
   } catch (const std::exception& error) {
     recorder.writer().abandon(error.what());
     throw;

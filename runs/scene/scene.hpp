@@ -208,7 +208,7 @@ struct Vehicle {
   double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
   double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
-  double adhesion = 0;  ///< [-] share of the grains' own pull between them and parts without a material
+  double adhesion = 0;  ///< [-] of parts without a material: share of the pull of a wall of the grains' own material
   ChassisMount chassis = ChassisMount::free;
   Tracks tracks = Tracks::both;
   SoilMeets soilMeets = SoilMeets::all;   ///< which parts grains touch

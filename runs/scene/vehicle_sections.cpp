@@ -40,8 +40,9 @@ Table<Vehicle> vehicleTable() {
         "material, but with friction_ground of the vehicle file and the pull that adhesion says; on rigid ground all "
         "contact data are the vehicle file's");
   t.add("adhesion", &S::adhesion, "-",
-        "share of the soil's own cohesion with which it sticks to the parts, where they have no material: 0 lets it "
-        "fall off")
+        "of parts without a material: how strongly they pull on cohesive grains, as a share of what a wall of the "
+        "soil's own material does, which is 4 times the pull of an equal grain (twice without adhesion_radius); 0 lets "
+        "soil fall off")
       .atLeast(0)
       .atMost(1);
   t.add(
@@ -196,7 +197,8 @@ void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
     requireMaterial(scene, section, "material", v.material);
     if (v.adhesion > 0)
       section.fail("adhesion", fmt::format("is that of parts without a material, and vehicle.material is \"{0}\"; "
-                                           "remove one of the two, or set cohesion in [contact.\"SOIL|{0}\"]",
+                                           "remove material, or remove adhesion, and set cohesion in "
+                                           "[contact.\"SOIL|{0}\"] instead",
                                            v.material));
   }
   resolveFile(scene, section, "spec", v.spec);

@@ -6,8 +6,8 @@
 namespace grouser::setup {
 
 contact::ContactLaw VehicleSurface::with(contact::ContactLaw law) const {
+  law = law.pulling(adhesion);
   law.friction = friction;
-  law.pullPerRadius *= adhesion, law.pullPerArea *= adhesion;
   return law;
 }
 

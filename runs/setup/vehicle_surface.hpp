@@ -11,7 +11,7 @@ namespace grouser::setup {
 /// What parts of a vehicle have that are of no material of their own, but of whatever they touch.
 struct VehicleSurface {
   double friction{}; ///< [-] friction_ground of the vehicle file
-  double adhesion{}; ///< [-] vehicle.adhesion: share of a soil's pull that acts between its grains and the parts
+  double adhesion{}; ///< [-] vehicle.adhesion: of the pull that a wall of the soil's own material has on its grains
 
   /// `law`: of the soil with itself.
   contact::ContactLaw with(contact::ContactLaw law) const;

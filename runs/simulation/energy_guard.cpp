@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace grouser::simulation {
 
@@ -26,6 +27,7 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   x.gained = std::min(-x.lost, -x.lost - taken);
   x.given = std::min(-taken, -taken - x.lost);
   x.taken = taken;
+  x.heat = taken - std::min(0.0, now.dissipated.ofGrains() - last_.ofGrains);
   x.rubbed = now.dissipated.friction - last_.rubbed;
   x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
   x.neverAlarms = neverAlarms(now, held, kSpringShare * std::fabs(now.elastic - last_.elastic));
@@ -51,13 +53,13 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
   if (now.dissipated.parts <= now.dissipated.ofGrains()) return {}; // sliding grains book what their steps make
   const Exchange x = since(now, held);
-  if (-x.lost > kMostMade * (x.taken + x.lost) + x.neverAlarms)
+  // A large bed breathes before a vehicle has dissipated much, and its dashpots then seem to give what parts take.
+  if (-x.lost > kMostMade * (x.heat + x.lost) + x.neverAlarms)
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
                        "most",
-                       -x.lost, x.taken, kInterval);
-  // A large bed breathes before a vehicle has dissipated much, and its dashpots then seem to give what parts take.
+                       -x.lost, x.heat, kInterval);
   const double all = now.dissipated.total() - std::min(0.0, now.dissipated.ofGrains()), made = -now.integrationError;
-  const double bed = std::fabs(now.grainElastic);
+  const double bed = std::max(mostInGrains_, std::fabs(now.grainElastic));
   const double hidden = std::clamp(kMostHidden * now.dissipated.parts, kBreath * bed, kSpringShare * bed);
   if (made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
@@ -70,14 +72,21 @@ bool EnergyGuard::slidingGives(const Ledger& now, double held) const {
 }
 
 void EnergyGuard::look(const Ledger& now) {
-  last_ = {now.integrationError, now.turnover, now.dissipated.total(),
-           now.driveWork,        now.elastic,  now.dissipated.friction};
+  last_ = {now.integrationError,
+           now.turnover,
+           now.dissipated.total(),
+           now.driveWork,
+           now.elastic,
+           now.dissipated.friction,
+           now.dissipated.ofGrains()};
+  mostInGrains_ = std::max(mostInGrains_, std::fabs(now.grainElastic));
 }
 
 void EnergyGuard::restore(const std::vector<double>& saved) {
-  if (saved.size() != 6)
+  if (saved.size() != 6 && saved.size() != 8)
     throw base::InputError("the checkpoint keeps another energy guard; resume with the program that was run");
-  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5]};
+  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5], -std::numeric_limits<double>::infinity()};
+  if (saved.size() == 8) last_.ofGrains = saved[6], mostInGrains_ = saved[7];
 }
 
 } // namespace grouser::simulation

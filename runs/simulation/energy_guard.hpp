@@ -46,9 +46,9 @@ public:
   /// zeta^2 + 1)) of damping ratio zeta, a quarter at most. Since the start: of contacts of grains with each other,
   /// floor and walls.
   static constexpr double kSpringShare = 0.25;
-  /// Of what parts of a vehicle have dissipated since the start, beyond which a bed's springs hide no more [-] than
-  /// kBreath of what they have taken up or given back: twice what a sound bed of 1.8 million grains does.
-  static constexpr double kMostHidden = 0.5, kBreath = 0.01;
+  /// Of what parts of a vehicle have dissipated since the start [-], beyond which a bed's springs hide no more than
+  /// kBreath of the most that they have held above or below what they began with.
+  static constexpr double kMostHidden = 0.25, kBreath = 0.01;
 
   /// Share that is rounding [-] of the energy that bodies and contacts hold, and of m g radius of all grains: places
   /// have a resolution of 1e-8 of a diameter.
@@ -61,6 +61,7 @@ public:
     double gained{};      ///< made by the steps and not dissipated; negative: lost
     double given{};       ///< by dampers and not lost by the steps; negative where they take
     double taken{};       ///< dissipated
+    double heat{};        ///< the same, but what grains seem to give does not lessen it
     double rubbed{};      ///< taken by sliding; negative where it gives
     double neverAlarms{}; ///< rounding, what is small beside the whole run, and what springs hide
     /// Of what was exchanged, what counts of `energy` [-].
@@ -77,9 +78,10 @@ public:
   void look(const Ledger& now);
 
   std::vector<double> save() const {
-    return {last_.error, last_.turnover, last_.dissipated, last_.driveWork, last_.elastic, last_.rubbed};
+    return {last_.error,   last_.turnover, last_.dissipated, last_.driveWork,
+            last_.elastic, last_.rubbed,   last_.ofGrains,   mostInGrains_};
   }
-  /// Throws base::InputError where it is not what save() gave.
+  /// Throws base::InputError where it is not what save() gave, or gave before it knew of the last two.
   void restore(const std::vector<double>& saved);
 
 private:
@@ -87,9 +89,10 @@ private:
   std::string judgeHeat(const Ledger& now, double held) const;
 
   struct Look {
-    double error{}, turnover{}, dissipated{}, driveWork{}, elastic{}, rubbed{}; ///< [J]
+    double error{}, turnover{}, dissipated{}, driveWork{}, elastic{}, rubbed{}, ofGrains{}; ///< [J]
   };
   Look last_;
+  double mostInGrains_ = 0; ///< greatest |Ledger::grainElastic| that was looked at [J]
 };
 
 } // namespace grouser::simulation

@@ -36,10 +36,11 @@ struct Bench {
   base::Array<PartMotion> motion;
   base::Array<PartLoad> loads;
 
-  explicit Bench(const base::SphereSet& set, double friction = 0) {
+  explicit Bench(const base::SphereSet& set, double friction = 0, const ContactLaw& pull = {}) {
     model.radius = kGrainRadius, model.mass = 0.2, model.timeStep = 1e-4, model.margin = 0.01;
     model.law.stiffness = kGrainStiffness, model.law.friction = static_cast<float>(friction);
     model.law.tangentialStiffness = 2e5f;
+    model.law.pullPerRadius = pull.pullPerRadius, model.law.pullPerArea = pull.pullPerArea;
     model.scale = base::positionScale(2 * kGrainRadius);
     model.force = model.torque = base::fixedPointFor(kGrainStiffness * kGrainRadius, 36);
     model.energy = base::fixedPointFor(10, 36);
@@ -87,6 +88,21 @@ TEST(GrainOnPlate, FeelsThePlaneNotTheBumps) {
       EXPECT_NEAR(r.onGrain.x, 0, 1e-4 * kGrainStiffness * overlap);
     }
   }
+}
+
+/// F = k x - 2 pi w R, with an energy w = w0 + w1 R / R1 of surfaces that touch; R is the grain's own radius on a
+/// plane.
+TEST(GrainOnPlate, ThatSticksIsHeldUntilTheyPart) {
+  ContactLaw pull;
+  pull.pullPerRadius = 2 * base::kPi * 500, pull.pullPerArea = 2 * base::kPi * 600 / 0.03;
+  const double held = 2 * base::kPi * (500 + 600 * kGrainRadius / 0.03) * kGrainRadius;
+  Bench bench(plate(0.1, 0.008, 0.008), 0, pull);
+  for (const double overlap : {5e-4, 1e-4, 1e-6}) {
+    const auto r = bench.touch({0.01, 0.003, kGrainRadius - overlap}, {}, atRest({}));
+    EXPECT_NEAR(r.onGrain.z, kGrainStiffness * overlap - held, 2e-4 * held) << overlap;
+    EXPECT_EQ(r.onPart.z, -r.onGrain.z);
+  }
+  EXPECT_EQ(bench.touch({0.01, 0.003, kGrainRadius + 1e-6}, {}, atRest({})).onGrain, Vec3d{}) << "apart";
 }
 
 TEST(GrainOnPlate, TurnedAndMovedPlateGivesTheSameForceInItsFrame) {

@@ -19,7 +19,7 @@ TEST(GrainsText, NamesAllRadiiAndTheGrainsThatNeverMove) {
 }
 
 TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
-  const TrackOnBed good{0.28, 1.9, 0.45, 4.6, 0.014, true, true};
+  const TrackOnBed good{0.28, 1.9, 0.45, 4.6, 0.014, true, true, 0.014};
   EXPECT_TRUE(bedNotes(good).empty());
   const auto only = [&](auto change, const char* word) {
     TrackOnBed t = good;
@@ -29,11 +29,14 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
   };
   EXPECT_TRUE(only([](TrackOnBed& t) { t.thickness = 0.44; }, "terrain.depth = 0.45"));
   TrackOnBed coarse = good; // asked for 0.45 m
-  coarse.meanDiameter = 0.08, coarse.thickness = 0.43;
+  coarse.meanDiameter = coarse.pressedDiameter = 0.08, coarse.thickness = 0.43;
   EXPECT_EQ(bedNotes(coarse).size(), 1u) << "of its grains alone";
   EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "terrain.size of 4.6 m"));
-  EXPECT_TRUE(only([](TrackOnBed& t) { t.meanDiameter = 0.015; }, "terrain.grain_radius = 0.007"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.pressedDiameter = 0.015; }, "terrain.grain_radius = 0.007"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.roughFloor = false; }, "terrain.floor_grains"));
+  TrackOnBed graded = good; // coarse below
+  graded.meanDiameter = 0.08, graded.thickness = 0.43;
+  EXPECT_TRUE(bedNotes(graded).empty());
   TrackOnBed periodic = good;
   periodic.width = 2, periodic.walls = false;
   EXPECT_TRUE(bedNotes(periodic).empty());

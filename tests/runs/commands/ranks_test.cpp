@@ -47,12 +47,13 @@ TEST_F(OnRanks, PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRa
 }
 
 TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
-  // Settled once, by one rank; the vehicle is down on the bed from 0.07 s on.
+  // Settled once, by one rank; the vehicle is down on the bed, which sticks to it, from 0.07 s on.
   const auto drive = [this](int ranks, const std::string& words) {
     return shell("export GROUSER_CACHE=\"$PWD/beds\"; " +
                  (ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : std::string()) + "\"$grouser\" run '" +
                  GROUSER_SOURCE_DIR +
                  "/tests/scenes/coupled.toml' --set vehicle.sphere_radius=0.03 --set vehicle.clearance=0 "
+                 "--set material.soil.cohesion=20 --set material.soil.adhesion_radius=0.03 --set vehicle.adhesion=0.5 "
                  "--set run.checkpoint_interval=0 --steps 1000 --hash --threads 1 " +
                  words);
   };

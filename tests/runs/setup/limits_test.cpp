@@ -307,7 +307,7 @@ TEST(MeetingPairs, OfTheVehicleHaveTheFrictionOfItsFile) {
 }
 
 /// J/m2 that grains of a cohesive soil have with the parts of a vehicle, as `grouser plan` tells and as contacts take
-/// it.
+/// it: w = pull / (2 pi R), R being a grain's own radius on a part.
 std::pair<double, double> stickingOf(const std::vector<std::string>& overrides) {
   std::vector<std::string> all{"material.soil.cohesion=8"};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -315,7 +315,8 @@ std::pair<double, double> stickingOf(const std::vector<std::string>& overrides) 
   double told = base::kNaN;
   for (const MeetingPair& pair : meetingPairs(scene))
     if (pair.what == "grain on the vehicle") told = pair.cohesion;
-  return {told, groundSetup(scene, 1e-4).grains->partLaws.laws.at(0).pullPerRadius / (2 * base::kPi)};
+  const double radius = *scene.terrain->grainRadius;
+  return {told, groundSetup(scene, 1e-4).grains->partLaws.laws.at(0).pull(radius) / (2 * base::kPi * radius)};
 }
 
 TEST(MeetingPairs, SoilSticksToAVehicleByTheShareThatIsGiven) {
@@ -323,12 +324,29 @@ TEST(MeetingPairs, SoilSticksToAVehicleByTheShareThatIsGiven) {
   const auto [told, taken] = stickingOf({"vehicle.adhesion=0.25"});
   EXPECT_NEAR(told, 2, 1e-12);
   EXPECT_NEAR(taken, 2, 1e-12);
-  const auto plan = [](const std::vector<std::string>& overrides) {
-    return commands::switchesText(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml", overrides));
+  // Grains of 19 mm hold each other with 8 J/m2: R_eff is 9.5 mm. That of those of 38 mm on a plane is 38 mm.
+  const auto [toldOfLarge, takenOfLarge] = stickingOf({"vehicle.adhesion=0.25", "material.soil.adhesion_radius=0.019"});
+  EXPECT_NEAR(toldOfLarge, 8, 1e-12);
+  EXPECT_NEAR(takenOfLarge, 8, 1e-12);
+}
+
+TEST(MeetingPairs, PlanSaysWhyNothingSticksToAVehicle) {
+  const auto line = [](const std::vector<std::string>& overrides, const std::string& scene = "coupled") {
+    const std::string text =
+        commands::switchesText(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/" + scene + ".toml", overrides));
+    const std::size_t at = text.find("soil sticks to vehicle");
+    return at == std::string::npos ? "" : text.substr(at - 5, text.find('\n', at) - at + 5);
   };
-  EXPECT_NE(plan({"material.soil.cohesion=8"}).find("off  soil sticks to vehicle"), std::string::npos);
-  EXPECT_NE(plan({"material.soil.cohesion=8", "vehicle.adhesion=1"}).find("on   soil sticks to vehicle"),
-            std::string::npos);
+  const std::string coheres = "material.soil.cohesion=8", eepa = "material.soil.law=eepa_linear";
+  EXPECT_EQ(line({}), "off  soil sticks to vehicle     grains have no cohesion");
+  EXPECT_EQ(line({coheres}), "off  soil sticks to vehicle     vehicle.adhesion = 0");
+  EXPECT_EQ(line({coheres, "vehicle.adhesion=0.5"}), "on   soil sticks to vehicle     cohesion of 4 J/m2");
+  EXPECT_EQ(line({eepa, "material.soil.plasticity=0.5", "material.soil.surface_energy=3", "vehicle.adhesion=1"}),
+            "off  soil sticks to vehicle     grains pull by surface_energy or adhesion_stiffness alone, which act "
+            "between grains");
+  EXPECT_EQ(line({"vehicle.adhesion=1"}, "rigid"),
+            "off  soil sticks to vehicle     no grains: vehicle.adhesion does nothing");
+  EXPECT_EQ(line({}, "rigid"), "");
 }
 
 TEST(MeetingPairs, AVehicleOfAMaterialSticksAsThatSays) {

@@ -60,6 +60,25 @@ TEST(OneAnswer, CoupledSceneInBatchesOfSteps) {
   EXPECT_EQ(coupledHash(base::cpuExec(2), {}, 100, sharedBeds(), sharedSpheres()), kCoupledHash);
 }
 
+/// Of soil that coheres, as loam does, and holds on to the shoes.
+TEST(OneAnswer, OfSoilThatSticksToTheVehicle) {
+  const auto hash = [](const base::Exec& exec, const std::string& adhesion) {
+    Simulation simulation(setup::simulationSetup(setup::loadScene(
+                              testScene("coupled.toml"),
+                              {"material.soil.cohesion=20", "material.soil.adhesion_radius=0.03", "terrain.layers=2",
+                               "vehicle.sphere_radius=0.03", "vehicle.clearance=0", "vehicle.adhesion=" + adhesion})),
+                          exec, quiet, {}, sharedBeds(), sharedSpheres());
+    while (simulation.steps() < 1000) simulation.advance(1000 - simulation.steps());
+    return simulation.stateHash();
+  };
+  const std::string one = hash(base::cpuExec(1), "0.5");
+  EXPECT_EQ(hash(base::cpuExec(2), "0.5"), one);
+  if (base::cudaAvailable()) {
+    EXPECT_EQ(hash(base::cudaExec(), "0.5"), one);
+  }
+  EXPECT_NE(hash(base::cpuExec(1), "0"), one) << "the hash must see what sticks";
+}
+
 TEST(OneAnswer, AnotherSeedIsAnotherState) {
   EXPECT_NE(coupledHash(base::cpuExec(1), {"run.seed=8"}, 0, nullptr, sharedSpheres()), kCoupledHash)
       << "the hash must see the state";
