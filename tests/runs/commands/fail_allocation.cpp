@@ -13,7 +13,7 @@ std::atomic<long> calls = 0;
 
 struct Tell {
   ~Tell() { std::fprintf(stderr, "allocations %ld\n", calls.load()); }
-} const tell;
+} const kTell;
 
 } // namespace
 
