@@ -155,7 +155,9 @@ std::string head(const std::string& name, const std::string& description) {
 
 constexpr const char* kEnvironment =
     ".SH ENVIRONMENT\n.TP\n\\fBGROUSER_CACHE\\fR, \\fBGROUSER_CACHE_GIB\\fR\nfolder of settled beds and cut parts, and "
-    "its size in GiB\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets and plots, in the place of the installed one\n";
+    "its size in GiB\n.TP\n\\fBGROUSER_GPU\\fR\nof several GPUs the one to begin with, counted from 0; ranks, and runs "
+    "at the same time, go on from it in turn\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets and plots, in the place of "
+    "the installed one\n";
 
 /// What bash knows of a command: "run" or "bench bed".
 void addCases(const CLI::App& app, const std::string& path, std::string& text) {

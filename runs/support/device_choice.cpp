@@ -6,8 +6,35 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
 
 namespace grouser::support {
+
+namespace {
+
+/// What kFirstGpu says; 0 where it is not set, or empty.
+int firstGpu() {
+  const char* given = std::getenv(kFirstGpu);
+  if (!given || !*given) return 0;
+  const std::string_view text = given;
+  int first = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), first);
+  if (error != std::errc() || end != text.data() + text.size() || first < 0)
+    throw base::InputError(
+        fmt::format("{} = '{}' is no number of a GPU: 0 or more, as nvidia-smi -L counts them", kFirstGpu, text));
+  return first;
+}
+
+} // namespace
+
+int gpuOf(int rankOnHost, int gpus) { return (firstGpu() % gpus + rankOnHost) % gpus; }
+
+std::string firstGpuOf(int place) {
+  constexpr int kMost = 1 << 20; // far more than a machine has, far less than an int holds
+  return std::to_string(firstGpu() % kMost + place);
+}
 
 DeviceChoice deviceChoice(const std::string& word) {
   if (const auto choice = base::valueOf<DeviceChoice>(word)) return *choice;
@@ -17,7 +44,7 @@ DeviceChoice deviceChoice(const std::string& word) {
 
 base::Exec chooseDevice(DeviceChoice device, int threads, const base::Ranks* ranks) {
   if (device == DeviceChoice::cuda || (device == DeviceChoice::automatic && base::cudaAvailable()))
-    return base::cudaExec(ranks ? ranks->rankOnHost() % std::max(1, base::cudaDevices()) : 0);
+    return base::cudaExec(gpuOf(ranks ? ranks->rankOnHost() : 0, std::max(1, base::cudaDevices())));
   if (threads == 0 && ranks && ranks->ranksOnHost() > 1)
     threads = std::max(1, base::cpuExec().threads / ranks->ranksOnHost());
   return base::cpuExec(threads);

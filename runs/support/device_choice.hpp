@@ -18,6 +18,17 @@ enum class DeviceChoice {
 /// Of the word of --device. Throws InputError for one that is none.
 DeviceChoice deviceChoice(const std::string& word);
 
+/// Names the GPU of this machine, counted from 0, that a process begins with: a variable of the environment.
+constexpr const char* kFirstGpu = "GROUSER_GPU";
+
+/// The one of `gpus` (> 0) that a rank of this host takes: the first that kFirstGpu names, 0 where it names none, and
+/// so many further on, in turn. Throws InputError where the variable is no number from 0 on.
+int gpuOf(int rankOnHost, int gpus);
+
+/// What kFirstGpu is to say in the process at that place, from 0 on, of those that a call has at work at the same time:
+/// they take the GPUs in turn, from this process's own on. Throws as gpuOf().
+std::string firstGpuOf(int place);
+
 /// Where to compute; `threads` 0 takes all cores. Ranks of one host take its GPUs in turn and share its cores. Throws
 /// DeviceError where there is no such device.
 base::Exec chooseDevice(DeviceChoice device, int threads, const base::Ranks* ranks);

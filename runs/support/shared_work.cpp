@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/shared_memory.hpp"
+#include "runs/support/device_choice.hpp"
 #include "runs/support/stop_signals.hpp"
 
 #include <fmt/format.h>
@@ -59,12 +60,14 @@ private:
   Number* number_ = nullptr;
 };
 
-[[noreturn]] void child(int pipe, NextPiece& next, std::size_t count, const std::function<void(std::size_t)>& work) {
+[[noreturn]] void child(const std::string& gpu, int pipe, NextPiece& next, std::size_t count,
+                        const std::function<void(std::size_t)>& work) {
   // The parent decides what a signal means, and no child outlives it.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  setenv(kFirstGpu, gpu.c_str(), 1);
   try {
     for (std::size_t i = next.take(); i < count; i = next.take()) {
       work(i);
@@ -104,10 +107,11 @@ public:
 void start(Children& children, NextPiece& next, std::size_t count, const std::function<void(std::size_t)>& work) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error(fmt::format("no pipe to a process: {}", std::strerror(errno)));
+  const std::string gpu = firstGpuOf(static_cast<int>(children.all.size()));
   const pid_t process = fork();
   if (process == 0) {
     close(ends[0]);
-    child(ends[1], next, count, work);
+    child(gpu, ends[1], next, count, work);
   }
   close(ends[1]);
   children.all.push_back({process, ends[0], ""});

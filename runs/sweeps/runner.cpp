@@ -7,6 +7,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/device_choice.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -85,17 +86,20 @@ void awaitFormer(const fs::path& folder) {
   }
 }
 
-/// Starts the program with its output in the log. Returns the process.
-pid_t start(std::vector<std::string> words, const fs::path& log) {
+/// Starts the program with its output in the log, on the GPU of that place among those that run at the same time.
+/// Returns the process.
+pid_t start(std::vector<std::string> words, const fs::path& log, int place) {
   std::vector<char*> arguments;
   for (std::string& w : words) arguments.push_back(w.data());
   arguments.push_back(nullptr);
+  const std::string gpu = support::firstGpuOf(place);
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error(fmt::format("no process could be started: {}", std::strerror(errno)));
   if (child > 0) return child;
   prctl(PR_SET_PDEATHSIG, SIGTERM); // a killed sweep leaves no runs behind
   if (getppid() != parent) _exit(1);
+  setenv(support::kFirstGpu, gpu.c_str(), 1);
   const int file = open(log.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
   dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
   close(file);
@@ -160,6 +164,7 @@ private:
   struct Running {
     std::size_t index;
     Clock::time_point since;
+    int place; ///< among those that run at the same time
   };
 
   fs::path folder(std::size_t i) const { return options_.folder / plan_.runs[i].name; }
@@ -186,9 +191,20 @@ private:
       putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
     for (const std::string& o : overrides) words.insert(words.end(), {"--set", o});
     words.insert(words.end(), {"--out", folder(i).string(), "--force", "--hash"});
-    running_[start(std::move(words), folder(i) / kLog)] = {i, Clock::now()};
+    const int place = freePlace();
+    running_[start(std::move(words), folder(i) / kLog, place)] = {i, Clock::now(), place};
     outcomes_[i].status = RunStatus::running;
     changed_(outcomes_);
+  }
+
+  /// The first place that no run has: where one ends the next takes its GPU.
+  int freePlace() const {
+    const auto isTaken = [&](int place) {
+      return std::any_of(running_.begin(), running_.end(), [&](const auto& r) { return r.second.place == place; });
+    };
+    int place = 0;
+    while (isTaken(place)) ++place;
+    return place;
   }
 
   /// Waits a moment, and takes the results of the runs that have ended.
@@ -202,9 +218,9 @@ private:
         ++it;
         continue;
       }
-      const auto [i, since] = it->second;
+      const Running run = it->second;
       it = running_.erase(it);
-      finish(i, status, std::chrono::duration<double>(Clock::now() - since).count());
+      finish(run.index, status, std::chrono::duration<double>(Clock::now() - run.since).count());
     }
   }
 

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "runs/output/output.hpp"
 #include "runs/sweeps/run_progress.hpp"
+#include "runs/sweeps/runner.hpp"
 #include "runs/sweeps/sweep_intervals.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace grouser::sweeps {
@@ -316,6 +318,24 @@ TEST_F(Sweep, WhoeverStartedItMayIgnoreEndsOfProcesses) {
                           "signal.SIG_IGN); os.execv(sys.argv[1], sys.argv[1:])\" \"$grouser\" sweep fall.toml "
                           "--set run.seed=1,2 --out s");
   EXPECT_EQ(o.code, 0) << o.errors;
+}
+
+TEST_F(Sweep, RunsAtTheSameTimeTakeTheGpusInTurn) {
+  // A program that does nothing but say which GPU it was given, and takes a while.
+  const fs::path program = folder_ / "says.sh";
+  std::ofstream(program) << "#!/bin/sh\necho gpu $GROUSER_GPU\nsleep 0.5\n";
+  fs::permissions(program, fs::perms::owner_all);
+  SweepOptions o = options();
+  o.program = program, o.jobs = 2;
+  const SweepPlan plan = planSweep(scene(), {Words{"grain.0.radius=0.01,0.011,0.012,0.013"}});
+  runMissing(plan, o, "gpus", [](const std::vector<SweepOutcome>&) {});
+  std::vector<std::string> given;
+  for (const SweepRun& run : plan.runs) given.push_back(contents(out() / run.name / "log.txt"));
+  ASSERT_EQ(given.size(), 4U);
+  EXPECT_EQ(given[0], "gpu 0\n");
+  EXPECT_EQ(given[1], "gpu 1\n");
+  // Each of the others takes the place of one that has ended.
+  EXPECT_EQ((std::multiset<std::string>{given[2], given[3]}), (std::multiset<std::string>{"gpu 0\n", "gpu 1\n"}));
 }
 
 TEST_F(Sweep, FoldersOfOtherOriginAreKept) {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which GPU of a machine a process takes: without one, by its number alone.
+#include "runs/support/device_choice.hpp"
+
+#include "base/error.hpp"
+#include "runs/support/shared_work.hpp"
+#include "tests/runs/folder_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <string>
+#include <thread>
+
+namespace grouser::support {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FirstGpu : public test::FolderTest {
+protected:
+  void SetUp() override {
+    test::FolderTest::SetUp();
+    unsetenv(kFirstGpu);
+  }
+  void TearDown() override {
+    unsetenv(kFirstGpu);
+    test::FolderTest::TearDown();
+  }
+};
+
+TEST_F(FirstGpu, RanksTakeThemInTurnFromTheFirstOn) {
+  EXPECT_EQ(gpuOf(0, 4), 0);
+  EXPECT_EQ(gpuOf(5, 4), 1);
+  setenv(kFirstGpu, "3", 1);
+  EXPECT_EQ(gpuOf(0, 4), 3);
+  EXPECT_EQ(gpuOf(1, 4), 0);
+  EXPECT_EQ(gpuOf(0, 1), 0) << "a machine that has one";
+  setenv(kFirstGpu, "2147483647", 1);
+  EXPECT_EQ(gpuOf(3, 2), 0);
+  setenv(kFirstGpu, "", 1);
+  EXPECT_EQ(gpuOf(1, 2), 1);
+}
+
+TEST_F(FirstGpu, ThatIsNoNumberIsRefusedByName) {
+  for (const char* wrong : {"-1", "1.5", "gpu", "0x1", " 1", "99999999999"}) {
+    setenv(kFirstGpu, wrong, 1);
+    try {
+      gpuOf(0, 2);
+      ADD_FAILURE() << wrong;
+    } catch (const base::InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("GROUSER_GPU = '" + std::string(wrong) + "'"), std::string::npos)
+          << e.what();
+    }
+  }
+}
+
+TEST_F(FirstGpu, ProcessesOfOneCallGoOnFromItsOwn) {
+  EXPECT_EQ(firstGpuOf(0), "0");
+  EXPECT_EQ(firstGpuOf(5), "5");
+  setenv(kFirstGpu, "1", 1);
+  EXPECT_EQ(firstGpuOf(2), "3");
+  EXPECT_STREQ(std::getenv(kFirstGpu), "1") << "this process stays where it is";
+}
+
+TEST_F(FirstGpu, DiffersAmongProcessesThatShareWork) {
+  setenv(kFirstGpu, "1", 1);
+  const auto found = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename());
+    return names;
+  };
+  // Each piece waits for the others, so that each process does one.
+  const auto work = [&](std::size_t) {
+    std::ofstream(folder_ / std::getenv(kFirstGpu)) << "\n";
+    for (int look = 0; look < 1000 && found().size() < 3; ++look)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  };
+  shareWork(3, 3, work, [] {});
+  EXPECT_EQ(found(), (std::set<std::string>{"1", "2", "3"}));
+}
+
+} // namespace
+} // namespace grouser::support
