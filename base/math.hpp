@@ -137,15 +137,16 @@ GROUSER_HD double cubeRoot(double x) {
   }
   return y;
 }
-GROUSER_HD float cubeRoot(float x) {
-  if (!(x > 0)) return 0;
-  float y = bitsAs<float>(bitsAs<std::uint32_t>(x) / 3 + 0x2A512CE3u);
+/// The same of float numbers, of one or of several side by side; `Bits` has their bits.
+template <class Bits, class Float> GROUSER_HD Float cubeRootBy(const Float& x) {
+  Float y = bitsAs<Float>(bitsAs<Bits>(x) / 3 + 0x2A512CE3u);
   for (int k = 0; k < 2; ++k) {
-    const float cube = y * y * y;
+    const Float cube = y * y * y;
     y = y * ((cube + x + x) / (cube + cube + x));
   }
-  return y;
+  return x > 0 ? y : Float{};
 }
+GROUSER_HD float cubeRoot(float x) { return cubeRootBy<std::uint32_t>(x); }
 
 /// x^y for x > 0.
 GROUSER_HD double pow(double x, double y) { return base::exp(y * base::log(x)); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/math.hpp"
 #include "base/vec.hpp"
 
 #include <cmath>
@@ -15,6 +16,7 @@ template <class T> struct NumberTraits {
   GROUSER_HD static T broadcast(T x) { return x; }
   GROUSER_HD static float squareRoot(float x) { return sqrtf(x); }
   GROUSER_HD static double squareRoot(double x) { return sqrt(x); }
+  GROUSER_HD static T cubeRoot(T x) { return base::cubeRoot(x); }
   GROUSER_HD static bool any(bool mask) { return mask; }
 };
 
@@ -29,6 +31,9 @@ template <class T> GROUSER_HD Vec3<T> broadcast(const Vec3<ScalarOf<T>>& v) {
 
 /// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
 template <class T> GROUSER_HD T squareRoot(const T& x) { return NumberTraits<T>::squareRoot(x); }
+
+/// base::cubeRoot(), lane by lane.
+template <class T> GROUSER_HD T cubeRootOf(const T& x) { return NumberTraits<T>::cubeRoot(x); }
 
 /// Whether a comparison holds in any lane.
 template <class Mask> GROUSER_HD bool any(const Mask& mask) { return NumberTraits<Mask>::any(mask); }

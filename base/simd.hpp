@@ -95,6 +95,7 @@ template <SimdVector V> struct NumberTraits<V> {
     for (int l = 0; l < kWidthOf<V>; ++l) r[l] = std::sqrt(x[l]);
     return r;
   }
+  GROUSER_SIMD static V cubeRoot(const V& x) { return cubeRootBy<Simd<std::uint32_t, kWidthOf<V>>>(x); } // of floats
   GROUSER_SIMD static bool any(const V& mask) {
     // GROUSER_SIMD_CLONES compile this where no __AVX__ is defined, and the compiler then finds its own instruction.
     if constexpr (sizeof mask == 32 && sizeof(Scalar) == 8) return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;

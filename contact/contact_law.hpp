@@ -190,13 +190,13 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   const T approach = dot(touch.velocity, n);
   const Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);
   T elastic = c.elastic, least = zero, adhesion{}, yielded{};
-  constexpr bool kMayYield = (kFeatures & (kPlastic | kGeneral)) != 0 && std::is_floating_point_v<T>; // no lanes
+  constexpr bool kMayYield = (kFeatures & (kPlastic | kGeneral)) != 0;
   if constexpr (kMayYield)
     if (state && law.plastic.share > 0) {
       const BasicElasticSpring<T> spring{law.stiffness, touch.effectiveRadius, law.hertz};
       const BasicPlasticForce<T> bent = plasticForce(law.plastic, spring, touch.overlap, *state);
       elastic = bent.force, adhesion = bent.adhesion, yielded = bent.yielded;
-      if (elastic < zero) least = elastic;
+      least = elastic < zero ? elastic : zero;
     }
   T dashpot = c.damping * approach;
   // Without attraction the dashpot may at most cancel the spring, and not help it to pull.

@@ -53,10 +53,10 @@ template <class T> struct BasicPlasticState {
 /// Numbers that a contact keeps for it.
 inline constexpr int kPlasticNumbers = 2;
 
-/// The normal spring of an elastic contact: F = k1 x^m, [N] at an overlap [m].
+/// The normal spring of an elastic contact: F = k1 x^m, [N] at an overlap [m]. With SIMD numbers, of as many contacts.
 template <class T> struct BasicElasticSpring {
-  T stiffness;       ///< linear: k [N/m];  Hertz: (4/3) E_eff [Pa]
-  T effectiveRadius; ///< [m]
+  base::ScalarOf<T> stiffness; ///< linear: k [N/m];  Hertz: (4/3) E_eff [Pa]
+  T effectiveRadius;           ///< [m]
   bool hertz;
 
   GROUSER_HD T force(T overlap) const {
@@ -65,7 +65,7 @@ template <class T> struct BasicElasticSpring {
   /// x_a / x_b where the force at x_a is `ratio`, >= 0, times that at x_b.
   GROUSER_HD T overlapRatio(T ratio) const {
     if (!hertz) return ratio;
-    const T root = base::cubeRoot(ratio);
+    const T root = base::cubeRootOf(ratio);
     return root * root;
   }
 };
@@ -181,6 +181,11 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
   const T stretched = (place(before.origin) - place(start)) + (place(state.origin) - overlap);
   return {-branch.pull, branch.pull, T(0.5) * steep * stretched * (before.origin - state.origin)};
 }
+
+/// The same of one contact among several that are computed side by side: not inlined, and so not compiled for
+/// processors that may not be there.
+BasicPlasticForce<float> plasticForceAlone(const BasicPlasticity<float>& p, const BasicElasticSpring<float>& spring,
+                                           float overlap, BasicPlasticState<float>& state);
 
 /// Elastic energy of such a contact [J], and what would yield if it were taken to this overlap now: so the energy that
 /// it still has to give, whether or not a step has seen it here.

@@ -58,16 +58,20 @@ void runLanes(const base::Exec& exec, const char* name, detail::LaneStep* lanes,
 
 bool hasSimd(unsigned features) {
   constexpr unsigned kKnown = contact::kHertz | contact::kFriction | contact::kRollingFriction | contact::kCohesion |
-                              kManyRadii | kBoundaries | kSurfaces | kLoads | kLedger | kPeriodic | kFixed;
-  // Compiled with friction only, and cohesion with Hertz' law only.
+                              contact::kPlastic | kManyRadii | kBoundaries | kSurfaces | kLoads | kLedger | kPeriodic |
+                              kFixed;
+  // Compiled with friction only, cohesion with Hertz' law only, and plastic contacts with rolling friction besides.
   constexpr unsigned kRough = contact::kHertz | contact::kRollingFriction | contact::kCohesion | kManyRadii;
+  constexpr unsigned kYielding = contact::kPlastic | contact::kHertz | contact::kRollingFriction;
   if (features & ~kKnown || (features & contact::kCohesion && !(features & contact::kHertz))) return false;
+  if (features & contact::kPlastic && (features & kYielding) != kYielding) return false;
   return !(features & kRough) || features & contact::kFriction;
 }
 
 int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
   if (!hasSimd(features)) return 1;
   if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
+  if (features & contact::kPlastic && (law.plastic.share <= 0 || law.plastic.fullDepth > 0)) return 1; // EEPA alone
   return widthOf(most);
 }
 
@@ -122,6 +126,8 @@ void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const 
   const GrainStep<contact::kGeneral, float> step{{d, f}};
   step.bookHeld(i, d.position[i], {force, torque, true});
 }
+
+void bookYielded(const GrainKernelData& d, int i, float yielded) { addYielded(d, i, static_cast<double>(yielded)); }
 
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {
   addToBank(d.books, first / kLeastAtATime, books);

@@ -34,6 +34,8 @@ void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, co
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque);
 void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i);
 void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books);
+/// Plastic work of the contacts of grain i [J].
+void bookYielded(const GrainKernelData& d, int i, float yielded);
 /// Adds what some grains of a launch, from `first` on, have done.
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);
 void addToBooks(const GrainKernelData& d, int first, const WallBooks& books);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/plastic_simd.hpp"
 #include "contact/sphere_pair.hpp"
 #include "terrain/detail/grain_simd_advance.hpp"
 #include "terrain/grain_simd.hpp"
@@ -54,7 +55,7 @@ public:
         for (int g = 0; g < grains_; ++g)
           if (atSide_[g]) collectAcross(g);
       for (int c = contacts_; c % kWidth != 0; ++c) // lanes of the last group that no contact takes
-        apart_[c] = moving_[c] = turning_[c] = theirs_[c] = spring_[c] = angle_[c] = Float4{};
+        apart_[c] = moving_[c] = turning_[c] = theirs_[c] = spring_[c] = angle_[c] = dent_[c] = Float4{};
       for (int c = 0; c < contacts_; c += kWidth) computeContacts(c, f);
       if (kWithFriction) storeSprings();
       for (int g = 0; g < grains_; ++g) sum(g, slotOf(from + g));
@@ -69,12 +70,13 @@ private:
   using Vec = base::Vec3<Float>;
   using Advance = AdvanceLanes < kWidth<16 ? 4 : 8, kFeatures>;
   static constexpr unsigned kLaw = kFeatures & (contact::kHertz | contact::kFriction | contact::kRollingFriction |
-                                                contact::kCohesion | contact::kManyMasses);
+                                                contact::kCohesion | contact::kManyMasses | contact::kPlastic);
   static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger,
-                        kWithRolling = kFeatures & contact::kRollingFriction, kManySizes = kFeatures & kManyRadii;
+                        kWithRolling = kFeatures & contact::kRollingFriction, kYields = kFeatures & contact::kPlastic,
+                        kManySizes = kFeatures & kManyRadii;
   static constexpr bool kBothSpins = kWithRolling || kManySizes;    ///< are needed, not their sum alone
   static constexpr int kGrains = Advance::kGrains, kContacts = 192; ///< of a block
-  static constexpr std::size_t kHistory = contact::historyWidth(kFeatures);
+  static constexpr std::size_t kHistory = contact::historyWidth(kFeatures), kDent = contact::plasticPlace(kFeatures);
   static constexpr int kUsual = 6;                  ///< contacts of a grain
   static constexpr int kFound = kWidth < 8 ? 4 : 8; ///< candidates that are tried side by side
   using Found = Simd<std::int32_t, kFound>;
@@ -148,6 +150,7 @@ private:
       float* const spring = springOf(first + static_cast<std::uint32_t>(__builtin_ctzll(begun)));
       base::store3(spring, Float4{});
       if (kWithRolling) base::store3(spring + 3, Float4{});
+      if (kYields) spring[kDent] = spring[kDent + 1] = 0;
     }
   }
 
@@ -214,6 +217,7 @@ private:
       const float* const spring = history + kHistory * std::size_t{entry_[c]};
       if (kWithFriction) spring_[c] = base::load3(spring);
       if (kWithRolling) angle_[c] = base::load3(spring + 3);
+      if (kYields) dent_[c] = Float4{spring[kDent], spring[kDent + 1], 0, 0};
     }
   }
   GROUSER_SIMD void storeSprings() const {
@@ -223,6 +227,7 @@ private:
       float* const spring = history + kHistory * std::size_t{entry_[c]};
       base::store3(spring, spring_[c]);
       if (kWithRolling) base::store3(spring + 3, angle_[c]);
+      if (kYields) spring[kDent] = dent_[c][0], spring[kDent + 1] = dent_[c][1];
     }
   }
   /// Of a grain at a periodic boundary.
@@ -294,7 +299,14 @@ private:
     Float radius = base::broadcast<Float>(0.5f * f.radius);
     if (kManySizes) radius = both.ownRadius * both.otherRadius / (both.ownRadius + both.otherRadius);
     const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity, both.mass, radius};
-    const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear);
+    Float dents[4] = {};
+    if (kYields) base::loadRows(dent_ + c, dents);
+    contact::BasicPlasticState<Float> dent{dents[0], dents[1]};
+    const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear, kYields ? &dent : nullptr);
+    if (kYields) {
+      dents[0] = dent.deepest, dents[1] = dent.origin, dents[2] = both.share * reaction.yielded;
+      base::storeRows(dent_ + c, dents);
+    }
     if (kWithFriction) {
       spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z,
       spring[3] = kWithLedger ? both.share * reaction.rubbed : Float{};
@@ -331,13 +343,14 @@ private:
 
   /// Of the contacts of a grain; fourth numbers as in rows.
   struct Sum {
-    Float4 force{}, torque{}, most{}, rubbed{}, rolled{};
+    Float4 force{}, torque{}, most{}, rubbed{}, rolled{}, dented{};
   };
   /// Contact c, where `there`.
   GROUSER_SIMD void add(int c, const Int4& there, Sum& sum) const {
     const auto row = [&](const Float4* rows) { return base::bitsAs<Float4>(base::bitsAs<Int4>(rows[c]) & there); };
     const Float4 turning = row(turning_);
     if (kWithFriction && kWithLedger) sum.rubbed += row(spring_);
+    if (kYields && kWithLedger) sum.dented += row(dent_);
     sum.force += row(moving_);
     sum.torque += turning;
     if (kWithRolling) {
@@ -361,6 +374,7 @@ private:
     for (int k = kUsual; k < n; ++k) add(first + k, ~Int4{}, all);
     Float4 force = all.force, torque = all.torque;
     const float damped = force[3];
+    if (kYields && kWithLedger && all.dented[2] != 0) bookYielded(data_, i, all.dented[2]);
     const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0;
     if (place != 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
@@ -416,7 +430,8 @@ private:
   bool samePlace_[kGrains], atSide_[kGrains];
   // Of the block's contacts, and as many more as the last lanes may read and write for nothing.
   static constexpr int kRows = kContacts + std::max(8, kWidth);
-  alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows];
+  alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows],
+      dent_[kRows];                                          ///< plastic state, and what yields
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };
 
@@ -433,9 +448,11 @@ constexpr unsigned kSimdLaws[] = {0,
                                   contact::kRollingFriction,
                                   contact::kHertz | contact::kRollingFriction,
                                   contact::kHertz | contact::kCohesion,
-                                  contact::kHertz | contact::kRollingFriction | contact::kCohesion};
+                                  contact::kHertz | contact::kRollingFriction | contact::kCohesion,
+                                  contact::kHertz | contact::kRollingFriction | contact::kPlastic,
+                                  contact::kHertz | contact::kRollingFriction | contact::kCohesion | contact::kPlastic};
 /// Each of them with friction, with and without many radii and a ledger.
-constexpr int kSimdSets = 4 * 6;
+constexpr int kSimdSets = 4 * 8;
 constexpr unsigned simdSet(int which) {
   return contact::kFriction | kSimdLaws[which / 4] | (which & 1 ? kManyRadii : 0u) | (which & 2 ? kLedger : 0u);
 }
@@ -450,7 +467,7 @@ template <int kWidth, int... kSet> GROUSER_SIMD void runRough(unsigned features,
 template <int kWidth>
 GROUSER_SIMD void runSimd(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   const unsigned features = d.features & (contact::kHertz | contact::kFriction | contact::kRollingFriction |
-                                          contact::kCohesion | kManyRadii | kLedger);
+                                          contact::kCohesion | contact::kPlastic | kManyRadii | kLedger);
   if (features == 0)
     runOf<kWidth, 0>(d, f, first, last);
   else if (features == kLedger)

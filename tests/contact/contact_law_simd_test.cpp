@@ -2,6 +2,7 @@
 // The law on many contacts side by side: each lane has the bits of that contact alone.
 #include "base/random.hpp"
 #include "base/simd.hpp"
+#include "contact/plastic_simd.hpp"
 #include "contact/rolling_resistance.hpp"
 #include "contact_fixture.hpp"
 
@@ -100,6 +101,58 @@ TEST(ContactLawSimd, AttractionHertzCohesionAndManyMasses) {
   many.damping = many.tangentialDamping = 0, many.rootDamping = 300, many.tangentialRootDamping = 100;
   expectLanesAsAlone<kFriction | kManyMasses, 8>(many);
   expectLanesAsAlone<kGeneral, 8>(many);
+}
+
+/// Contacts that are pressed, let go and drawn apart at random: each is often on every branch of the law.
+template <int kWidth> void expectYieldingAsAlone(const BasicPlasticity<float>& p, bool isHertz, bool sticks = true) {
+  using Numbers = base::Simd<float, kWidth>;
+  RandomContacts<float> random;
+  BasicPlasticState<Numbers> states{};
+  std::array<BasicPlasticState<float>, kWidth> state{};
+  BasicElasticSpring<Numbers> springs{5e7f, {}, isHertz};
+  Numbers overlaps{};
+  for (std::size_t l = 0; l < kWidth; ++l) springs.effectiveRadius[l] = random.in(0.002, 0.03);
+  int loading = 0, unloading = 0, pulling = 0;
+  for (int round = 0; round < 3000; ++round) {
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      if (random.in(0, 1) < 0.02f) { // another contact
+        state[l] = {}, states.deepest[l] = states.origin[l] = 0;
+        springs.effectiveRadius[l] = random.in(0.002, 0.03), overlaps[l] = random.in(1e-7, 1e-4);
+      }
+      const float next = overlaps[l] * random.in(0.7, 1.38);
+      overlaps[l] = next > 1e-8f && next < 1e-3f ? next : 1e-5f;
+    }
+    const auto together = plasticForce(p, springs, overlaps, states);
+    for (std::size_t l = 0; l < kWidth; ++l) {
+      const BasicElasticSpring<float> spring{5e7f, springs.effectiveRadius[l], isHertz};
+      const float overlap = overlaps[l];
+      const auto alone = plasticForce(p, spring, overlap, state[l]);
+      ASSERT_EQ(bitsOf(together.force[l]), bitsOf(alone.force)) << "round " << round << ", lane " << l;
+      ASSERT_EQ(bitsOf(together.adhesion[l]), bitsOf(alone.adhesion)) << "round " << round << ", lane " << l;
+      ASSERT_EQ(bitsOf(together.yielded[l]), bitsOf(alone.yielded)) << "round " << round << ", lane " << l;
+      ASSERT_EQ(bitsOf(states.deepest[l]), bitsOf(state[l].deepest));
+      ASSERT_EQ(bitsOf(states.origin[l]), bitsOf(state[l].origin));
+      loading += alone.force == spring.force(overlap);
+      pulling += alone.force < 0 && alone.force == -alone.adhesion;
+      unloading += alone.force > 0 && alone.force < spring.force(overlap);
+    }
+  }
+  const int tenth = 3000 * kWidth / 10;
+  EXPECT_GT(loading, tenth);
+  EXPECT_GT(unloading, tenth);
+  EXPECT_TRUE(!sticks || pulling > tenth / 5) << pulling;
+}
+
+TEST(ContactLawSimd, ContactsThatYield) {
+  BasicPlasticity<float> p{0.6f, 0.711f, 0.3f, 40, 0, 0, 0, 3};
+  expectYieldingAsAlone<4>(p, true);
+  expectYieldingAsAlone<8>(p, true);
+  expectYieldingAsAlone<16>(p, true);
+  expectYieldingAsAlone<8>({0.6f, 0.6f, 0.3f, 40, 0, 0, 0, 3}, false);
+  p.pull = 0, p.pullGrowth = 4e3f, p.exponent = 10;
+  expectYieldingAsAlone<16>(p, true);
+  p.pullGrowth = 0;
+  expectYieldingAsAlone<16>(p, true, false);
 }
 
 template <int kWidth, class T> void expectRollingAsAlone(T stiffness) {

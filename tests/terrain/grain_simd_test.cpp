@@ -23,6 +23,7 @@ struct LaneKind {
   bool hertz = false, rolling = false, periodic = false, fixed = false, surface = false;
   double smallest = 1; ///< radii are uniform from this share on [-]
   bool cohesive = false, yielding = false;
+  double pull = 40, pullGrowth = 0;      ///< of contacts that yield, as BasicPlasticity has them
   bool onDevice = false, special = true; ///< under test; by a kernel of its own where there is one
 };
 
@@ -45,7 +46,7 @@ GrainModel laneModel(const LaneKind& kind) {
     m.law.rootDamping = 3000, m.law.tangentialRootDamping = 1500, m.law.tangentialDamping = 0;
   }
   if (kind.cohesive) m.law.pullPerRadius = 2;
-  if (kind.yielding) m.law.plastic = {0.6, 0.7, 0.3, 40, 0, 0, 3};
+  if (kind.yielding) m.law.plastic = {0.6, 0.7, 0.3, kind.pull, kind.pullGrowth, 0, 0, 3};
   m.specialised = kind.special;
   if (kind.rolling) m.law.rollingFriction = 0.1, m.law.rollingDamping = 0.3;
   if (kind.smallest < 1 && !kind.hertz) m.law.damping = 0, m.law.rootDamping = 60, m.law.tangentialRootDamping = 30;
@@ -188,6 +189,28 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
   }
 }
 
+/// Beds whose contacts yield, stick by what pressing has left, and come apart along their adhesive branch.
+TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelWhereContactsYield) {
+  for (int bits = 0; bits < 16; ++bits) {
+    LaneKind kind{.ledger = bits != 5,
+                  .loads = bits % 3 == 1,
+                  .grains = 257,
+                  .hertz = true,
+                  .rolling = true,
+                  .periodic = (bits & 4) != 0,
+                  .fixed = (bits & 2) != 0,
+                  .surface = bits % 5 == 1,
+                  .smallest = bits & 1 ? 0.6 : 1,
+                  .cohesive = (bits & 8) != 0,
+                  .yielding = true};
+    kind.pull = bits % 4 == 3 ? 0 : 40, kind.pullGrowth = bits % 4 == 2 ? 4e3 : 0;
+    const auto expected = wordsAfter(kind, 1, 1, kSteps);
+    for (const int lanes : {4, 8, 16})
+      EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, kind " << bits;
+    EXPECT_TRUE(wordsAfter(kind, 16, 2, kSteps, 0.2) == expected) << "two threads, more rebuilds, kind " << bits;
+  }
+}
+
 /// Kernels of soils that stick or yield, between periodic boundaries on fixed grains, and under a surface: on the
 /// device under test.
 TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
@@ -250,6 +273,14 @@ TEST(GrainSimd, TakeTheCommonBedsAndLeaveTheRest) {
   EXPECT_GE(simdWidth(bed | contact::kHertz | contact::kCohesion, law, 16), 4);
   for (const unsigned feature : {contact::kCohesion, contact::kGeneral, kManyMaterials})
     EXPECT_EQ(simdWidth(bed | feature, law, 16), 1);
+  const unsigned yielding = bed | contact::kHertz | contact::kRollingFriction | contact::kPlastic;
+  law.plastic.share = 0.5f;
+  EXPECT_GE(simdWidth(yielding, law, 16), 4);
+  EXPECT_GE(simdWidth(yielding | contact::kCohesion | kManyRadii | kFixed, law, 16), 4);
+  for (const unsigned feature : {contact::kHertz, contact::kRollingFriction})
+    EXPECT_EQ(simdWidth(yielding & ~feature, law, 16), 1);
+  law.plastic.fullDepth = 0.1f; // Luding's
+  EXPECT_EQ(simdWidth(yielding, law, 16), 1);
 }
 
 /// Two grains that touch by less than a float of the squares can tell, and two that just do not.

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/simd.hpp"
+#include "contact/plastic_law.hpp"
+
+namespace grouser::contact {
+
+/// plasticForce() of many contacts side by side, by EEPA's law (p.fullDepth 0): the same operations in the same order,
+/// so the same bits. First loading and the steep line are computed for all, and one is taken; the few contacts that are
+/// pulled towards their end, on the adhesive branch or where its force falls, are taken one by one.
+template <base::SimdVector T>
+GROUSER_SIMD BasicPlasticForce<T> plasticForce(const BasicPlasticity<base::ScalarOf<T>>& p,
+                                               const BasicElasticSpring<T>& spring, const T& overlap,
+                                               BasicPlasticState<T>& state) {
+  using Scalar = base::ScalarOf<T>;
+  const BasicPlasticState<T> before = state;
+  const Scalar steep = Scalar(1) / (Scalar(1) - p.share);
+  const T elastic = spring.force(overlap), line = steep * (elastic - before.origin), zero{};
+  const auto loads = line >= elastic;
+  T yielded{};
+  if (base::any(loads)) { // detail::yieldedByLoading()
+    const T start = before.origin / p.share;
+    yielded = p.lossShare * overlap * (elastic - start * spring.overlapRatio(start / elastic));
+    yielded = loads ? yielded : zero;
+    state.deepest = loads ? overlap : before.deepest;
+    state.origin = loads ? p.share * elastic : before.origin;
+  }
+  // detail::adhesiveBranch(), where the pull has its full size.
+  const T perRoot = p.pull + p.pullGrowth * spring.effectiveRadius;
+  const T origin = p.share * spring.force(state.deepest), half = Scalar(0.5) * steep * origin;
+  const T full = perRoot * base::squareRoot(state.deepest * spring.effectiveRadius);
+  const T pull = perRoot > zero ? (full < half ? full : half) : zero;
+  BasicPlasticForce<T> bent{loads ? elastic : line, pull, yielded};
+  const auto turned = (perRoot > zero) & (elastic < origin - pull / steep);
+  unsigned alone = base::laneBits(turned | (line < -pull)) & ~base::laneBits(loads);
+  for (; alone != 0; alone &= alone - 1) {
+    const int l = __builtin_ctz(alone);
+    BasicPlasticState<float> one{before.deepest[l], before.origin[l]};
+    const BasicPlasticForce<float> found =
+        plasticForceAlone(p, {spring.stiffness, spring.effectiveRadius[l], spring.hertz}, overlap[l], one);
+    bent.force[l] = found.force, bent.adhesion[l] = found.adhesion, bent.yielded[l] = found.yielded;
+    state.deepest[l] = one.deepest, state.origin[l] = one.origin;
+  }
+  return bent;
+}
+
+} // namespace grouser::contact
