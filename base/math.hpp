@@ -139,7 +139,8 @@ GROUSER_HD double cubeRoot(double x) {
 }
 /// The same of float numbers, of one or of several side by side; `Bits` has their bits.
 template <class Bits, class Float> GROUSER_HD Float cubeRootBy(const Float& x) {
-  Float y = bitsAs<Float>(bitsAs<Bits>(x) / 3 + 0x2A512CE3u);
+  // 1 where it will be 0: of the guess there the cube would be a denormal number, which takes processors long.
+  Float y = x > 0 ? bitsAs<Float>(bitsAs<Bits>(x) / 3 + 0x2A512CE3u) : Float{} + 1;
   for (int k = 0; k < 2; ++k) {
     const Float cube = y * y * y;
     y = y * ((cube + x + x) / (cube + cube + x));

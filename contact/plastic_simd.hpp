@@ -4,6 +4,8 @@
 #include "base/simd.hpp"
 #include "contact/plastic_law.hpp"
 
+#include <type_traits>
+
 namespace grouser::contact {
 
 /// plasticForce() of many contacts side by side, by EEPA's law (p.fullDepth 0): the same operations in the same order,
@@ -14,6 +16,7 @@ GROUSER_SIMD BasicPlasticForce<T> plasticForce(const BasicPlasticity<base::Scala
                                                const BasicElasticSpring<T>& spring, const T& overlap,
                                                BasicPlasticState<T>& state) {
   using Scalar = base::ScalarOf<T>;
+  static_assert(std::is_same_v<Scalar, float>, "cube roots and single contacts are of float numbers");
   const BasicPlasticState<T> before = state;
   const Scalar steep = Scalar(1) / (Scalar(1) - p.share);
   const T elastic = spring.force(overlap), line = steep * (elastic - before.origin), zero{};

@@ -14,6 +14,8 @@ namespace grouser::support {
 
 namespace {
 
+constexpr int kMostGpus = 1 << 20; ///< far more than a machine has, far less than an int holds
+
 /// What kFirstGpu says; 0 where it is not set, or empty.
 int firstGpu() {
   const char* given = std::getenv(kFirstGpu);
@@ -21,9 +23,10 @@ int firstGpu() {
   const std::string_view text = given;
   int first = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), first);
-  if (error != std::errc() || end != text.data() + text.size() || first < 0)
+  if (error != std::errc() || end != text.data() + text.size() || first < 0 || first > kMostGpus)
     throw base::InputError(
-        fmt::format("{} = '{}' is no number of a GPU: 0 or more, as nvidia-smi -L counts them", kFirstGpu, text));
+        fmt::format("{} = '{}' is no number of a GPU: from 0 to {}, as CUDA counts those that it sees", kFirstGpu, text,
+                    kMostGpus));
   return first;
 }
 
@@ -31,10 +34,7 @@ int firstGpu() {
 
 int gpuOf(int rankOnHost, int gpus) { return (firstGpu() % gpus + rankOnHost) % gpus; }
 
-std::string firstGpuOf(int place) {
-  constexpr int kMost = 1 << 20; // far more than a machine has, far less than an int holds
-  return std::to_string(firstGpu() % kMost + place);
-}
+std::string firstGpuOf(int place) { return std::to_string(firstGpu() + place); }
 
 DeviceChoice deviceChoice(const std::string& word) {
   if (const auto choice = base::valueOf<DeviceChoice>(word)) return *choice;

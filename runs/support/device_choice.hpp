@@ -18,11 +18,12 @@ enum class DeviceChoice {
 /// Of the word of --device. Throws InputError for one that is none.
 DeviceChoice deviceChoice(const std::string& word);
 
-/// Names the GPU of this machine, counted from 0, that a process begins with: a variable of the environment.
+/// Names the GPU of this machine that a process begins with, counted from 0 among those that CUDA sees
+/// (CUDA_VISIBLE_DEVICES, in the order of CUDA_DEVICE_ORDER): a variable of the environment.
 constexpr const char* kFirstGpu = "GROUSER_GPU";
 
 /// The one of `gpus` (> 0) that a rank of this host takes: the first that kFirstGpu names, 0 where it names none, and
-/// so many further on, in turn. Throws InputError where the variable is no number from 0 on.
+/// so many further on, in turn. Throws InputError where the variable is no such number.
 int gpuOf(int rankOnHost, int gpus);
 
 /// What kFirstGpu is to say in the process at that place, from 0 on, of those that a call has at work at the same time:

@@ -105,9 +105,9 @@ public:
 };
 
 void start(Children& children, NextPiece& next, std::size_t count, const std::function<void(std::size_t)>& work) {
+  const std::string gpu = firstGpuOf(static_cast<int>(children.all.size()));
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error(fmt::format("no pipe to a process: {}", std::strerror(errno)));
-  const std::string gpu = firstGpuOf(static_cast<int>(children.all.size()));
   const pid_t process = fork();
   if (process == 0) {
     close(ends[0]);

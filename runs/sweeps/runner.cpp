@@ -288,6 +288,7 @@ std::string identity(scene::Scene scene) {
 std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
                                      const OutcomesChanged& changed) {
   requireNoRun(options.folder);
+  support::firstGpuOf(0); // throws before anything of earlier runs is taken away
   for (const SweepRun& run : plan.runs) {
     if (!options.force) checkRunFolder(options.folder / run.name);
     if (run.scene.run.device == support::DeviceChoice::cuda && !base::cudaAvailable())

@@ -203,8 +203,11 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelWhereContactsYield) {
                   .smallest = bits & 1 ? 0.6 : 1,
                   .cohesive = (bits & 8) != 0,
                   .yielding = true};
-    kind.pull = bits % 4 == 3 ? 0 : 40, kind.pullGrowth = bits % 4 == 2 ? 4e3 : 0;
+    kind.pull = bits % 4 == 1 ? 0 : 40, kind.pullGrowth = bits % 4 == 3 ? 4e3 : 0;
     const auto expected = wordsAfter(kind, 1, 1, kSteps);
+    LaneKind loose = kind;
+    loose.pull = loose.pullGrowth = 0;
+    EXPECT_TRUE(bits % 4 == 1 || wordsAfter(loose, 1, 1, kSteps) != expected) << "no contact has pulled, kind " << bits;
     for (const int lanes : {4, 8, 16})
       EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, kind " << bits;
     EXPECT_TRUE(wordsAfter(kind, 16, 2, kSteps, 0.2) == expected) << "two threads, more rebuilds, kind " << bits;
@@ -233,8 +236,9 @@ TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
 /// One among many that are six times smaller has more neighbours than a word has bits; one of twelve times more than a
 /// block of contacts holds.
 TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
-  for (const double times : {6.0, 12.0}) {
-    GrainModel m = laneModel({.rolling = true, .smallest = 0.5});
+  for (const auto& [times, yields] :
+       {std::pair{6.0, false}, std::pair{12.0, false}, std::pair{6.0, true}, std::pair{12.0, true}}) {
+    GrainModel m = laneModel({.hertz = yields, .rolling = true, .smallest = 0.5, .yielding = yields});
     const double small = m.radius / times;
     m.skin = 1.5, m.timeStep = times > 6 ? 5e-7 : 1.5e-6, m.smallestRadius = small;
     std::vector<GrainSpec> start{{{0, 0, 0}, {0, 0, -1}, {10, 20, 30}, m.radius}};

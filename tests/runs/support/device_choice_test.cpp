@@ -39,14 +39,14 @@ TEST_F(FirstGpu, RanksTakeThemInTurnFromTheFirstOn) {
   EXPECT_EQ(gpuOf(0, 4), 3);
   EXPECT_EQ(gpuOf(1, 4), 0);
   EXPECT_EQ(gpuOf(0, 1), 0) << "a machine that has one";
-  setenv(kFirstGpu, "2147483647", 1);
+  setenv(kFirstGpu, "1048575", 1);
   EXPECT_EQ(gpuOf(3, 2), 0);
   setenv(kFirstGpu, "", 1);
   EXPECT_EQ(gpuOf(1, 2), 1);
 }
 
 TEST_F(FirstGpu, ThatIsNoNumberIsRefusedByName) {
-  for (const char* wrong : {"-1", "1.5", "gpu", "0x1", " 1", "99999999999"}) {
+  for (const char* wrong : {"-1", "1.5", "gpu", "0x1", " 1", "1048577", "99999999999"}) {
     setenv(kFirstGpu, wrong, 1);
     try {
       gpuOf(0, 2);
