@@ -90,7 +90,7 @@ template <SimdVector V> struct NumberTraits<V> {
   using Scalar = std::remove_cvref_t<decltype(V{}[0])>;
   GROUSER_SIMD static V broadcast(Scalar x) { return x - V{}; }
   GROUSER_SIMD static V squareRoot(const V& x) {
-    V r;
+    V r = x; // begun with something: at -O1 the compiler does not see that all lanes are set
 #pragma GCC unroll 16
     for (int l = 0; l < kWidthOf<V>; ++l) r[l] = std::sqrt(x[l]);
     return r;
