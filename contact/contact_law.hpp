@@ -5,7 +5,6 @@
 #include "contact/plastic_law.hpp"
 
 #include <cmath>
-#include <type_traits>
 
 namespace grouser::contact {
 
