@@ -87,6 +87,36 @@ template <class T> GROUSER_HD T steepness(const BasicPlasticity<T>& p, T deepest
   return T(1) + (most - T(1)) * (part < T(1) ? part : T(1));
 }
 
+/// EEPA: what yields on the first loading to this overlap [J], from where the steep line of `origin` meets the elastic
+/// law. With SIMD numbers, of as many contacts.
+template <class T> GROUSER_HD T yieldedSince(const BasicPlasticity<base::ScalarOf<T>>& p,
+                                             const BasicElasticSpring<T>& spring, T overlap, T elastic, T origin) {
+  const T start = origin / p.share; // elastic force there
+  return p.lossShare * overlap * (elastic - start * spring.overlapRatio(start / elastic));
+}
+
+/// EEPA: pull-off force P over sqrt(x_m R_eff) [N/m]; not above 0: nothing pulls.
+template <class T> GROUSER_HD T pullPerRoot(const BasicPlasticity<base::ScalarOf<T>>& p, T effectiveRadius) {
+  return p.pull + p.pullGrowth * effectiveRadius;
+}
+
+/// EEPA: the pull-off force after a greatest overlap, and where the steep line meets it.
+template <class T> struct PullOff {
+  T force; ///< P [N]
+  T turn;  ///< elastic force at x_min [N]
+};
+
+/// `perRoot`: pullPerRoot(), > 0. With SIMD numbers, of as many contacts.
+template <class T> GROUSER_HD PullOff<T> pullOff(const BasicPlasticity<base::ScalarOf<T>>& p,
+                                                 const BasicElasticSpring<T>& spring, base::ScalarOf<T> steep,
+                                                 T perRoot, T deepest) {
+  const T origin = p.share * spring.force(deepest); // before any pull
+  const T half = base::ScalarOf<T>(0.5) * steep * origin;
+  const T pull = perRoot * base::squareRoot(deepest * spring.effectiveRadius);
+  const T most = pull < half ? pull : half;
+  return {most, origin - most / steep};
+}
+
 /// The adhesive branch of a contact at an overlap.
 template <class T> struct AdhesiveBranch {
   T pull;  ///< a(x) before, P beyond the place where the steep line meets it [N], >= 0
@@ -100,13 +130,9 @@ template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasti
     const T most = steep * state.origin / (steep + p.adhesion);
     return {p.adhesion * (elastic < most ? elastic : most), T(1)};
   }
-  const T pullPerRoot = p.pull + p.pullGrowth * spring.effectiveRadius;
-  if (pullPerRoot <= 0) return {T(0), T(1)};
-  const T origin = p.share * spring.force(state.deepest); // before any pull
-  const T half = T(0.5) * steep * origin;
-  const T pull = pullPerRoot * base::squareRoot(state.deepest * spring.effectiveRadius);
-  const T most = pull < half ? pull : half;
-  const T turn = origin - most / steep; // elastic force at x_min
+  const T perRoot = pullPerRoot(p, spring.effectiveRadius);
+  if (perRoot <= 0) return {T(0), T(1)};
+  const auto [most, turn] = pullOff(p, spring, steep, perRoot, state.deepest);
   if (elastic >= turn) return {most, T(0)};
   // (x / x_min)^chi by the root of the ratio of forces that is the root of x / x_min.
   const T ratio = elastic / turn;
@@ -125,8 +151,7 @@ template <class T> GROUSER_HD T yieldedByLoading(const BasicPlasticity<T>& p, co
     return T(0.5) *
            (elastic * overlap * (T(1) - T(1) / steep) - spring.force(from) * from * (T(1) - T(1) / steepBefore));
   }
-  const T start = before.origin / p.share; // elastic force there
-  return p.lossShare * overlap * (elastic - start * spring.overlapRatio(start / elastic));
+  return yieldedSince(p, spring, overlap, elastic, before.origin);
 }
 
 /// Luding: the greatest overlap from which a contact comes to -k_c x at this one.

@@ -22,20 +22,16 @@ GROUSER_SIMD BasicPlasticForce<T> plasticForce(const BasicPlasticity<base::Scala
   const T elastic = spring.force(overlap), line = steep * (elastic - before.origin), zero{};
   const auto loads = line >= elastic;
   T yielded{};
-  if (base::any(loads)) { // detail::yieldedByLoading()
-    const T start = before.origin / p.share;
-    yielded = p.lossShare * overlap * (elastic - start * spring.overlapRatio(start / elastic));
-    yielded = loads ? yielded : zero;
+  if (base::any(loads)) {
+    yielded = loads ? detail::yieldedSince(p, spring, overlap, elastic, before.origin) : zero;
     state.deepest = loads ? overlap : before.deepest;
     state.origin = loads ? p.share * elastic : before.origin;
   }
-  // detail::adhesiveBranch(), where the pull has its full size.
-  const T perRoot = p.pull + p.pullGrowth * spring.effectiveRadius;
-  const T origin = p.share * spring.force(state.deepest), half = Scalar(0.5) * steep * origin;
-  const T full = perRoot * base::squareRoot(state.deepest * spring.effectiveRadius);
-  const T pull = perRoot > zero ? (full < half ? full : half) : zero;
+  const T perRoot = detail::pullPerRoot(p, spring.effectiveRadius);
+  const detail::PullOff<T> off = detail::pullOff(p, spring, steep, perRoot, state.deepest);
+  const T pull = perRoot > zero ? off.force : zero;
   BasicPlasticForce<T> bent{loads ? elastic : line, pull, yielded};
-  const auto turned = (perRoot > zero) & (elastic < origin - pull / steep);
+  const auto turned = (perRoot > zero) & (elastic < off.turn);
   unsigned alone = base::laneBits(turned | (line < -pull)) & ~base::laneBits(loads);
   for (; alone != 0; alone &= alone - 1) {
     const int l = __builtin_ctz(alone);
