@@ -49,17 +49,19 @@ using BoundaryKernels =
                kFriction | kManyRadii | kFloor, kFriction | kRollingFriction | kManyRadii,
                kFriction | kRollingFriction | kManyRadii | kFloor, kSoilWalls, kSoilWalls | kFloor,
                kSoilWalls | kSurfaces, kSoilWalls | kCohesion, kSoilWalls | kCohesion | kFloor,
-               kSoilWalls | kCohesion | kSurfaces>;
+               kSoilWalls | kCohesion | kSurfaces, kSoilWalls | kCohesion | kPlastic,
+               kSoilWalls | kCohesion | kPlastic | kFloor, kSoilWalls | kCohesion | kPlastic | kSurfaces>;
 
 /// Features that the kernel of walls and floor depends on.
 constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
                                    kManyMaterials | kSurfaces | kFloor | kGeneral;
 
-/// Elastic-plastic soils under a vehicle.
-constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction;
+/// Elastic-plastic soils under a vehicle; those that stick are of Hertz' law.
+constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction, kEepa = kYielding | kHertz | kCohesion;
 using PlasticKernels =
     KernelList<kYielding, kYielding | kFixed, kYielding | kLoads, kYielding | kFixed | kLoads, kYielding | kHertz,
-               kYielding | kHertz | kFixed, kYielding | kHertz | kLoads, kYielding | kHertz | kFixed | kLoads>;
+               kYielding | kHertz | kFixed, kYielding | kHertz | kLoads, kYielding | kHertz | kFixed | kLoads, kEepa,
+               kEepa | kFixed, kEepa | kLoads, kEepa | kFixed | kLoads>;
 
 /// Soils of Hertz' law that stick, under a vehicle.
 constexpr unsigned kSoil = kBed | kHertz | kManyRadii, kSticky = kSoil | kCohesion;
@@ -73,9 +75,10 @@ constexpr unsigned kSheared = (kSoil & ~kBoundaries) | kPeriodic | kLoads, kSett
                    kPressed = kSettling | kSurfaces, kSlipping = kRollingFriction | kPlastic;
 using BevameterKernels =
     KernelList<kSheared, kSheared | kRollingFriction, kSheared | kCohesion, kSheared | kCohesion | kRollingFriction,
-               kSheared | kSlipping, kSettling, kSettling | kRollingFriction, kSettling | kCohesion,
-               kSettling | kCohesion | kRollingFriction, kSettling | kSlipping, kPressed, kPressed | kRollingFriction,
-               kPressed | kCohesion, kPressed | kCohesion | kRollingFriction, kPressed | kSlipping>;
+               kSheared | kSlipping, kSheared | kSlipping | kCohesion, kSettling, kSettling | kRollingFriction,
+               kSettling | kCohesion, kSettling | kCohesion | kRollingFriction, kSettling | kSlipping, kPressed,
+               kPressed | kRollingFriction, kPressed | kCohesion, kPressed | kCohesion | kRollingFriction,
+               kPressed | kSlipping, kPressed | kSlipping | kCohesion>;
 
 template <unsigned... kSets> bool listed(KernelList<kSets...>, unsigned features) {
   return ((features == kSets) || ...);

@@ -148,6 +148,9 @@ TEST(SoilPlan, FullCareIsWhatASoilNeeds) {
   EXPECT_GE(plan.small.strip.bin, 5);
   EXPECT_GE(plan.small.strip.depth, 2);
   EXPECT_EQ(plan.wide.strip.bin, 2 * plan.small.strip.bin);
+  PlanOptions narrow;
+  narrow.wide = false;
+  EXPECT_EQ(planOf(sand(true), narrow).tests.size(), plan.tests.size() - 8);
   EXPECT_LE(plan.small.strip.inertialNumber, 1.8e-3);
   EXPECT_LT(plan.options.loads.front(), kTrackPressure);
   EXPECT_GT(plan.options.loads.back(), kTrackPressure);
