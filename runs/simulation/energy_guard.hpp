@@ -50,6 +50,10 @@ public:
   /// kBreath of the most that they have held above or below what they began with.
   static constexpr double kMostHidden = 0.25, kBreath = 0.01;
 
+  /// Of the energy that bodies and contacts hold, and of m g radius of all grains [-], that steps may have made since
+  /// the start where next to nothing has been dissipated yet: steps that are too long make that in no time.
+  static constexpr double kAtTheStart = 1e-4;
+
   /// Share that is rounding [-] of the energy that bodies and contacts hold, and of m g radius of all grains: places
   /// have a resolution of 1e-8 of a diameter.
   static constexpr double kRounding = 1e-6;

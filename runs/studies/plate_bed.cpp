@@ -114,11 +114,9 @@ PreparedBed rainBed(const Soil& soil, const BedPreparation& bed, std::int64_t se
     simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "rain.toml")), exec,
                                       [](double, double) {});
     const bool last = k + 1 == lifts.size();
-    const double rest = (last ? kRestOfPlates : kLiftRest) * weightTimesRadius(soil, made.grains);
-    if (!comeToRest(simulation, rest, kBedPatience))
-      throw base::InputError(fmt::format("the bed of seed {} did not come to rest within {:.1f} s; give it less "
-                                         "rolling friction or more preparation friction",
-                                         seed, kBedPatience));
+    const double rest = last ? kRestOfPlates : kLiftRest;
+    if (const double left = comeToRest(simulation, rest * weightTimesRadius(soil, made.grains), kBedPatience); left > 1)
+      failRestless(seed, kBedPatience, rest * left);
     made.grains = grainsOf(simulation, bed.size);
     made.grains.erase(made.grains.begin(), made.grains.begin() + static_cast<std::ptrdiff_t>(floor.size()));
     made.steps += simulation.steps();

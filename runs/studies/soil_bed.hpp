@@ -62,8 +62,11 @@ BedGrains readBed(const std::filesystem::path& file);
 /// The grains of a run as they are now, back between their periodic boundaries of `size`.
 BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size);
 
-/// Steps until the kinetic energy of all grains is below `energy` [J] for a while; false where `limit` [s] pass.
-bool comeToRest(simulation::Simulation& simulation, double energy, double limit);
+/// Steps until the kinetic energy of all grains is below `energy` [J] for a while, or `limit` [s] have passed. Returns
+/// the energy at the end over `energy`: below 1 at rest [-].
+double comeToRest(simulation::Simulation& simulation, double energy, double limit);
+/// Of a bed that goes on moving after `limit` [s] with `energy` over m g r [-]: Throws SimulationError.
+[[noreturn]] void failRestless(std::int64_t seed, double limit, double energy);
 
 /// Volume of the grains between two heights over the volume there [-].
 double solidFraction(const BedGrains& grains, const BedSize& size, double low, double high);
