@@ -25,10 +25,10 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kFloorScatter = 0.15;  // of the heights of a rough floor's grains [mean diameters]
-constexpr double kCloud = 0.22;         // solid fraction of the cloud that a bed is poured from
-constexpr double kPoured = 0.59;        // expected of the bed, for the number of grains only
-constexpr double kAgitation = 1e-5;     // of m g r: a bed at rest
+constexpr double kFloorScatter = 0.15; // of the heights of a rough floor's grains [mean diameters]
+constexpr double kCloud = 0.22;        // solid fraction of the cloud that a bed is poured from
+constexpr double kPoured = 0.59;       // expected of the bed, for the number of grains only
+constexpr double kAgitation = 1e-5;    // of m g r: a bed at rest
 /// The same of one that has had all its time: a grain or two tremble on. Beds of plates rest with as much.
 constexpr double kLastAgitation = 1e-4;
 constexpr double kSettlingPatience = 6; // [s] for a bed of 0.25 m; deeper ones take longer as the root of the depth
