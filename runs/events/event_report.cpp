@@ -87,6 +87,9 @@ std::string limitText(const EventLimit& limit) {
 } // namespace
 
 std::string EventRow::why() const {
+  if (event == Event::drawbar && gos > 1 && gos == runs)
+    for (const FigureOverSeeds& f : figures)
+      if (f.name == kPull) return fmt::format("pulls {:.3g} kN in the mean", f.estimate.value / 1000);
   for (const char* verdict : {"no-go", "go", "failed"})
     for (const RunVerdict& r : each)
       if (r.verdict == verdict) return r.why;

@@ -40,7 +40,8 @@ struct EventRow {
   std::vector<FigureOverSeeds> figures;
   std::string picture; ///< of the first run, from the folder; empty where there is none
 
-  /// Of the first run that is no go, since that decides; else of the first that has ended.
+  /// Of the first run that is no go, since that decides; else of the first that has ended, and of drawbar pulls their
+  /// mean.
   std::string why() const;
 };
 
