@@ -56,7 +56,7 @@ using BoundaryKernels =
 constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
                                    kManyMaterials | kSurfaces | kFloor | kGeneral;
 
-/// Elastic-plastic soils under a vehicle; those that stick are of Hertz' law.
+/// Elastic-plastic soils under a vehicle; those of a constant pull besides (`cohesion`) are of Hertz' law.
 constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction, kEepa = kYielding | kHertz | kCohesion;
 using PlasticKernels =
     KernelList<kYielding, kYielding | kFixed, kYielding | kLoads, kYielding | kFixed | kLoads, kYielding | kHertz,

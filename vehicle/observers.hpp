@@ -3,6 +3,7 @@
 
 #include "multibody/state.hpp"
 #include "vehicle/assembly.hpp"
+#include "vehicle/blow_meter.hpp"
 #include "vehicle/travel.hpp"
 
 #include <functional>
@@ -63,6 +64,7 @@ struct Observation {
   double drawbarPull = 0;      ///< of the vehicle on its hitch; where it has none, netThrust: m a [N]
   double motionResistance = 0; ///< grossTraction - netThrust [N]
   std::vector<TrackObservation> tracks;
+  BlowMeter blows;   ///< of the whole run, where who steps the vehicle has one
   std::string alarm; ///< thrown or skipped track, in words; empty while all is well
 };
 

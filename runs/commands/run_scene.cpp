@@ -347,6 +347,9 @@ void describeDrive(const simulation::Simulation& simulation, output::RunWriter& 
     fmt::print("ended     at {:.6g} s by {}\n", simulation.time(), end);
     writer.fact("ended_by", end);
   }
+  const vehicle::BlowMeter blows = simulation.vehicle()->observe().blows;
+  summary.figures["ground_force_most_over_weight"] = blows.most;
+  if (blows.isBlow()) fmt::print("blows     {}\n", blows.text());
 }
 
 /// Share of weight x time that crushing may cut off before its loads say little [-].

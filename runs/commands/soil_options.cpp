@@ -76,7 +76,7 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
            "of the sheared layer, at least ten grains [m]");
   soil.add_flag("!--no-wide", keys.wide(),
-                "leave out the small plate on beds of twice the width, which take two fifths of the time");
+                "leave out the small plate on beds of twice the width; --calibrate does so anyhow");
 }
 
 void doSoil(const bevameter::SoilCommand& c, const std::string& targets, const std::string& words) {

@@ -128,7 +128,9 @@ constexpr Meaning kMeanings[] = {
     {"vehicle/mean_steps", "-", "that those sums are over"},
     {"vehicle/alarm_forces", "-", "the same since the track was judged last"},
     {"vehicle/alarm_steps", "-", "that those sums are over"},
-    {"vehicle/judged", "-", "growth of swings across the pull in the track: a step, and in all"},
+    {"vehicle/judged", "-, -, -, s, s, N s, s",
+     "growth of swings across the pull in the track: a step, and in all; blows: ground force over the weight at most, "
+     "when, and of the mean under way until when, impulse, time"},
     {"vehicle/impulse_on_parts", "-", "of the ground since the start, in units of force and steps"},
     {"vehicle/angular_on_parts", "N m s", "the same about the world's origin"},
 };

@@ -61,7 +61,8 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
   const double all = now.dissipated.total() - std::min(0.0, now.dissipated.ofGrains()), made = -now.integrationError;
   const double bed = std::max(mostInGrains_, std::fabs(now.grainElastic));
   const double hidden = std::clamp(kMostHidden * now.dissipated.parts, kBreath * bed, kSpringShare * bed);
-  if (made > kAtTheStart * held && made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
+  if (std::max(all, made) <= kAtTheStart * held) return {};
+  if (made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }

@@ -51,7 +51,7 @@ public:
   static constexpr double kMostHidden = 0.25, kBreath = 0.01;
 
   /// Of the energy that bodies and contacts hold, and of m g radius of all grains [-], that steps may have made since
-  /// the start where next to nothing has been dissipated yet: steps that are too long make that in no time.
+  /// the start as long as less than that has been dissipated.
   static constexpr double kAtTheStart = 1e-4;
 
   /// Share that is rounding [-] of the energy that bodies and contacts hold, and of m g radius of all grains: places

@@ -106,7 +106,8 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
       observer_(std::make_unique<vehicle::Observer>(assembly_,
-                                                    vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone})) {
+                                                    vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone})),
+      blows_(assembly_.mass * norm(gravity_)) {
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
                                                 setup.vehicle->soilMeetsShoesAlone, kept);
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
@@ -156,6 +157,7 @@ vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
 vehicle::Observation VehicleRig::observe() const {
   vehicle::Observation seen = observer_->observe(state_, groundLoads(rowMeans_), surfaceHeight_);
   if (towing_) seen.drawbarPull = towing_->observe().pull;
+  seen.blows = blows_;
   return seen;
 }
 
@@ -258,6 +260,9 @@ std::string VehicleRig::alarm(std::int64_t step) {
   if (alarm.empty()) alarm = judgeTurns();
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
   if (alarm.empty()) alarm = judgeRest();
+  double up = 0;
+  for (const Vec3d& force : groundLoads(alarmMeans_).force) up += force.z;
+  blows_.add(state_.time, up);
   alarmMeans_.restart();
   stalledSteps_ = stalls() ? stalledSteps_ + kAlarmInterval : 0;
   ended_ = judgeEnd();
@@ -292,13 +297,16 @@ VehicleState VehicleRig::save() const {
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
   s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
   s.judged = swings_.save();
+  const std::vector<double> blows = blows_.save();
+  s.judged.insert(s.judged.end(), blows.begin(), blows.end());
   s.stalledSteps = stalledSteps_;
   return s;
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  const std::size_t most = parts_->contactParts() + contacts_->surfaces();
-  if (s.groundForces.size() > most || s.alarmForces.size() > most || s.judged.size() != swings_.save().size())
+  const std::size_t most = parts_->contactParts() + contacts_->surfaces(), swings = swings_.save().size();
+  if (s.groundForces.size() > most || s.alarmForces.size() > most ||
+      (s.judged.size() != swings && s.judged.size() != swings + vehicle::BlowMeter::kNumbers))
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
   state_.restore(s.bodies);
   observer_->restore(s.observers);
@@ -309,6 +317,8 @@ void VehicleRig::restore(const VehicleState& s) {
   alarmMeans_ = {s.alarmForces, s.alarmSteps};
   swings_.restore(s.judged[0], s.judged[1]);
   stalledSteps_ = s.stalledSteps;
+  if (s.judged.size() > swings) // older ones do not know of blows
+    blows_.restore({s.judged.begin() + static_cast<std::ptrdiff_t>(swings), s.judged.end()});
   if (std::llround(state_.time / timeStep_) % kAlarmInterval == 0) ended_ = judgeEnd();
 }
 

@@ -111,6 +111,7 @@ private:
   vehicle::Driver driver_;
   std::optional<Towing> towing_;
   std::unique_ptr<vehicle::Observer> observer_;
+  vehicle::BlowMeter blows_;
   std::unique_ptr<VehicleContacts> contacts_;
   ForceMeans rowMeans_, alarmMeans_;
   SwingGrowth swings_;          ///< of track and arms

@@ -30,7 +30,7 @@ struct VehicleState {
   std::int64_t meanSteps{};              ///< of that sum
   std::vector<base::Vec3l> alarmForces;  ///< by part and surface, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
-  std::vector<double> judged;            ///< SwingGrowth::save()
+  std::vector<double> judged;            ///< SwingGrowth::save(), vehicle::BlowMeter::save()
   std::vector<double> hitchBooks;        ///< Towing::books()
   std::int64_t stalledSteps{};           ///< for which driven tracks have not moved the hull
   base::Vec3l impulseOnParts;            ///< since the start, over the time step

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/plate_bed.hpp"
 
-#include "base/error.hpp"
 #include "base/sphere.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -115,7 +114,8 @@ PreparedBed rainBed(const Soil& soil, const BedPreparation& bed, std::int64_t se
                                       [](double, double) {});
     const bool last = k + 1 == lifts.size();
     const double rest = last ? kRestOfPlates : kLiftRest;
-    if (const double left = comeToRest(simulation, rest * weightTimesRadius(soil, made.grains), kBedPatience); left > 1)
+    if (const double left = comeToRest(simulation, rest * weightTimesRadius(soil, made.grains), kBedPatience);
+        !(left < 1))
       failRestless(seed, kBedPatience, rest * left);
     made.grains = grainsOf(simulation, bed.size);
     made.grains.erase(made.grains.begin(), made.grains.begin() + static_cast<std::ptrdiff_t>(floor.size()));

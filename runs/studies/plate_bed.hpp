@@ -41,7 +41,7 @@ std::string floorSections(const Soil& soil, const BedPreparation& bed, std::int6
 std::vector<double> liftTops(const BedPreparation& bed);
 
 /// Lays the bed and lets it come to rest: with the soil's preparation friction, each lift before the next is rained
-/// upon it. `tell` hears about it. Throws InputError where it does not come to rest.
+/// upon it. `tell` hears about it. Throws SimulationError where it does not come to rest.
 PreparedBed prepareBed(const Soil& soil, const BedPreparation& bed, std::int64_t seed,
                        const std::filesystem::path& folder, const base::Exec& exec,
                        const std::function<void(const std::string&)>& tell);

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <system_error>
@@ -33,7 +34,7 @@ constexpr double kAgitation = 1e-5;    // of m g r: a bed at rest
 constexpr double kLastAgitation = 1e-4;
 constexpr double kSettlingPatience = 6; // [s] for a bed of 0.25 m; deeper ones take longer as the root of the depth
 constexpr double kLook = 0.02;          // [s] between looks at the agitation
-constexpr int kCalmLooks = 3;
+constexpr std::size_t kCalmLooks = 3;
 
 /// Within [0, length).
 double wrapped(double x, double length) {
@@ -112,7 +113,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
   const terrain::Grains& grains = *simulation.ground().grains;
   const terrain::GrainModel& model = grains.model();
   const double unit = model.mass * norm(model.gravity) * model.radius * static_cast<double>(grains.count());
-  if (const double left = kAgitation * comeToRest(simulation, kAgitation * unit, limit); left > kLastAgitation)
+  if (const double left = kAgitation * comeToRest(simulation, kAgitation * unit, limit); !(left <= kLastAgitation))
     failRestless(seed, limit, left);
   if (file.empty()) return grainsOf(simulation, size);
   // Read back as the next one will. Of calls at the same time each writes its own, and all are the same.
@@ -188,15 +189,16 @@ double comeToRest(simulation::Simulation& simulation, double energy, double limi
   terrain::Grains& grains = *simulation.ground().grains;
   const auto every = std::max<std::int64_t>(1, std::llround(kLook / simulation.timeStep()));
   const double start = simulation.time();
-  double now = 0;
-  for (int calm = 0; calm < kCalmLooks && simulation.time() - start < limit;) {
+  std::array<double, kCalmLooks> last;
+  last.fill(INFINITY);
+  const auto most = [&last] { return *std::max_element(last.begin(), last.end()); };
+  for (std::size_t look = 0; !(most() < 1) && simulation.time() - start < limit; ++look) {
     stopStudyIfAsked();
     for (std::int64_t left = every; left > 0;) left -= simulation.advance(left);
     const terrain::GrainLedger ledger = grains.ledger();
-    now = (ledger.kinetic + ledger.rotational) / energy;
-    calm = now < 1 ? calm + 1 : 0;
+    last[look % kCalmLooks] = (ledger.kinetic + ledger.rotational) / energy;
   }
-  return now;
+  return most();
 }
 
 double solidFraction(const BedGrains& grains, const BedSize& size, double low, double high) {

@@ -43,7 +43,7 @@ struct BedSize {
 
 /// Pours a bed from a cloud upon `below` (sections of a scene that bear it at about z = 0) and lets it come to rest.
 /// `folder`: where `below` looks for its files. `kept`: a folder where what was poured stays for the next call of the
-/// very same scene; empty: none does. Throws InputError where it does not come to rest.
+/// very same scene; empty: none does. Throws SimulationError where it does not come to rest.
 BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& below, std::int64_t seed,
                   const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept = {});
 /// Takes away what pourBed has kept there.
@@ -63,7 +63,7 @@ BedGrains readBed(const std::filesystem::path& file);
 BedGrains grainsOf(const simulation::Simulation& simulation, const BedSize& size);
 
 /// Steps until the kinetic energy of all grains is below `energy` [J] for a while, or `limit` [s] have passed. Returns
-/// the energy at the end over `energy`: below 1 at rest [-].
+/// the greatest energy of the last looks over `energy`: below 1 at rest [-].
 double comeToRest(simulation::Simulation& simulation, double energy, double limit);
 /// Of a bed that goes on moving after `limit` [s] with `energy` over m g r [-]: Throws SimulationError.
 [[noreturn]] void failRestless(std::int64_t seed, double limit, double energy);

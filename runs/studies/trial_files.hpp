@@ -16,7 +16,7 @@ struct FigureColumn {
   const char* name;
   double MapFigures::*value;
 };
-inline constexpr std::array<FigureColumn, 13> kTrialFigures{{{"speed [m/s]", &MapFigures::speed},
+inline constexpr std::array<FigureColumn, 14> kTrialFigures{{{"speed [m/s]", &MapFigures::speed},
                                                              {"height [m]", &MapFigures::height},
                                                              {"lowest height [m]", &MapFigures::lowest},
                                                              {"pitch [rad]", &MapFigures::pitch},
@@ -28,7 +28,8 @@ inline constexpr std::array<FigureColumn, 13> kTrialFigures{{{"speed [m/s]", &Ma
                                                              {"turnover [J]", &MapFigures::turnover},
                                                              {"left over [-]", &MapFigures::leftOver},
                                                              {"speed magnitude [m/s]", &MapFigures::speedMagnitude},
-                                                             {"power magnitude [W]", &MapFigures::powerMagnitude}}};
+                                                             {"power magnitude [W]", &MapFigures::powerMagnitude},
+                                                             {"blow [weights]", &MapFigures::blow}}};
 
 /// The runs of one point or vehicle, kept as numbers with their messages beside them.
 void keepTrials(Pieces& pieces, const std::string& name, const std::vector<VehicleTrial>& trials);

@@ -69,7 +69,7 @@ std::string vehicleMapsTable(const std::vector<JudgedPoint>& points) {
     text += fmt::format("\n  {:<10} {:>7}{}", name.empty() ? "all" : name, all, counts);
   }
   text += "\n";
-  for (const MapVerdict verdict : {MapVerdict::stopped, MapVerdict::refused, MapVerdict::scatters,
+  for (const MapVerdict verdict : {MapVerdict::stopped, MapVerdict::refused, MapVerdict::scatters, MapVerdict::warned,
                                    MapVerdict::wrongCause, MapVerdict::silentlyWrong})
     for (const JudgedPoint& p : points)
       if (p.judgement.verdict == verdict)

@@ -95,7 +95,7 @@ public:
   }
 
 private:
-  MapFigures sums_{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  MapFigures sums_{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   double samples_ = 0, sunken_ = 0, pull_ = 0, steps_ = 0;
 };
 
@@ -116,6 +116,7 @@ void drive(simulation::Simulation& run, const VehicleCase& what, VehicleTrial& t
     f.dissipated = ledger.dissipated.total(), f.integrationError = ledger.integrationError,
     f.turnover = ledger.turnover;
     f.leftOver = ledger.turnover > 0 ? ledger.residual / ledger.turnover : 0;
+    f.blow = run.vehicle()->observe().blows.most;
     if (run.steps() > begin) f.power = (ledger.driveWork - workBefore) / (run.time() - began);
   };
   try {

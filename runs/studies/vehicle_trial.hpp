@@ -43,6 +43,7 @@ struct MapFigures {
   double leftOver = NAN;         ///< of the books of the whole run over the turnover [-]: rounding
   double speedMagnitude = NAN;   ///< mean of |speed|: more where it turns back within the window [m/s]
   double powerMagnitude = NAN;   ///< mean of the drives' |power|: more where they brake and drive in it [W]
+  double blow = NAN;             ///< greatest of the whole run, as a run warns of [weights]
 };
 
 enum class TrialEnd { sound, stopped, refused };

@@ -3,6 +3,7 @@
 
 #include "runs/studies/common.hpp"
 #include "runs/studies/estimate.hpp"
+#include "vehicle/blow_meter.hpp"
 
 #include <fmt/format.h>
 
@@ -189,7 +190,8 @@ Judgement judge(const std::vector<TrialPair>& pairs, bool onBed) {
   for (const ComparedFigure& c : comparedFigures(onBed)) {
     if (!std::isfinite(first.run.figures.*c.value)) continue; // not to be had in this scene
     if (std::string wrong = errorOfStep(c, scatterOf(c, pairs)); !wrong.empty())
-      return {MapVerdict::silentlyWrong, wrong};
+      return {first.run.figures.blow > vehicle::BlowMeter::kBlow ? MapVerdict::warned : MapVerdict::silentlyWrong,
+              wrong};
   }
   return {MapVerdict::scatters, fmt::format("{}; no more than the scatter of neighbouring steps", alone.why)};
 }

@@ -17,10 +17,11 @@ enum class MapVerdict {
   wrongCause,    ///< by a guard, for a cause that the finer run does not show
   silentlyWrong, ///< ends as if sound, and the finer run says otherwise
   scatters,      ///< figures differ, and no more than those of runs at neighbouring steps do: a chaotic motion
+  warned,        ///< ends with a warning of blows, and figures differ by more than that
   refused        ///< before the run
 };
-inline constexpr std::array<const char*, 6> kVerdictWords{"sound",          "stopped",  "wrong cause",
-                                                          "silently wrong", "scatters", "refused"};
+inline constexpr std::array<const char*, 7> kVerdictWords{"sound",    "stopped", "wrong cause", "silently wrong",
+                                                          "scatters", "warned",  "refused"};
 
 struct Judgement {
   MapVerdict verdict = MapVerdict::sound;
@@ -73,7 +74,7 @@ inline constexpr double kFisher95 = 6.388;
 /// is not sound; where the means of a figure over the neighbours differ by more than it may and by more than Welch's 95
 /// % interval of their difference; or where it scatters more widely at the steps than at the quarters, by Fisher's
 /// test, and more than it may differ. Else it scatters. The first pair is not counted: it is looked into for lying
-/// apart.
+/// apart. Warned instead of silently wrong where all are sound and the run warns of blows (vehicle::BlowMeter).
 Judgement judge(const std::vector<TrialPair>& pairs, bool onBed);
 
 /// A line a compared figure: mean and standard deviation at the neighbouring steps, the same at their quarters, the

@@ -37,7 +37,7 @@ MAX_PROSE_COLUMNS = 120
 
 SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
 SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and what begins with #!
-OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html'}
+OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html', '.mp4'}
 TOPS = [*LIBRARIES, 'runs', 'tests', 'docs', 'cmake', 'python']
 # Beside the tops a checkout may hold results, but nothing that one would compile or run.
 STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp', '.tpp', '.cl', '.hip', '.f90', '.rs'}

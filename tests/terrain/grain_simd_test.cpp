@@ -118,7 +118,8 @@ std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threa
   std::vector<Wall> walls;
   if (kind.walls && !kind.fixed) walls = {{{0, 0, 1}, 0, wall}};
   if (kind.walls && !kind.periodic) walls.insert(walls.end(), {{{1, 0, 0}, -0.01, wall}, {{0, -1, 0}, -0.085, wall}});
-  if (kind.onDevice) walls = {{{0, 0, 1}, -0.02, wall}};
+  // With a vehicle or without, they fall to the plane; between periodic boundaries it lies below the fixed grains.
+  if (kind.onDevice) walls = {{{0, 0, 1}, kind.periodic ? -0.02 : -0.001, wall}};
   Boundaries around{walls, {}};
   if (kind.periodic) around.periodic = {std::array{-0.005, 0.0685}, std::array{-0.006, 0.0685}};
   if (kind.surface) around.surfaces.push_back({boxOf({0.02, 0.02, 0.004}), wall, placed({0.03, 0.03, -0.0035})});
@@ -214,25 +215,30 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelWhereContactsYield) {
   }
 }
 
-/// Kernels of soils that stick, yield, or both, on fixed grains: between periodic boundaries, as a bevameter has them,
-/// and on a plane. On the device under test; a vehicle pushes at grains from the host, which has a CPU's places alone.
+/// Kernels of soils that roll, stick, yield on fixed grains: between periodic boundaries, as a bevameter has them,
+/// alone and under a surface; and upon walls. On the device under test. Under a vehicle, which pushes at grains from
+/// the host, on a CPU alone.
 TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
-  for (int bits = 0; bits < 16; ++bits) {
-    LaneKind kind{.hertz = true,
-                  .rolling = (bits & 2) != 0 || bits % 4 == 0,
-                  .periodic = bits < 8,
-                  .fixed = true,
-                  .surface = bits >= 4 && bits < 8,
-                  .smallest = 0.6,
-                  .cohesive = (bits & 1) != 0,
-                  .yielding = (bits & 2) != 0,
-                  .onDevice = true};
-    if (bits == 3) continue; // beds of soils that yield and stick settle without sticking
-    kind.loads = bits >= 12 && testExec(1).onCpu();
-    const auto special = wordsAfter(kind, 1, 2, kSteps);
-    kind.special = false;
-    EXPECT_TRUE(wordsAfter(kind, 1, 1, kSteps) == special) << "kind " << bits;
-  }
+  enum { settling, pressed, walled, driven };
+  for (const int place : {settling, pressed, walled, driven})
+    for (int bits = 0; bits < 8; ++bits) {
+      LaneKind kind{.hertz = true,
+                    .rolling = (bits & 4) != 0,
+                    .periodic = place == settling || place == pressed,
+                    .fixed = true,
+                    .surface = place == pressed,
+                    .smallest = 0.6,
+                    .cohesive = (bits & 1) != 0,
+                    .yielding = (bits & 2) != 0,
+                    .onDevice = true};
+      kind.loads = place == driven;
+      if (kind.yielding && !kind.rolling) continue;                      // no kernel of its own
+      if (kind.yielding && kind.cohesive && place == settling) continue; // they settle without sticking
+      if (place == driven && !testExec(1).onCpu()) continue;
+      const auto special = wordsAfter(kind, 1, 2, kSteps);
+      kind.special = false;
+      EXPECT_TRUE(wordsAfter(kind, 1, 1, kSteps) == special) << "place " << place << ", kind " << bits;
+    }
 }
 
 /// One among many that are six times smaller has more neighbours than a word has bits; one of twelve times more than a

@@ -34,6 +34,17 @@ const std::string kSmall = std::string(kSmallest) + " --seeds 2 --large-seeds 2"
 
 class SoilCommandTest : public ProgramTest {};
 
+TEST_F(SoilCommandTest, LeavesOutTheWidePlatesWhereAsked) {
+  put(folder_ / "sand.toml", kSand);
+  // Two small plates, eight sheared samples, a large plate, and two plates on wide beds.
+  for (const auto& [words, tests] : {std::pair{"", "0 of 13 tests"}, std::pair{" --no-wide", "0 of 11 tests"}}) {
+    const Outcome o = call(fmt::format("soil sand.toml --out results{} --part 1/2 --seeds 2 --large-seeds 1 --seconds "
+                                       "1e-9 --threads 1 --device cpu --force{}",
+                                       *words ? "_narrow" : "", words));
+    EXPECT_NE((o.out + o.errors).find(tests), std::string::npos) << o.out << o.errors;
+  }
+}
+
 TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   put(folder_ / "sand.toml", kSand);
   const std::string words = "soil sand.toml --out results" + kSmall;

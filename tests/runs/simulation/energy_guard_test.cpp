@@ -178,9 +178,13 @@ TEST(EnergyGuard, WhatIsNothingBesideTheWeightOfABedIsNoAlarm) {
   EXPECT_NE(guard.judge(l, 0).find("made 0.0231 J of the 0.0816 J dissipated since the start"), std::string::npos)
       << guard.judge(l, 0);
   EXPECT_EQ(guard.judge(l, 2800), "");
-  l.integrationError = -0.29;
-  guard.look(l);
-  EXPECT_NE(guard.judge(l, 2800).find("since the start"), std::string::npos) << "steps that make more than that";
+  for (const bool made : {true, false}) {
+    Ledger more = l;
+    more.integrationError = made ? -0.29 : -0.2;
+    if (!made) more.dissipated.parts = 0.25;
+    guard.look(more);
+    EXPECT_NE(guard.judge(more, 2800).find("since the start"), std::string::npos) << "more than 0.28 J";
+  }
 }
 
 /// The same later on: where what grains seem to give were taken from what parts have dissipated, 0.03 J were allowed.

@@ -2,9 +2,12 @@
 // Post-processing of the virtual soil tests against published values and closed forms, and small samples.
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/studies/plates_report.hpp"
 #include "runs/studies/shear_angle.hpp"
+#include "runs/studies/soil_bed.hpp"
 #include "terrain/random_bed.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
@@ -53,6 +56,37 @@ TEST(Bearing, PressureIsTerzaghisSumAndItsAngleIsFoundAgain) {
   // Linear in the sinkage: the mean over a slice is that of its middle.
   EXPECT_NEAR(meanBearing(PlateShape::strip, radians(30), weight, b, 0.02, 0.08),
               bearingPressure(PlateShape::strip, radians(30), weight, b, z), 1e-6);
+}
+
+TEST(StudyBed, RestIsThatOfThreeLooksOrTheTimeIsUp) {
+  // A grain that falls by 20 mm onto a plane, and bounces for ever or hardly once.
+  const auto restOf = [](double restitution, double limit) {
+    const std::string text =
+        fmt::format("version = 1\n[run]\nduration = 9\ntime_step = 5e-5\n[material.ball]\ndensity = 2500\n"
+                    "stiffness = 1e5\nrestitution = {}\n[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = "
+                    "\"ball\"\n[[grain]]\nposition = [0, 0, 0.03]\nradius = 0.01\nmaterial = \"ball\"\n",
+                    restitution);
+    simulation::Simulation run(setup::simulationSetup(setup::parseScene(text, "scene.toml")), base::cpuExec(1),
+                               [](double, double) {});
+    const double m = base::sphereMass(2500, 0.01);
+    const double left = comeToRest(run, 1e-4 * m * 9.81 * 0.01, limit);
+    return std::pair{left, run.time()};
+  };
+  const auto [calm, until] = restOf(0.1, 5);
+  EXPECT_LT(calm, 1);
+  EXPECT_LT(until, 1);
+  const auto [restless, end] = restOf(1, 0.5);
+  EXPECT_GT(restless, 1e3) << "of 2 m g r, at one of three looks";
+  EXPECT_NEAR(end, 0.5, 0.03);
+  EXPECT_GT(restOf(0.1, 0.03).first, 1) << "two looks are not enough";
+  try {
+    failRestless(7, 6.3, 2e-3);
+    FAIL();
+  } catch (const base::SimulationError& e) { // the test alone is left out: exit code 3
+    EXPECT_NE(std::string(e.what()).find("seed 7 did not come to rest within 6.3 s: its grains move on with 0.002"),
+              std::string::npos)
+        << e.what();
+  }
 }
 
 TEST(StudyEstimate, IntervalsAreStudents) {

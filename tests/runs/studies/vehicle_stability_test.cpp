@@ -149,6 +149,15 @@ TEST(VehicleNeighbours, ADifferenceBeyondTheirScatterIsSilentlyWrong) {
       judge(neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {7700, 6900, 7400, 7100, 7600, 7000}), false);
   EXPECT_EQ(judgement.verdict, MapVerdict::silentlyWrong);
   EXPECT_EQ(judgement.why.find("tension is 5320 N in the mean of 5 steps"), 0u) << judgement.why;
+  // The run warns of what the ground has struck it with.
+  std::vector<TrialPair> struck =
+      neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {7700, 6900, 7400, 7100, 7600, 7000});
+  struck[0].run.figures.blow = 3.9;
+  EXPECT_EQ(judge(struck, false).verdict, MapVerdict::silentlyWrong);
+  struck[0].run.figures.blow = 4.1;
+  EXPECT_EQ(judge(struck, false).verdict, MapVerdict::warned);
+  struck[2].finer.figures.leftOver = 1e-6;
+  EXPECT_EQ(judge(struck, false).verdict, MapVerdict::silentlyWrong) << "no blow opens books";
   // The same of a figure in which the pair itself agrees.
   std::vector<TrialPair> pairs = neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 4900, 5400, 5100, 5600, 5000});
   for (std::size_t i = 1; i < pairs.size(); ++i) pairs[i].finer.figures.power = 3000;
