@@ -2,8 +2,8 @@
 """Plot of the stability maps of a vehicle: study_vehicle_stability.py VEHICLE.csv LIMITS.csv FILE.png
 
 A panel a map: each point sound (blue), stopped by a guard for a true cause (orange square) or a wrong one (purple diamond),
-silently wrong (red cross), scattering as its neighbouring steps do (green triangle), or refused before the run (grey x); what
-is predicted as lines on top. A 0 on a logarithmic axis stands at its left end.
+silently wrong (red cross), scattering as its neighbouring steps do (green triangle), wrong with a warning of blows (olive
+triangle), or refused before the run (grey x); what is predicted as lines on top. A 0 on a logarithmic axis stands at its left end.
 """
 import itertools
 import math
@@ -13,7 +13,8 @@ import drawing
 
 VERDICTS = {"sound": dict(color="tab:blue", marker="o"), "stopped": dict(color="tab:orange", marker="s"),
             "refused": dict(color="tab:gray", marker="x"), "wrong cause": dict(color="tab:purple", marker="D"),
-            "scatters": dict(color="tab:green", marker="^"), "silently wrong": dict(color="red", marker="X", s=90)}
+            "scatters": dict(color="tab:green", marker="^"), "warned": dict(color="tab:olive", marker="v"),
+            "silently wrong": dict(color="red", marker="X", s=90)}
 STYLES = ("-", "--", ":", "-.")
 
 

@@ -114,8 +114,8 @@ TEST_F(RandomVehicleStudy, SaysWhatIsWrongOfRunsThatAreThere) {
   EXPECT_NE(none.out.find("vehicles are missing"), std::string::npos) << none.out;
   const std::string numbers = "step [s],end,reached [s],wall [s],speed [m/s],height [m],lowest height [m],pitch [rad],"
                               "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "
-                              "[J],left over [-],speed magnitude [m/s],power magnitude [W]\n";
-  const std::string row = "1e-4,0,0.4,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n";
+                              "[J],left over [-],speed magnitude [m/s],power magnitude [W],blow [weights]\n";
+  const std::string row = "1e-4,0,0.4,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n";
   const std::filesystem::path runs = folder_ / "results" / "runs";
   for (const char* name : {"vehicle_0", "vehicle_1"}) {
     put(runs / (std::string(name) + ".csv"), numbers + row + row);
@@ -125,10 +125,10 @@ TEST_F(RandomVehicleStudy, SaysWhatIsWrongOfRunsThatAreThere) {
   ASSERT_EQ(sound.code, 0) << sound.errors;
   EXPECT_NE(contents(folder_ / "results" / "random_vehicles.csv").find(",sound,"), std::string::npos);
   // Speeds of 0.5 and 0.9 m/s, which scatter or which all neighbouring steps repeat.
-  const auto apart = [&numbers](const std::array<double, 12>& speeds) {
+  const auto apart = [&numbers](const std::array<double, 12>& speeds, double blow = 1.2) {
     std::string text = numbers;
     for (const double speed : speeds)
-      text += fmt::format("1e-4,0,0.4,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n", speed);
+      text += fmt::format("1e-4,0,0.4,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,{}\n", speed, blow);
     return text;
   };
   put(runs / "vehicle_1.txt", "\n\n\n\n\n\n\n\n\n\n\n\n");
@@ -140,6 +140,10 @@ TEST_F(RandomVehicleStudy, SaysWhatIsWrongOfRunsThatAreThere) {
   const Outcome wrong = call(words + " --resume");
   EXPECT_EQ(wrong.code, 3) << wrong.out;
   EXPECT_NE(wrong.out.find("silently wrong: vehicle 1"), std::string::npos) << wrong.out;
+  put(runs / "vehicle_1.csv", apart({0.5, 0.9, 0.5, 0.9, 0.5, 0.9, 0.5, 0.9, 0.5, 0.9, 0.5, 0.9}, 5.3));
+  const Outcome warned = call(words + " --resume");
+  EXPECT_EQ(warned.code, 0) << warned.errors;
+  EXPECT_NE(warned.out.find("warned: vehicle 1"), std::string::npos) << warned.out;
   EXPECT_EQ(call(words + " --resume --seed 2").code, 2) << "runs of another seed";
   for (const char* bad : {"--vehicles 0", "--seed -1", "--part 3/2", "--grains 4"})
     EXPECT_EQ(call(std::string("study random-vehicles --out other ") + bad).code, 2) << bad;

@@ -341,8 +341,8 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
 
   const std::string numbers = "step [s],end,reached [s],wall [s],speed [m/s],height [m],lowest height [m],pitch [rad],"
                               "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "
-                              "[J],left over [-],speed magnitude [m/s],power magnitude [W]\n";
-  const std::string row = "1e-4,0,0.7,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n";
+                              "[J],left over [-],speed magnitude [m/s],power magnitude [W],blow [weights]\n";
+  const std::string row = "1e-4,0,0.7,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n";
   put(runs / "gravity_0.csv", numbers + row + row);
   put(runs / "gravity_0.txt", "\n\n");
   const Outcome sound = call(words + " --resume --seconds 1e-9");
@@ -356,8 +356,8 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
 
   // A finer run that says otherwise ends the study with a code of its own.
   const auto withSpeeds = [&numbers](double run, double finer) {
-    return fmt::format("{}1e-4,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n"
-                       "2.5e-5,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000\n",
+    return fmt::format("{}1e-4,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n"
+                       "2.5e-5,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n",
                        numbers, run, finer);
   };
   put(runs / "gravity_0.csv", withSpeeds(0.5, 0.9));
