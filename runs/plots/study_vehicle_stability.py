@@ -3,7 +3,8 @@
 
 A panel a map: each point sound (blue), stopped by a guard for a true cause (orange square) or a wrong one (purple diamond),
 silently wrong (red cross), scattering as its neighbouring steps do (green triangle), wrong with a warning of blows (olive
-triangle), or refused before the run (grey x); what is predicted as lines on top. A 0 on a logarithmic axis stands at its left end.
+triangle), or refused before the run (grey x); what is predicted as lines on top. A 0 on a logarithmic axis stands at its
+left end.
 """
 import itertools
 import math
