@@ -168,9 +168,9 @@ void VehicleRig::restartMeans() {
   if (towing_) towing_->restartMeans();
 }
 
-Vec3d VehicleRig::meanGroundForce() const {
+Vec3d VehicleRig::groundForce(const ForceMeans& means) const {
   Vec3d sum;
-  for (const Vec3d& force : groundLoads(rowMeans_).force) sum += force;
+  for (const Vec3d& force : groundLoads(means).force) sum += force;
   return sum;
 }
 
@@ -185,10 +185,8 @@ std::string VehicleRig::judgeRest() {
   if (!driver_.waits() || !contacts_->onGround()) return {};
   const double g = norm(gravity_);
   const Vec3d down = gravity_ * (1 / g);
-  Vec3d force;
-  for (const Vec3d& f : groundLoads(alarmMeans_).force) force += f;
   return driver_.judge(state_.time, dot(state_.twist[assembly_.chassis].v, down),
-                       -dot(force, down) / (assembly_.mass * g));
+                       -dot(groundForce(alarmMeans_), down) / (assembly_.mass * g));
 }
 
 /// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.
@@ -260,9 +258,7 @@ std::string VehicleRig::alarm(std::int64_t step) {
   if (alarm.empty()) alarm = judgeTurns();
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
   if (alarm.empty()) alarm = judgeRest();
-  double up = 0;
-  for (const Vec3d& force : groundLoads(alarmMeans_).force) up += force.z;
-  blows_.add(state_.time, up);
+  blows_.add(state_.time, groundForce(alarmMeans_).z);
   alarmMeans_.restart();
   stalledSteps_ = stalls() ? stalledSteps_ + kAlarmInterval : 0;
   ended_ = judgeEnd();

@@ -53,7 +53,8 @@ public:
   void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
   void restartMeans();
   const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
-  base::Vec3d meanGroundForce() const; ///< sum over all parts, mean since restartMeans() [N]
+  /// Sum over all parts, mean since restartMeans() [N].
+  base::Vec3d meanGroundForce() const { return groundForce(rowMeans_); }
   /// Of the vehicle on one of setup.ground.obstacles, mean since restartMeans() [N].
   base::Vec3d meanForceOn(std::size_t obstacle) const;
   /// When the drive began [s]; empty while it waits for the vehicle to rest.
@@ -89,6 +90,7 @@ private:
     void restart() { sums.assign(sums.size(), {}), steps = 0; }
   };
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
+  base::Vec3d groundForce(const ForceMeans& means) const; ///< sum over all parts [N]
   vehicle::Controls controls();
   std::string judgeRest();
   std::string judgeTurns() const;
