@@ -7,6 +7,7 @@
 #include "terrain/grain_forces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -21,6 +22,8 @@ constexpr double kOff = 0.01;                              // of the ends, that 
 constexpr int kTrials = 10;
 constexpr double kSteep = 1;          // floor's slope [-] above which every bed slides, whatever its friction
 constexpr double kStep = 4;           // radii: a lower one is none to a bed
+constexpr double kLookEvery = 0.02;   // [s] from one look whether a bed rests to the next
+constexpr std::size_t kCalmLooks = 5; // one after the other, at which it does
 constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains rock for long
 
 /// Porosity of the small bed settled with this friction.
@@ -65,9 +68,10 @@ void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wante
   const double unit = bed.restEnergy * static_cast<double>(grains.count() - grains.system().fixedCount);
   // Loose grains fall first; nothing is judged before they have landed.
   const double landed = report.time + std::sqrt(2 * fall / g), limit = report.time + wanted.timeLimit;
-  const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(0.02 / dt));
+  const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(kLookEvery / dt));
   double forceRatio = 0;
-  int calm = 0;
+  std::size_t looks = 0, calm = 0;
+  std::array<double, kCalmLooks> energies{}, ratios{}; // of the last looks: a deep bed breathes between them
   while (report.time < limit) {
     try {
       for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
@@ -85,18 +89,22 @@ void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wante
     const bool rests =
         report.agitation < wanted.kineticEnergy && (!wanted.forceRatio || forceRatio < *wanted.forceRatio);
     calm = rests ? calm + 1 : 0;
-    if (calm >= 5 && report.time > landed) return;
+    if (calm >= kCalmLooks && report.time > landed) return;
+    energies[looks % kCalmLooks] = report.agitation;
+    ratios[looks++ % kCalmLooks] = forceRatio;
   }
-  throw base::SimulationError(
-      fmt::format("the bed has not settled within {:g} s: kinetic energy a grain is {:.3g} of m g "
-                  "radius, wanted is {:.3g}{}; raise terrain.settle_time_limit, lower the material's "
-                  "restitution or raise terrain.settle_kinetic_energy{}",
-                  wanted.timeLimit, report.agitation, wanted.kineticEnergy,
-                  wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain is {:.3g} of its weight, "
-                                                  "wanted is {:.3g}",
-                                                  forceRatio, *wanted.forceRatio)
-                                    : "",
-                  wanted.forceRatio ? " and settle_force_ratio" : ""));
+  const auto most = [](const auto& values) { return *std::max_element(values.begin(), values.end()); };
+  throw base::SimulationError(fmt::format(
+      "the bed has not settled within {:g} s: in the last {} looks, {:g} s apart, the kinetic energy a grain "
+      "is up to {:.3g} of m g radius, wanted is less than {:.3g}{}; raise terrain.settle_time_limit, lower "
+      "the material's restitution or raise terrain.settle_kinetic_energy{}",
+      wanted.timeLimit, std::min(looks, kCalmLooks), static_cast<double>(checkEvery) * dt, most(energies),
+      wanted.kineticEnergy,
+      wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain up to {:.3g} of its weight, "
+                                      "wanted is {:.3g}",
+                                      most(ratios), *wanted.forceRatio)
+                        : "",
+      wanted.forceRatio ? " and settle_force_ratio" : ""));
 }
 
 void settleWithFriction(const setup::BedSetup& bed, terrain::Grains& grains, double friction,
