@@ -106,7 +106,7 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
                                 [](const scene::Material& m) { return m.name == "lete_sand"; });
   ASSERT_NE(bed, weak.materials.end());
   EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // of assets/soils/lete_sand.toml
-  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 8, 1e-5); // of a pad's width, in four digits
+  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 6, 1e-5); // of a pad's width, in four digits
   EXPECT_TRUE(weak.terrain->granular());
 }
 
