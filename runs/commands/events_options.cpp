@@ -46,8 +46,9 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
       ->check(support::positive("a length in metres"));
   events->add_option("--depth", o.depth, "of the bed [m]; default: 1.6 widths of a pad; with --quick 0.9")
       ->check(support::positive("a length in metres"));
-  events->add_flag("--quick", o.quick,
-                   "coarse and shallow beds, fewer levels and seeds, for less than an hour on 16 cores: --jobs 16 --threads 1");
+  events->add_flag(
+      "--quick", o.quick,
+      "coarse and shallow beds, fewer levels and seeds, for less than an hour on 16 cores: --jobs 16 --threads 1");
   events->add_option("--set", o.fixed, kSetHelp)->allow_extra_args(false);
   events->add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
   events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
