@@ -44,11 +44,11 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
       ->add_option("--grain-radius", o.grainRadius,
                    "mean radius of the bed's grains [m]; default: 10.4 of them on the width of a pad; with --quick 3")
       ->check(support::positive("a length in metres"));
-  events->add_option("--depth", o.depth, "of the bed [m]; default: 1.6 widths of a pad; with --quick 0.9")
+  events->add_option("--depth", o.depth, "of the bed [m]; default: 1.6 widths of a pad; with --quick 1.1")
       ->check(support::positive("a length in metres"));
   events->add_flag(
       "--quick", o.quick,
-      "coarse and shallow beds, fewer levels and seeds, for less than an hour on 16 cores: --jobs 16 --threads 1");
+      "coarse and shallow beds, fewer levels and seeds: on sandy loam about an hour of 16 cores, see --plan");
   events->add_option("--set", o.fixed, kSetHelp)->allow_extra_args(false);
   events->add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
   events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");

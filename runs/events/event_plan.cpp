@@ -28,7 +28,7 @@ namespace {
 constexpr const char* kRigid = "rigid";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
 // Of a bed, in widths of a pad: what the grains measure, how deep it is, and how far it reaches beside the tracks.
-constexpr double kGrain = 1 / 20.8, kDepth = 1.6, kMargin = 4, kQuickGrain = 1 / 6.0, kQuickDepth = 0.9,
+constexpr double kGrain = 1 / 20.8, kDepth = 1.6, kMargin = 4, kQuickGrain = 1 / 6.0, kQuickDepth = 1.1,
                  kQuickMargin = 2;
 constexpr double kFewOnPad = 6;         // grains on the width of a pad; of four tracks skip teeth (docs/events.md)
 constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
