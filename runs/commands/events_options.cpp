@@ -38,13 +38,22 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
                    "commanded [m/s], but twice that in acceleration; default: 1.2 of the light vehicle, others by the "
                    "root of their pitch radius")
       ->check(support::positive("a speed in metres a second"));
-  events->add_option("--seeds", o.seeds, "beds of each level; default: 3; with --quick 2")
+  const events::BedCare &full = events::kFullCare, &quick = events::kQuickCare;
+  events
+      ->add_option("--seeds", o.seeds,
+                   fmt::format("beds of each level; default: {}; with --quick {}", full.seeds, quick.seeds))
       ->check(support::wholeNumber(1, 1000));
   events
-      ->add_option("--grain-radius", o.grainRadius,
-                   "mean radius of the bed's grains [m]; default: 10.4 of them on the width of a pad; with --quick 3")
+      ->add_option(
+          "--grain-radius", o.grainRadius,
+          fmt::format(
+              "mean radius of the bed's grains [m]; default: {:g} of them on the width of a pad; with --quick {:g}",
+              full.grainsOnPad, quick.grainsOnPad))
       ->check(support::positive("a length in metres"));
-  events->add_option("--depth", o.depth, "of the bed [m]; default: 1.6 widths of a pad; with --quick 1.1")
+  events
+      ->add_option(
+          "--depth", o.depth,
+          fmt::format("of the bed [m]; default: {:g} widths of a pad; with --quick {:g}", full.depth, quick.depth))
       ->check(support::positive("a length in metres"));
   events->add_flag(
       "--quick", o.quick,

@@ -27,12 +27,8 @@ namespace {
 
 constexpr const char* kRigid = "rigid";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
-// Of a bed, in widths of a pad: what the grains measure, how deep it is, and how far it reaches beside the tracks.
-constexpr double kGrain = 1 / 20.8, kDepth = 1.6, kMargin = 4, kQuickGrain = 1 / 6.0, kQuickDepth = 1.1,
-                 kQuickMargin = 2;
 constexpr double kFewOnPad = 6;         // grains on the width of a pad; of four tracks skip teeth (docs/events.md)
 constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
-constexpr int kSeeds = 3, kQuickSeeds = 2;
 constexpr double kStart = 1.2, kSlower = 1.2; // s until it drives; over the time at full speed
 
 /// The names of the ready vehicles.
@@ -93,9 +89,10 @@ Course courseOf(const EventOptions& options, const std::string& file, double& gr
   }
   const scene::Soil soil = soilOf(options.soil);
   const double pad = c.shape.padWidth;
-  grainRadius = options.grainRadius.value_or(pad * (options.quick ? kQuickGrain : kGrain));
-  c.depth = options.depth.value_or(pad * (options.quick ? kQuickDepth : kDepth));
-  c.margin = pad * (options.quick ? kQuickMargin : kMargin);
+  const BedCare& care = options.care();
+  grainRadius = options.grainRadius.value_or(pad / (2 * care.grainsOnPad));
+  c.depth = options.depth.value_or(pad * care.depth);
+  c.margin = pad * care.margin;
   c.soilFriction = soil.material.friction, c.rollingFriction = soil.material.rollingFriction;
   return c;
 }
@@ -201,7 +198,7 @@ EventPlan planEvents(const EventOptions& options) {
   EventPlan plan;
   plan.vehicleFile = vehicleFile(options.vehicle);
   plan.course = courseOf(options, plan.vehicleFile, plan.grainRadius);
-  plan.seeds = plan.course.rigid ? 1 : options.seeds.value_or(options.quick ? kQuickSeeds : kSeeds);
+  plan.seeds = plan.course.rigid ? 1 : options.seeds.value_or(options.care().seeds);
   const std::vector<std::string> common = commonOf(options, plan);
   plan.sweep.keys = {"event", sweeps::kSeedKey};
   for (const Event event : events) {

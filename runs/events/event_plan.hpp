@@ -12,6 +12,15 @@
 /// The runs of a set of events.
 namespace grouser::events {
 
+/// How fine, deep and wide beds are, in widths of a pad, and how many seeds each level has.
+struct BedCare {
+  double grainsOnPad; ///< mean diameters on its width
+  double depth;
+  double margin; ///< beside the tracks
+  int seeds;
+};
+inline constexpr BedCare kFullCare{10.4, 1.6, 4, 3}, kQuickCare{3, 1.1, 2, 2};
+
 /// What the user asks for.
 struct EventOptions {
   std::string vehicle = "light_tracked"; ///< a file of assets/vehicles by its name, or a path that ends in .toml
@@ -22,9 +31,10 @@ struct EventOptions {
   std::optional<double> speed;           ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
   std::optional<double> grainRadius;     ///< in the middle of the distribution [m]
   std::optional<double> depth;           ///< of the bed [m]
-  std::optional<int> seeds;              ///< of a bed; empty: 3, with quick 2
+  std::optional<int> seeds;              ///< of a bed; empty: those of the care
   bool quick = false;
   bool frames = false; ///< for films
+  const BedCare& care() const { return quick ? kQuickCare : kFullCare; }
 };
 
 /// A level of an event, and its runs.

@@ -95,7 +95,7 @@ void settleUntilRest(const setup::BedSetup& bed, const setup::SettleSetup& wante
   }
   const auto most = [](const auto& values) { return *std::max_element(values.begin(), values.end()); };
   throw base::SimulationError(fmt::format(
-      "the bed has not settled within {:g} s: in the last {} looks, {:g} s apart, the kinetic energy a grain "
+      "the bed has not settled within {:g} s: in the last {} looks, {:.2g} s apart, the kinetic energy a grain "
       "is up to {:.3g} of m g radius, wanted is less than {:.3g}{}; raise terrain.settle_time_limit, lower "
       "the material's restitution or raise terrain.settle_kinetic_energy{}",
       wanted.timeLimit, std::min(looks, kCalmLooks), static_cast<double>(checkEvery) * dt, most(energies),

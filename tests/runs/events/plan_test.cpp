@@ -107,6 +107,7 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   ASSERT_NE(bed, weak.materials.end());
   EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // of assets/soils/lete_sand.toml
   EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 6, 1e-5); // of a pad's width, in four digits
+  EXPECT_EQ(weak.terrain->porosity, 0.42) << "deep enough for its grains to be prepared to the soil's";
   EXPECT_TRUE(weak.terrain->granular());
 }
 
