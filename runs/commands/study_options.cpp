@@ -30,7 +30,7 @@ void addStudy(CLI::App& app, const Invocation&) {
                     ->check(support::positive("a time in seconds"))
                     ->capture_default_str(),
                 c.budget, 0.5);
-  multibody->add_option("--out", c.folder, "folder of the tables and the plot; default: out/study_multibody");
+  multibody->add_option("--out,--output", c.folder, "folder of the tables and the plot; default: out/study_multibody");
   multibody->add_flag("--force", c.force, "overwrite what is in that folder");
   multibody->callback([command, quick] {
     if (command->quick) quick.take();

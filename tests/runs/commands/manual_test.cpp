@@ -45,6 +45,12 @@ TEST_F(Manual, ThePageOfTheProgramNamesEveryCommandAndTheExitCodes) {
   EXPECT_NE(withoutEscapes(call("manual bench").out).find(".SH GROUSER BENCH BED"), std::string::npos);
 }
 
+TEST_F(Manual, TheFolderOfResultsHasTheSameTwoNamesEverywhere) {
+  const std::string options = call("manual --markdown").out;
+  EXPECT_NE(options.find("`--out, --output TEXT`"), std::string::npos);
+  for (const char* alone : {"`--out TEXT`", "`--output TEXT`"}) EXPECT_EQ(options.find(alone), std::string::npos);
+}
+
 TEST_F(Manual, FilesAreWrittenBelowAFolder) {
   EXPECT_EQ(call("manual --folder made").code, 0);
   EXPECT_EQ(contents(folder_ / "made/man/man1/grouser-run.1"), call("manual run").out);
