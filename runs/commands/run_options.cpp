@@ -58,7 +58,8 @@ void addSweep(CLI::App& app, const Invocation&) {
       ->add_option("--seconds", c.seconds,
                    "no further run is begun after so many, 0: no limit; the same call again goes on")
       ->check(support::notNegative("a time in seconds"));
-  sweep->add_option("--out,--output", c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
+  sweep->add_option("--out,--output", c.folder,
+                    "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
       ->check(support::wholeNumber(0, 1024));

@@ -220,8 +220,9 @@ void takeFromSoil(const Section& section, Terrain& t, const Soil& soil) {
 /// the square of its depth.
 void completeSettling(const Section& section, Terrain& t) {
   constexpr double kShallow = 0.5; // [m], at rest within the default
-  if (t.depth && *t.depth > kShallow && !section.has("settle_time_limit"))
-    t.settleTimeLimit = std::min(1e4, t.settleTimeLimit * std::pow(*t.depth / kShallow, 2));
+  const double ratio = t.depth.value_or(0) / kShallow;
+  if (ratio > 1 && !section.has("settle_time_limit"))
+    t.settleTimeLimit = std::min(1e4, t.settleTimeLimit * ratio * ratio);
 }
 
 void checkBed(const Section& section, Terrain& t, const Scene& scene) {

@@ -124,11 +124,12 @@ TEST(Settling, ASteepFloorIsNamedWhereItIsTheCause) {
 
 TEST(Settling, DeepBedsHaveLongerWhereNoLimitIsGiven) {
   const auto limit = [](const std::string& terrain) {
-    const scene::Scene scene = setup::parseScene(
-        "version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
-        "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 1]\n"
-        "material = \"soil\"\ngrain_radius = 0.03\n" + terrain,
-        "bed.toml");
+    const scene::Scene scene =
+        setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
+                          "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 1]\n"
+                          "material = \"soil\"\ngrain_radius = 0.03\n" +
+                              terrain,
+                          "bed.toml");
     return scene.terrain->settleTimeLimit;
   };
   EXPECT_EQ(limit("depth = 0.2\n"), 3);
