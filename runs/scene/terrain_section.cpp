@@ -100,8 +100,7 @@ Table<Terrain> terrainTable() {
       .atLeast(0)
       .atMost(10);
   t.add("settle_time_limit", &S::settleTimeLimit, "s",
-        "the bed must be at rest by then, and where it is not given one deeper than half a metre has longer, in "
-        "proportion to its depth squared; 0 leaves settling out: a random bed then begins as the loose column that is "
+        "the bed must be at rest by then; 0 leaves settling out: a random bed then begins as the loose column that is "
         "laid, whatever its porosity is to be")
       .atLeast(0)
       .atMost(1e4);
@@ -216,18 +215,8 @@ void takeFromSoil(const Section& section, Terrain& t, const Soil& soil) {
   if (!section.has("porosity") && deepEnough && t.settleTimeLimit > 0) t.porosity = soil.grains.porosity;
 }
 
-/// A bed breathes up and down when it has landed, and viscous contacts damp its longest wave at a rate that falls with
-/// the square of its depth.
-void completeSettling(const Section& section, Terrain& t) {
-  constexpr double kShallow = 0.5; // [m], at rest within the default
-  const double ratio = t.depth.value_or(0) / kShallow;
-  if (ratio > 1 && !section.has("settle_time_limit"))
-    t.settleTimeLimit = std::min(1e4, t.settleTimeLimit * ratio * ratio);
-}
-
 void checkBed(const Section& section, Terrain& t, const Scene& scene) {
   completeArrangement(section, t);
-  completeSettling(section, t);
   if (const auto soil = scene.soils.find(t.material); soil != scene.soils.end())
     takeFromSoil(section, t, *soil->second);
   if (!t.grainRadius)

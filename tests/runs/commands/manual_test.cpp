@@ -45,7 +45,7 @@ TEST_F(Manual, ThePageOfTheProgramNamesEveryCommandAndTheExitCodes) {
   EXPECT_NE(withoutEscapes(call("manual bench").out).find(".SH GROUSER BENCH BED"), std::string::npos);
 }
 
-TEST_F(Manual, TheFolderOfResultsHasTheSameTwoNamesEverywhere) {
+TEST_F(Manual, OutAndOutputAreNamesOfOneOption) {
   const std::string options = call("manual --markdown").out;
   EXPECT_NE(options.find("`--out, --output TEXT`"), std::string::npos);
   for (const char* alone : {"`--out TEXT`", "`--output TEXT`"}) EXPECT_EQ(options.find(alone), std::string::npos);

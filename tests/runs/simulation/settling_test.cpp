@@ -122,24 +122,5 @@ TEST(Settling, ASteepFloorIsNamedWhereItIsTheCause) {
   EXPECT_EQ(gentle.find("terrain.floor"), std::string::npos) << gentle;
 }
 
-TEST(Settling, DeepBedsHaveLongerWhereNoLimitIsGiven) {
-  const auto limit = [](const std::string& terrain) {
-    const scene::Scene scene =
-        setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
-                          "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [0.6, 0.6]\nheight_range = [0, 1]\n"
-                          "material = \"soil\"\ngrain_radius = 0.03\n" +
-                              terrain,
-                          "bed.toml");
-    return scene.terrain->settleTimeLimit;
-  };
-  EXPECT_EQ(limit("depth = 0.2\n"), 3);
-  EXPECT_EQ(limit("depth = 0.5\n"), 3);
-  EXPECT_DOUBLE_EQ(limit("depth = 1.5\n"), 27);
-  EXPECT_EQ(limit("depth = 1.5\nsettle_time_limit = 4\n"), 4);
-  EXPECT_EQ(limit("depth = 1.5\nsettle_time_limit = 0\n"), 0);
-  EXPECT_EQ(limit("depth = 1000\n"), 1e4); // the most that the key takes
-  EXPECT_EQ(limit("arrangement = \"lattice\"\nlayers = 20\n"), 3);
-}
-
 } // namespace
 } // namespace grouser::simulation
