@@ -70,8 +70,7 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->add_option("--seconds", c.options.sweep.seconds,
                    "this call begins no further run after so many, 0: no limit; the same call again goes on")
       ->check(support::notNegative("a time in seconds"));
-  check->add_option("--out,--output", c.folder,
-                    "folder for the runs' folders and the results; default: out/NAME_check");
+  support::addOut(*check, c.folder, "folder for the runs' folders and the results; default: out/NAME_check");
   check->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   check->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
       ->check(support::wholeNumber(0, 1024));

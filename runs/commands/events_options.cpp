@@ -65,7 +65,7 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
   events->add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
       ->check(support::wholeNumber(1, 1024))
       ->capture_default_str();
-  events->add_option("--out,--output", c.folder, "folder of the results; default: out/events_VEHICLE_SOIL");
+  support::addOut(*events, c.folder, "folder of the results; default: out/events_VEHICLE_SOIL");
   events->add_flag("--force", c.force, "run again what has been run, and overwrite what is in that folder");
   events->callback([command] { events::eventsCommand(*command); });
 }

@@ -51,7 +51,7 @@ void addRender(CLI::App& app, const Invocation& invocation) {
   render->add_option("frames", c.frames, "frames.h5 of a run, or the run's folder")
       ->required()
       ->transform(support::orItsFolder("frames.h5"));
-  render->add_option("--out,--output", c.folder, "folder of the pictures; default: pictures/ beside the file");
+  support::addOut(*render, c.folder, "folder of the pictures; default: pictures/ beside the file");
   render->add_option("--film", c.film, "make the pictures into this film: .mp4, .mkv or .mov; needs ffmpeg");
   render->add_option("--fps", c.framesPerSecond, "pictures a second of the film")
       ->check(support::positive("a number"))

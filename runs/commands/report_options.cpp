@@ -15,7 +15,7 @@ void addReport(CLI::App& app, const Invocation&) {
                                                   "events, soil or calibration has left: figures with their error "
                                                   "bars, plots, 3-D view, provenance");
   report->add_option("folder", r.folder, "the folder of the results")->required();
-  report->add_option("--out,--output", r.file, "file of the page; default: report.html in the folder");
+  support::addOut(*report, r.file, "file of the page; default: report.html in the folder");
   report->add_option("--film", r.film, "film to be in it; default: one that lies in the folder and is not too large");
   report
       ->add_option("--frames", r.frames,

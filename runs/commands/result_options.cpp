@@ -25,7 +25,7 @@ void addSinkage(CLI::App& app, const Invocation&) {
   sinkage->add_option("results", s.results, "results.h5 of a run, or the run's folder")
       ->required()
       ->transform(support::orItsFolder("results.h5"));
-  sinkage->add_option("--out,--output", s.folder, "folder; default: beside the results");
+  support::addOut(*sinkage, s.folder, "folder; default: beside the results");
   sinkage->add_option("--shoes", s.shoes,
                       "single shoes, counted from 0: 10-13,20; writes sinkage_shoes.csv, and draws their heights and "
                       "sinkage");

@@ -18,7 +18,7 @@ void addRun(CLI::App& app, const Invocation& invocation) {
   run->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   run->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it")
       ->check(support::wholeNumber(0, 1024));
-  run->add_option("--out,--output", c.folder, "folder of the results; default: out/NAME of the scene");
+  support::addOut(*run, c.folder, "folder of the results; default: out/NAME of the scene");
   run->add_option("--steps", c.steps, "stop after so many steps of the drive")->check(support::wholeNumber(1));
   run->add_flag("--force", c.force, "overwrite the results in that folder");
   CLI::Option* resume =
@@ -58,8 +58,7 @@ void addSweep(CLI::App& app, const Invocation&) {
       ->add_option("--seconds", c.seconds,
                    "no further run is begun after so many, 0: no limit; the same call again goes on")
       ->check(support::notNegative("a time in seconds"));
-  sweep->add_option("--out,--output", c.folder,
-                    "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
+  support::addOut(*sweep, c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
       ->check(support::wholeNumber(0, 1024));
@@ -79,7 +78,7 @@ void addPlan(CLI::App& app, const Invocation&) {
       ->check(support::wholeNumber(1, 100'000));
   plan->add_option("--device", p.device, "auto, cpu or cuda; default: as the scene says");
   plan->add_option("--threads", p.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
-  plan->add_option("--out,--output", p.folder, "folder that results would go to; default: out/NAME of the scene");
+  support::addOut(*plan, p.folder, "folder that results would go to; default: out/NAME of the scene");
   CLI::Option* without = plan->add_flag("!--no-probe", p.probe, "run nothing: no time to expect");
   plan->add_option("--json", p.json, "also write the time to expect to this file, by its parts")->excludes(without);
   plan->add_flag("!--no-cache", p.cache, "for a run that settles the bed and cuts the parts anew");

@@ -109,8 +109,7 @@ void addSoil(CLI::App& app, const Invocation& invocation) {
       ->check(support::wholeNumber(1, 256))
       ->capture_default_str();
   soil->add_flag("--quick", c.place.quick, "a coarse pass in minutes: small plates of few grains, pushed fast");
-  soil->add_option("--out,--output", c.place.folder,
-                   "folder of the results; default: out/soil_NAME, or out/calibrate_NAME");
+  support::addOut(*soil, c.place.folder, "folder of the results; default: out/soil_NAME, or out/calibrate_NAME");
   soil->add_flag("--force", c.place.force, "overwrite what is in that folder");
   soil->callback([command, keys, targets, words = invocation.words] {
     if (command->place.quick) keys->takeQuick();

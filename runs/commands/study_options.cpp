@@ -24,16 +24,14 @@ void addStudy(CLI::App& app, const Invocation&) {
   multibody->add_option("--cases", c.cases, "names, separated by commas, of " + names + "; default: all")
       ->delimiter(',');
   multibody->add_flag("--stability", c.stability, "instead: which steps are stable, against what theory says");
-  multibody->add_flag("--quick", c.quick, "three long steps only, and none of the cases that take minutes");
+  studies::addPlace(*multibody, c.place, "multibody", "three long steps only, and none of the cases that take minutes");
   studies::QuickValues quick;
   quick.instead(multibody->add_option("--budget", c.budget, "runs that would take more CPU time are left out [s]")
                     ->check(support::positive("a time in seconds"))
                     ->capture_default_str(),
                 c.budget, 0.5);
-  multibody->add_option("--out,--output", c.folder, "folder of the tables and the plot; default: out/study_multibody");
-  multibody->add_flag("--force", c.force, "overwrite what is in that folder");
   multibody->callback([command, quick] {
-    if (command->quick) quick.take();
+    if (command->place.quick) quick.take();
     studies::studyMultibodyCommand(*command);
   });
   const auto grains = std::make_shared<studies::GrainStudies>();

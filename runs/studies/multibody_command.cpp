@@ -3,11 +3,9 @@
 
 #include "base/error.hpp"
 #include "base/table.hpp"
-#include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/studies/report.hpp"
 #include "runs/studies/stability.hpp"
-#include "runs/support/build_info.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
@@ -40,17 +38,14 @@ void studyMultibodyCommand(const StudyCommand& command) {
   std::erase_if(cases, [&](const StudyCase& c) {
     if (!command.cases.empty())
       return std::find(command.cases.begin(), command.cases.end(), c.name) == command.cases.end();
-    return command.quick && c.isLong;
+    return command.place.quick && c.isLong;
   });
-  const fs::path folder = command.folder.empty() ? fs::path("out") / "study_multibody" : fs::path(command.folder);
-  output::checkOutputFolder(folder, command.force);
-  fs::create_directories(folder);
+  const fs::path folder = beginStudy("multibody", command.place);
+  fmt::print("          one thread; CPU time of the steps, without set-up and output\n");
 
   const support::StopSignals signals;
-  const int count = command.quick ? kQuickSteps : kFullSteps;
+  const int count = command.place.quick ? kQuickSteps : kFullSteps;
   const std::vector<IntegratorChoice> integrators = studyIntegrators();
-  fmt::print("study     multibody: commit {}, {}, one thread; CPU time of the steps, without set-up and output\n",
-             support::buildInfo().commit, support::machineText());
   if (command.stability) {
     const std::vector<StabilityPoint> points = studyStability();
     fmt::print("{}", stabilityTable(points));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/studies/common.hpp"
+
 #include <string>
 #include <vector>
 
@@ -10,10 +12,8 @@ namespace grouser::studies {
 struct StudyCommand {
   std::vector<std::string> cases; ///< empty: all
   bool stability = false;         ///< only which steps are stable
-  bool quick = false;             ///< few steps of a few cases, in seconds
   double budget = 60;             ///< [s] of CPU for one run
-  std::string folder;             ///< empty: out/study_multibody
-  bool force = false;
+  StudyPlace place;               ///< quick: few steps of a few cases
 };
 void studyMultibodyCommand(const StudyCommand& command);
 

@@ -7,7 +7,7 @@ namespace grouser::studies {
 
 void addPlace(CLI::App& app, StudyPlace& place, const std::string& name, const std::string& quick) {
   app.add_flag("--quick", place.quick, quick);
-  app.add_option("--out,--output", place.folder, "folder of the tables and the plot; default: out/study_" + name);
+  support::addOut(app, place.folder, "folder of the tables and the plot; default: out/study_" + name);
   app.add_flag("--force", place.force, "overwrite what is in that folder");
 }
 

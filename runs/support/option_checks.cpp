@@ -54,6 +54,10 @@ CLI::Validator orItsFolder(const std::string& file) {
           ""};
 }
 
+CLI::Option* addOut(CLI::App& app, std::string& place, const std::string& help) {
+  return app.add_option("--out,--output", place, help);
+}
+
 CLI::Validator positive(const std::string& what) {
   return check(what + " above 0", "> 0", [](const std::string& text) {
     const auto x = numberIn<double>(text);

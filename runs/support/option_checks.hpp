@@ -36,6 +36,9 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const 
       ->default_str(std::string(base::wordOf(choice)));
 }
 
+/// Where results go, by the same two names in every command.
+CLI::Option* addOut(CLI::App& app, std::string& place, const std::string& help);
+
 /// The message for a first word, or one after a command of commands, that is no command: it names the nearest. Empty
 /// where there is none such.
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);
