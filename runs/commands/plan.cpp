@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "base/rounded.hpp"
+#include "runs/forecast/elastic_layer.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/setup/bed_alone.hpp"
@@ -129,6 +130,23 @@ std::string bedHeightText(const scene::Scene& scene) {
                          : "height not known before a run has settled it");
 }
 
+/// What of a bed's settlement under the ground run of a vehicle happens above its floor, were it an elastic solid.
+std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
+  if (!scene.terrain || !scene.terrain->granular() || !scene.terrain->depth) return "";
+  constexpr double kPoisson = 0.25; // of loose soil; from 0.1 to 0.4 shares of two depths change alike
+  const double half = 0.5 * (spec.roadWheel.count - 1) * spec.roadWheel.spacing, depth = *scene.terrain->depth;
+  std::vector<forecast::LoadedRectangle> tracks;
+  for (const double y : {spec.trackOffset, -spec.trackOffset})
+    tracks.push_back({0, y, half > 0 ? half : spec.shoe.halfLength, spec.shoe.padHalfWidth});
+  if (scene.vehicle->tracks == scene::Tracks::single) tracks.pop_back();
+  const auto settles = [&](double d) { return forecast::layerSettlement(tracks, d, kPoisson); };
+  const double whole = settles(base::kInfinity);
+  return fmt::format("  {:<24} {:g} m: an elastic layer settles {:.0f} % of what one without a floor does under these "
+                     "tracks; {:g} m: {:.0f} %\n",
+                     "depth of the bed", depth, 100 * settles(depth) / whole, 2 * depth,
+                     100 * settles(2 * depth) / whole);
+}
+
 /// How a bed is made; `t` is null without one.
 std::string bedLines(const scene::Terrain* t) {
   const std::string none = "no bed";
@@ -229,6 +247,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
                         spec.chassis.mass + 0.5 * tracks * (spec.totalMass() - spec.chassis.mass), tracks,
                         spec.shoe.count, spec.pitchRadius());
     setup::checkParts(scene);
+    text += depthText(scene, spec);
   }
   const double step = setup::chooseTimeStep(scene);
   setup::checkGround(scene, step);

@@ -3,12 +3,15 @@
 #include "runs/commands/plan.hpp"
 
 #include "base/math.hpp"
+#include "runs/forecast/elastic_layer.hpp"
 #include "runs/setup/load_scene.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace grouser::commands {
 namespace {
@@ -40,6 +43,26 @@ TEST(PlanValues, VehicleIsWeighedAndMeasured) {
   const std::string plan = planText(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml"));
   EXPECT_EQ(after(plan, "vehicle"), "5018 kg, 2 x 46 shoes, pitch radius 0.2451 m");
   EXPECT_EQ(after(plan, "steps"), "40000 for 4 s");
+}
+
+TEST(PlanValues, DepthOfTheBedIsToldByAnElasticLayerUnderTheTracks) {
+  // Of the light vehicle's file: five road wheels 0.4458 m apart, pads 0.28 m wide, tracks 1.9 m apart.
+  const std::vector<forecast::LoadedRectangle> two = {{0, 0.95, 0.8916, 0.14}, {0, -0.95, 0.8916, 0.14}};
+  const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/runs/scenes/soil_coarse.toml";
+  const auto share = [](const std::vector<forecast::LoadedRectangle>& tracks, double depth) {
+    return 100 * forecast::layerSettlement(tracks, depth, 0.25) /
+           forecast::layerSettlement(tracks, base::kInfinity, 0.25);
+  };
+  const auto told = [&](const std::vector<forecast::LoadedRectangle>& tracks) {
+    return fmt::format("0.4 m: an elastic layer settles {:.0f} % of what one without a floor does under these tracks; "
+                       "0.8 m: {:.0f} %",
+                       share(tracks, 0.4), share(tracks, 0.8));
+  };
+  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.4"})), "depth of the bed"), told(two));
+  EXPECT_EQ(
+      after(planText(setup::loadScene(scene, {"terrain.depth=0.4", "vehicle.tracks=single", "vehicle.chassis=guided"})),
+            "depth of the bed"),
+      told({two[0]}));
 }
 
 } // namespace

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/forecast/elastic_layer.hpp"
+
+#include "base/math.hpp"
+
+#include <cmath>
+
+namespace grouser::forecast {
+
+namespace {
+
+/// Of the corner of a rectangle with sides `a` and `b`; a negative side turns the sign.
+double cornerSettlement(double a, double b, double depth, double poisson) {
+  const double length = std::fabs(a), breadth = std::fabs(b);
+  if (length == 0 || breadth == 0) return 0;
+  const double across = std::hypot(length, breadth);
+  // What half-space settles at its surface, then what it does at `depth`.
+  double settled = length * std::asinh(breadth / length) + breadth * std::asinh(length / breadth);
+  settled *= (1 - poisson * poisson) / base::kPi;
+  if (std::isfinite(depth)) {
+    const double far = std::hypot(across, depth);
+    const double logs = length * std::asinh(breadth / std::hypot(length, depth)) +
+                        breadth * std::asinh(length / std::hypot(breadth, depth));
+    const double angle = std::atan(length * breadth / (depth * far));
+    settled -= (1 + poisson) * ((1 - poisson) * logs - 0.5 * (1 - 2 * poisson) * depth * angle) / base::kPi;
+  }
+  return std::signbit(a) == std::signbit(b) ? settled : -settled;
+}
+
+} // namespace
+
+double layerSettlement(const std::vector<LoadedRectangle>& loads, double depth, double poisson) {
+  constexpr int kAlong = 32, kAcross = 8; // points at which settlements are taken
+  double sum = 0, area = 0;
+  for (const LoadedRectangle& here : loads) {
+    double settled = 0;
+    for (int i = 0; i < kAlong; ++i)
+      for (int j = 0; j < kAcross; ++j) {
+        const double x = here.x + here.halfLength * ((2 * i + 1.0) / kAlong - 1);
+        const double y = here.y + here.halfBreadth * ((2 * j + 1.0) / kAcross - 1);
+        for (const LoadedRectangle& load : loads)
+          for (const double a : {-1.0, 1.0})
+            for (const double b : {-1.0, 1.0})
+              settled +=
+                  a * b *
+                  cornerSettlement(x - load.x + a * load.halfLength, y - load.y + b * load.halfBreadth, depth, poisson);
+      }
+    const double carries = here.halfLength * here.halfBreadth;
+    sum += carries * settled / (kAlong * kAcross), area += carries;
+  }
+  return sum / area;
+}
+
+} // namespace grouser::forecast
