@@ -136,9 +136,8 @@ std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spe
   constexpr double kPoisson = 0.25; // of loose soil; from 0.1 to 0.4 shares of two depths change alike
   const double half = 0.5 * (spec.roadWheel.count - 1) * spec.roadWheel.spacing, depth = *scene.terrain->depth;
   std::vector<forecast::LoadedRectangle> tracks;
-  for (const double y : {spec.trackOffset, -spec.trackOffset})
+  for (const double y : {spec.trackOffset, -spec.trackOffset}) // of a single track both are one: shares stay
     tracks.push_back({0, y, half > 0 ? half : spec.shoe.halfLength, spec.shoe.padHalfWidth});
-  if (scene.vehicle->tracks == scene::Tracks::single) tracks.pop_back();
   const auto settles = [&](double d) { return forecast::layerSettlement(tracks, d, kPoisson); };
   const double whole = settles(base::kInfinity);
   return fmt::format("  {:<24} {:g} m: an elastic layer settles {:.0f} % of what one without a floor does under these "
