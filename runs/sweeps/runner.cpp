@@ -138,7 +138,11 @@ public:
       }
     }
     todo_ = waiting_.size();
-    for (const std::size_t i : waiting_) due_ += expectedEnd(plan.runs[i]);
+    for (const SweepRun& run : plan.runs) work_.push_back(workOf(run));
+    for (const std::size_t i : waiting_) due_ += work_[i];
+    if (options.jobs > 1 && options.seconds == 0)
+      std::stable_sort(waiting_.begin(), waiting_.end(),
+                       [&](std::size_t a, std::size_t b) { return work_[a] > work_[b]; });
   }
 
   const std::vector<SweepOutcome>& outcomes() const { return outcomes_; }
@@ -240,7 +244,7 @@ private:
   }
 
   void finish(std::size_t i, int status, double seconds) {
-    ++ended_, done_ += expectedEnd(plan_.runs[i]);
+    ++ended_, done_ += work_[i];
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
       outcomes_[i].status = RunStatus::finished;
       progress_.note(fmt::format("{} finished in {}", title(i), support::Progress::duration(seconds)));
@@ -258,7 +262,8 @@ private:
     double done = done_;
     std::string names;
     for (const auto& [process, run] : running_) {
-      done += std::min(timeReached(folder(run.index)), expectedEnd(plan_.runs[run.index]));
+      const SweepRun& planned = plan_.runs[run.index];
+      done += work_[run.index] * std::min(1.0, timeReached(folder(run.index)) / expectedEnd(planned));
       names += (names.empty() ? "" : "; ") + plan_.runs[run.index].name;
     }
     progress_.update(done / due_, fmt::format("{} of {} runs to do ended, now {}", ended_, todo_, names));
@@ -272,7 +277,8 @@ private:
   std::map<pid_t, Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
   bool stopping_ = false;
-  double due_ = 0, done_ = 0; ///< simulated time of the runs to do, and of those that have ended [s]
+  std::vector<double> work_;  ///< workOf() each run
+  double due_ = 0, done_ = 0; ///< of the runs to do, and those that have ended
   Clock::time_point begin_ = Clock::now();
   support::Progress progress_;
 };

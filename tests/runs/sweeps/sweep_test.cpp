@@ -5,7 +5,6 @@
 
 #include "base/error.hpp"
 #include "runs/output/output.hpp"
-#include "runs/sweeps/run_progress.hpp"
 #include "runs/sweeps/runner.hpp"
 #include "runs/sweeps/sweep_intervals.hpp"
 #include "tests/runs/csv_fixture.hpp"
@@ -450,32 +449,6 @@ TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
   o.failuresStay = false;
   again();
   EXPECT_NE(ended(fast), before);
-}
-
-TEST_F(Sweep, ShareDoneIsOfTheTimeAtWhichRunsAreExpectedToEnd) {
-  writeScene("100"); // as a limit: [stop] would end the run
-  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,2]"}});
-  EXPECT_EQ(expectedEnd(plan.runs[0]), 100);
-  plan.runs[0].expectedEnd = 8, plan.runs[1].expectedEnd = 2;
-  EXPECT_EQ(expectedEnd(plan.runs[0]), 8);
-  plan.runs[1].expectedEnd = 200;
-  EXPECT_EQ(expectedEnd(plan.runs[1]), 100) << "its duration ends it";
-  plan.runs[1].expectedEnd = 2;
-  // A program that has simulated 5 s at once and then takes until after the first line of progress.
-  const fs::path program = folder_ / "slow";
-  std::ofstream(program) << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\n"
-                            "printf 'step,time [s]\\n100,2\\n250,5\\n260,5.2' > \"$2/timeseries.csv\"\nsleep 5.3\n";
-  fs::permissions(program, fs::perms::owner_all);
-  SweepOptions o = options();
-  o.program = program, o.jobs = 2;
-  ::testing::internal::CaptureStderr();
-  runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {});
-  const std::string said = ::testing::internal::GetCapturedStderr();
-  // Of the first 5 s of 8; of the second no more than the 2 s that were expected. The last line is half written.
-  EXPECT_NE(said.find("sweep:  70.0 %"), std::string::npos) << said;
-  EXPECT_EQ(timeReached(folder_), 0);
-  std::ofstream(folder_ / "timeseries.csv") << "step,time [s]\n";
-  EXPECT_EQ(timeReached(folder_), 0);
 }
 
 } // namespace
