@@ -133,7 +133,7 @@ std::string bedHeightText(const scene::Scene& scene) {
 /// What of a bed's settlement under the ground run of a vehicle happens above its floor, were it an elastic solid.
 std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   if (!scene.terrain || !scene.terrain->granular() || !scene.terrain->depth) return "";
-  constexpr double kPoisson = 0.25; // of loose soil; from 0.1 to 0.4 shares of two depths change alike
+  constexpr double kPoisson = 0.25; // of loose soil; with 0.1 and 0.4 a share is three points more and less
   const double half = 0.5 * (spec.roadWheel.count - 1) * spec.roadWheel.spacing, depth = *scene.terrain->depth;
   std::vector<forecast::LoadedRectangle> tracks;
   for (const double y : {spec.trackOffset, -spec.trackOffset}) // of a single track both are one: shares stay

@@ -9,7 +9,8 @@ namespace grouser::forecast {
 
 namespace {
 
-/// Of the corner of a rectangle with sides `a` and `b`; a negative side turns the sign.
+/// Of the corner of a rectangle with sides `a` and `b`, times modulus over pressure [m]; a negative side turns the
+/// sign.
 double cornerSettlement(double a, double b, double depth, double poisson) {
   const double length = std::fabs(a), breadth = std::fabs(b);
   if (length == 0 || breadth == 0) return 0;

@@ -15,8 +15,8 @@ struct LoadedRectangle {
 };
 
 /// Mean settlement of all `loads` under one pressure, times the solid's modulus over that pressure [m]. By Steinbrenner
-/// (1934): a layer settles by what half-space does between its surface and `depth` [m], which may be infinite; stresses
-/// are those of half-space, as if the floor did not draw them to itself. `poisson` is the solid's ratio [-].
+/// (1934): a layer settles by what a half-space does between its surface and `depth` [m], which may be infinite;
+/// that a stiff floor draws stress to itself is neglected. `poisson` is the solid's ratio [-].
 double layerSettlement(const std::vector<LoadedRectangle>& loads, double depth, double poisson);
 
 } // namespace grouser::forecast

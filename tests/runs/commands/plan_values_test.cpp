@@ -59,6 +59,8 @@ TEST(PlanValues, DepthOfTheBedIsToldByAnElasticLayerUnderTheTracks) {
                        share(tracks, 0.4), share(tracks, 0.8));
   };
   EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.4"})), "depth of the bed"), told(two));
+  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.75"})), "depth of the bed"),
+            "0.75 m: an elastic layer settles 49 % of what one without a floor does under these tracks; 1.5 m: 64 %");
   EXPECT_EQ(
       after(planText(setup::loadScene(scene, {"terrain.depth=0.4", "vehicle.tracks=single", "vehicle.chassis=guided"})),
             "depth of the bed"),

@@ -37,6 +37,13 @@ TEST(ElasticLayer, SettlesLikeBoussinesqsForceFarFromALoad) {
   const double nu = 0.2, r = 50, area = 0.1 * 0.06, own = layerSettlement({{0, 0, 0.05, 0.03}}, base::kInfinity, nu);
   const double both = layerSettlement({{0, 0, 0.05, 0.03}, {r, 0, 0.05, 0.03}}, base::kInfinity, nu);
   EXPECT_NEAR((both - own) / ((1 - nu * nu) * area / (base::kPi * r)), 1, 1e-5);
+  // At depth d below, R away, the force has moved the solid by (1 + nu) / (2 pi E) (d^2 / R^3 + 2 (1 - nu) / R).
+  for (const double d : {5.0, 50.0, 500.0}) {
+    const double alone = layerSettlement({{0, 0, 0.05, 0.03}}, d, nu), R = std::hypot(r, d);
+    const double two = layerSettlement({{0, 0, 0.05, 0.03}, {r, 0, 0.05, 0.03}}, d, nu);
+    const double here = 2 * (1 - nu) / r, below = d * d / (R * R * R) + 2 * (1 - nu) / R;
+    EXPECT_NEAR((two - alone) / ((1 + nu) / (2 * base::kPi) * area * (here - below)), 1, 1e-4) << d;
+  }
 }
 
 TEST(ElasticLayer, SettlesMoreTheDeeperItIs) {
