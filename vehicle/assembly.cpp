@@ -293,7 +293,7 @@ HullMotion hullMotion(const Assembly& vehicle, const multibody::State& state) {
   const RoadWheelSpec& wheels = vehicle.spec.roadWheel;
   const base::Pose& hull = state.pose[vehicle.chassis];
   const multibody::Twist& twist = state.twist[vehicle.chassis];
-  const Vec3d middle{wheels.firstX + 0.5 * wheels.spacing * (wheels.count - 1), 0, wheels.z - wheels.radius};
+  const Vec3d middle{wheels.firstX + 0.5 * vehicle.spec.groundRun(), 0, wheels.z - wheels.radius};
   const Vec3d lever = base::rotate(hull.orientation, middle - vehicle.spec.chassis.centre);
   const Vec3d p = hull.position + lever, v = twist.v + base::cross(twist.w, lever);
   const Vec3d ahead = base::rotate(hull.orientation, {1, 0, 0});

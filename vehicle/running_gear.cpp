@@ -296,7 +296,7 @@ std::optional<Fault> loopFault(const VehicleSpec& s, const Wrap& wrap) {
 
 /// Hull on its springs, and where its weight lies.
 std::optional<Fault> suspensionFault(const VehicleSpec& s) {
-  const double last = s.roadWheel.firstX + s.roadWheel.spacing * (s.roadWheel.count - 1);
+  const double last = s.lastWheelX();
   const Vec3d c = s.chassis.centre;
   const Fault tips{{named("chassis", "centre", "m")}, "", ""};
   if (c.x <= s.roadWheel.firstX || c.x >= last) {

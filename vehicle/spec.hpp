@@ -135,6 +135,10 @@ struct VehicleSpec {
   double outward() const { return sprocketInFront() ? -1 : 1; }
   /// Radius of the smallest wheel that rolls in the track [m].
   double smallestWheel() const;
+  /// Length of the ground run: from the rearmost road wheel's axle to the foremost one's [m].
+  double groundRun() const { return roadWheel.spacing * (roadWheel.count - 1); }
+  /// x of the foremost road wheel's axle [m].
+  double lastWheelX() const { return roadWheel.firstX + groundRun(); }
   /// Height of the pin line of the ground run [m]: wheels stand on the plates.
   double groundPinHeight() const { return roadWheel.z - roadWheel.radius - shoe.plateTop; }
   /// Height of the lowest points, the grousers of the ground run [m].

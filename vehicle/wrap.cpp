@@ -38,8 +38,7 @@ struct Frame {
         sprocketRadius(spec.sprocketPinRadius()), idlerRadius(spec.idlerPinRadius()),
         idlerStep(2 * base::asin(0.5 * spec.shoe.pitch / spec.idlerPinRadius())), idlerX(spec.idler.x),
         idlerZ(spec.idler.z), groundZ(spec.groundPinHeight()), rearWheelX(spec.roadWheel.firstX),
-        frontWheelX(spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1)),
-        maximumFold(spec.shoe.maximumFold) {}
+        frontWheelX(spec.lastWheelX()), maximumFold(spec.shoe.maximumFold) {}
 
   /// Angle of gap k; the gaps lie symmetric to the horizontal through the axle's rear: 180 + k degrees-a-tooth.
   double gapAngle(int k) const { return kPi + 2 * kPi * k / teeth; }
@@ -207,7 +206,7 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
 /// The vehicle with front and rear exchanged, as far as a loop knows of it.
 VehicleSpec mirrored(VehicleSpec spec) {
   spec.idler.x = -spec.idler.x;
-  spec.roadWheel.firstX = -(spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1));
+  spec.roadWheel.firstX = -spec.lastWheelX();
   for (double& x : spec.roller.x) x = -x;
   return spec;
 }

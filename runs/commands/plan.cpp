@@ -133,8 +133,8 @@ std::string bedHeightText(const scene::Scene& scene) {
 /// What of a bed's settlement under the ground run of a vehicle happens above its floor, were it an elastic solid.
 std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   if (!scene.terrain || !scene.terrain->granular() || !scene.terrain->depth) return "";
-  constexpr double kPoisson = 0.25; // of loose soil; with 0.1 and 0.4 a share is three points more and less
-  const double half = 0.5 * (spec.roadWheel.count - 1) * spec.roadWheel.spacing, depth = *scene.terrain->depth;
+  constexpr double kPoisson = 0.25; // of loose soil
+  const double half = 0.5 * spec.groundRun(), depth = *scene.terrain->depth;
   std::vector<forecast::LoadedRectangle> tracks;
   for (const double y : {spec.trackOffset, -spec.trackOffset}) // of a single track both are one: shares stay
     tracks.push_back({0, y, half > 0 ? half : spec.shoe.halfLength, spec.shoe.padHalfWidth});

@@ -110,7 +110,7 @@ Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap) {
   f.inward = std::max(0.0, -s.shoe.padBottom - 0.5 * (s.shoe.pitch - 2 * s.shoe.halfLength));
   f.loop = s.shoe.count * s.shoe.pitch;
   f.first = s.roadWheel.firstX - f.wheel;
-  f.last = s.roadWheel.firstX + (s.roadWheel.count - 1) * s.roadWheel.spacing + f.wheel;
+  f.last = s.lastWheelX() + f.wheel;
   // Between two wheels the pins rise by the folds that the plates leave, straight under one wheel not at all.
   const double between = s.shoe.pitch * base::sin(s.shoe.maximumFold), half = 0.5 * s.totalMass() * kGravity;
   f.hanging = f.drawn;

@@ -36,7 +36,7 @@ VehicleShape shapeOf(const vehicle::VehicleSpec& spec) {
     for (const SidePoint& q : corners) s.diagonal = std::max(s.diagonal, std::hypot(q.x - p.x, q.z - p.z));
   s.halfWidth = spec.trackOffset + spec.shoe.padHalfWidth;
   s.firstWheel = spec.roadWheel.firstX;
-  s.lastWheel = spec.roadWheel.firstX + (spec.roadWheel.count - 1) * spec.roadWheel.spacing;
+  s.lastWheel = spec.lastWheelX();
   for (const multibody::Body& body : drawn.model.bodies()) {
     s.mass += body.mass;
     s.massCentre.x += body.mass * body.pose.position.x, s.massCentre.z += body.mass * body.pose.position.z;

@@ -9,23 +9,19 @@ namespace grouser::forecast {
 
 namespace {
 
-/// Of the corner of a rectangle with sides `a` and `b`, times modulus over pressure [m]; a negative side turns the
-/// sign.
+/// Of the corner of a rectangle with sides `a` and `b`, times modulus over pressure [m]; odd in both, so that corners
+/// add up to what any point settles.
 double cornerSettlement(double a, double b, double depth, double poisson) {
-  const double length = std::fabs(a), breadth = std::fabs(b);
-  if (length == 0 || breadth == 0) return 0;
-  const double across = std::hypot(length, breadth);
+  if (a == 0 || b == 0) return 0;
   // What half-space settles at its surface, then what it does at `depth`.
-  double settled = length * std::asinh(breadth / length) + breadth * std::asinh(length / breadth);
-  settled *= (1 - poisson * poisson) / base::kPi;
+  const double surface = a * std::asinh(b / std::fabs(a)) + b * std::asinh(a / std::fabs(b));
+  double settled = (1 - poisson * poisson) * surface;
   if (std::isfinite(depth)) {
-    const double far = std::hypot(across, depth);
-    const double logs = length * std::asinh(breadth / std::hypot(length, depth)) +
-                        breadth * std::asinh(length / std::hypot(breadth, depth));
-    const double angle = std::atan(length * breadth / (depth * far));
-    settled -= (1 + poisson) * ((1 - poisson) * logs - 0.5 * (1 - 2 * poisson) * depth * angle) / base::kPi;
+    const double logs = a * std::asinh(b / std::hypot(a, depth)) + b * std::asinh(a / std::hypot(b, depth));
+    const double angle = std::atan(a * b / (depth * std::hypot(a, b, depth)));
+    settled -= (1 + poisson) * ((1 - poisson) * logs - 0.5 * (1 - 2 * poisson) * depth * angle);
   }
-  return std::signbit(a) == std::signbit(b) ? settled : -settled;
+  return settled / base::kPi;
 }
 
 } // namespace

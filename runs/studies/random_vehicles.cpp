@@ -32,7 +32,7 @@ std::string gear(Draw& draw, vehicle::VehicleSpec& s) {
   const int more = draw.once(0.5) ? draw.of(-2, 4) : 0;
   s.shoe.count += more, s.idler.x += 0.5 * s.outward() * more * s.shoe.pitch;
   const int wheels = draw.once(0.3) ? draw.of(-1, 1) : 0;
-  const double run = (s.roadWheel.count - 1) * s.roadWheel.spacing + 0.5 * more * s.shoe.pitch;
+  const double run = s.groundRun() + 0.5 * more * s.shoe.pitch;
   const auto spaced = [&](int count) { return run / (count - 1); };
   for (const int less : {0, 1, 2})
     if (s.roadWheel.count + wheels - less >= 3 &&
@@ -51,7 +51,7 @@ std::string gear(Draw& draw, vehicle::VehicleSpec& s) {
 
 std::string masses(Draw& draw, vehicle::VehicleSpec& s) {
   const double before = s.totalMass(), hull = draw.over(0.5, 2), shoe = draw.over(0.5, 2);
-  const double run = (s.roadWheel.count - 1) * s.roadWheel.spacing;
+  const double run = s.groundRun();
   s.chassis.mass *= hull, s.shoe.mass *= shoe;
   s.chassis.centre.x += draw.in(-0.1, 0.1) * run, s.chassis.centre.z += draw.in(-0.05, 0.1) * run;
   s.arm.preload *= s.totalMass() / before * draw.in(0.9, 1.1);

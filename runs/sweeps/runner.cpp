@@ -123,7 +123,8 @@ std::string reason(int status, const fs::path& log) {
 class Runner {
 public:
   Runner(const SweepPlan& plan, const SweepOptions& options, const std::string& what, const OutcomesChanged& changed)
-      : plan_(plan), options_(options), changed_(changed), outcomes_(plan.runs.size()), progress_(what) {
+      : plan_(plan), options_(options), changed_(changed), outcomes_(plan.runs.size()), work_(plan.runs.size()),
+        progress_(what) {
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       const bool anew =
           options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
@@ -135,11 +136,10 @@ public:
         progress_.note(fmt::format("{} failed before: {}", title(i), outcomes_[i].message));
       } else {
         waiting_.push_back(i);
+        work_[i] = workOf(plan.runs[i]), due_ += work_[i];
       }
     }
     todo_ = waiting_.size();
-    for (const SweepRun& run : plan.runs) work_.push_back(workOf(run));
-    for (const std::size_t i : waiting_) due_ += work_[i];
     if (options.jobs > 1 && options.seconds == 0)
       std::stable_sort(waiting_.begin(), waiting_.end(),
                        [&](std::size_t a, std::size_t b) { return work_[a] > work_[b]; });
@@ -277,7 +277,7 @@ private:
   std::map<pid_t, Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
   bool stopping_ = false;
-  std::vector<double> work_;  ///< workOf() each run
+  std::vector<double> work_;  ///< workOf() each run to do
   double due_ = 0, done_ = 0; ///< of the runs to do, and those that have ended
   Clock::time_point begin_ = Clock::now();
   support::Progress progress_;

@@ -29,9 +29,12 @@ protected:
                               "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n";
   }
   fs::path scene() const { return folder_ / "fall.toml"; }
-  SweepOptions options() const {
+  /// Runs are a shell script that finds its folder in $2.
+  SweepOptions options(const std::string& script) const {
     SweepOptions o;
-    o.folder = folder_ / "out", o.plot = false;
+    o.folder = folder_ / "out", o.program = folder_ / "program", o.plot = false;
+    std::ofstream(o.program) << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\n" << script;
+    fs::permissions(o.program, fs::perms::owner_all);
     return o;
   }
 };
@@ -40,13 +43,8 @@ TEST_F(SweepOrder, RunsWithTheMostWorkAreBegunFirstWhereSeveralGoAtATime) {
   SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,2],[0,0,3],[0,0,4]"}});
   const double ends[] = {5, 20, 5, 8};
   for (std::size_t i = 0; i < 4; ++i) plan.runs[i].expectedEnd = ends[i];
-  // A program that writes down what was begun.
-  const fs::path program = folder_ / "noted", begun = folder_ / "begun";
-  std::ofstream(program) << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\nbasename \"$2\" >> "
-                         << begun.string() << "\nsleep 0.5\n";
-  fs::permissions(program, fs::perms::owner_all);
-  SweepOptions o = options();
-  o.program = program;
+  const fs::path begun = folder_ / "begun";
+  SweepOptions o = options("basename \"$2\" >> " + begun.string() + "\nsleep 0.5\n");
   const auto order = [&](int jobs, double seconds) {
     fs::remove(begun);
     o.jobs = jobs, o.seconds = seconds;
@@ -90,12 +88,8 @@ TEST_F(SweepOrder, ShareDoneIsOfTheTimeAtWhichRunsAreExpectedToEnd) {
   EXPECT_EQ(expectedEnd(plan.runs[1]), 100) << "its duration ends it";
   plan.runs[1].expectedEnd = 2;
   // A program that has simulated 5 s at once and then takes until after the first line of progress.
-  const fs::path program = folder_ / "slow";
-  std::ofstream(program) << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\n"
-                            "printf 'step,time [s]\\n100,2\\n250,5\\n260,5.2' > \"$2/timeseries.csv\"\nsleep 5.3\n";
-  fs::permissions(program, fs::perms::owner_all);
-  SweepOptions o = options();
-  o.program = program, o.jobs = 2;
+  SweepOptions o = options("printf 'step,time [s]\\n100,2\\n250,5\\n260,5.2' > \"$2/timeseries.csv\"\nsleep 5.3\n");
+  o.jobs = 2;
   ::testing::internal::CaptureStderr();
   runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {});
   const std::string said = ::testing::internal::GetCapturedStderr();
