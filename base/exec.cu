@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/exec.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/host_memory.hpp"
 #include "base/loop_shares.hpp"
@@ -97,7 +98,7 @@ bool cudaAvailable() { return cudaDevices() > 0; }
 std::string describe(const Exec& exec) {
   if (exec.onCpu()) {
     const std::string why = whyNoGpu();
-    return std::to_string(exec.threads) + " thread(s) on " + processorName() + (why.empty() ? "" : "; no GPU: " + why);
+    return counted(exec.threads, "thread") + " on " + processorName() + (why.empty() ? "" : "; no GPU: " + why);
   }
 #if defined(__CUDACC__)
   int index = 0;

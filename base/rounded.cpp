@@ -37,4 +37,6 @@ std::string rounded(double value, int digits, int direction) {
 std::string roundedDown(double value, int digits) { return rounded(value, digits, -1); }
 std::string roundedUp(double value, int digits) { return rounded(value, digits, 1); }
 
+double nearestDecimal(double value) { return std::strtod(fmt::format("{:.15g}", value).c_str(), nullptr); }
+
 } // namespace grouser::base

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/table.hpp"
 
+#include "base/unknown_key.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -235,10 +237,11 @@ void checkKeys(const Node& section, const std::string& path, const std::vector<s
                                  nodeText(section), path));
   for (const Node::Entry& e : *map) {
     if (std::find(valid.begin(), valid.end(), e.key) != valid.end()) continue;
-    const bool isSection = e.node.isMap() || (e.node.isList() && path.empty());
-    throw InputError(fmt::format("{}: unknown {} {}{}; did you mean {}? (valid here: {})", e.node.origin,
-                                 isSection ? "section" : "key", path.empty() ? "" : path + ".", e.key,
-                                 nearestWord(e.key, valid), fmt::join(valid, ", ")));
+    std::vector<std::string> inner;
+    if (const auto* entries = std::get_if<Node::Map>(&e.node.value))
+      for (const Node::Entry& k : *entries) inner.push_back(k.key);
+    if (inner.empty() && (e.node.isMap() || (e.node.isList() && path.empty()))) inner.emplace_back();
+    throw UnknownKey({e.node.origin, path, e.key, inner, valid}, nearestWord(e.key, valid));
   }
 }
 
@@ -282,6 +285,9 @@ std::vector<Section> Section::list(const std::string& key) const {
   if (!node) return sections;
   const std::string full = path_.empty() ? key : path_ + "." + key;
   const auto* list = std::get_if<Node::List>(&node->value);
+  // Keys of --set alone: there is no such section, and another one was perhaps meant.
+  if (const auto* map = std::get_if<Node::Map>(&node->value); map && node->origin == "--set" && !map->empty())
+    throw UnknownKey({node->origin, full, map->front().key, {}, {}}, "");
   if (!list || !std::all_of(list->begin(), list->end(), [](const Node& n) { return n.isMap(); }))
     throw InputError(fmt::format("{}: {} has the wrong type; make it a list of sections, each under [[{}]]",
                                  node->origin, full, full));

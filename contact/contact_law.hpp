@@ -44,7 +44,9 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
 /// Hertz-Mindlin, with the contact radius a = sqrt(R_eff overlap):
 ///   elastic = (4/3) E_eff a overlap,  k_t = 8 G_eff a (Mindlin 1949, no slip),  c_n = 2 beta sqrt(2 E_eff a m_eff), so
 ///   that the restitution does not depend on the speed (Tsuji et al. 1992, Powder Technol. 71:239).
-///   The tangential force is -k_t(overlap) shear: the whole spring stiffens and softens with the contact radius.
+///   While the contact is loaded the tangential force stays and the spring is shortened as it stiffens; while it is
+///   unloaded the spring's length stays and the force falls with k_t (Thornton, Cummins and Cleary 2013, Powder
+///   Technol. 233:30). So F_t^2 / (2 k_t) only falls as k_t changes: no closed path of loads and shears gains energy.
 ///
 /// Cohesion (DMT, Derjaguin et al. 1975): a constant pull of 2 pi w R_eff while the spheres overlap, w the energy of
 /// adhesion. At overlap zero it ends at once: parting needs that force, and the work done against it is that gained on
@@ -67,6 +69,8 @@ template <class T> struct BasicLaw {
   T pullPerRadius{};         ///< cohesion: 2 pi w [N/m], >= 0
   T pullPerArea{};           ///< of one that grows with the radius: 2 pi dw / dR_eff [Pa], >= 0
   BasicPlasticity<T> plastic{};
+  /// Linear, of one mass: share of both dashpots against a grain that never moves [-], for the restitution asked for.
+  T fixedShare{1};
 
   template <class U> BasicLaw<U> as() const {
     const auto u = [](T value) { return static_cast<U>(value); };
@@ -83,7 +87,8 @@ template <class T> struct BasicLaw {
             u(rollingDamping),
             u(pullPerRadius),
             u(pullPerArea),
-            plastic.template as<U>()};
+            plastic.template as<U>(),
+            u(fixedShare)};
   }
   /// The same with elastic contacts.
   BasicLaw elastic() const {
@@ -117,25 +122,49 @@ using ContactLaw = BasicLaw<double>;
 using base::ScalarOf;
 using base::squareRoot;
 
+/// Forces [N] and torques [N m] are multiplied by this factor before they are squared: squares of those of micrometre
+/// grains would underflow a float (1e-38). A power of two changes no other bits; forces up to 1e12 N stay in range.
+inline constexpr float kSquareScale = 0x1p24f;
+
 /// Two surfaces in touch, seen from side i; with SIMD numbers, as many pairs as there are lanes. The normal points from
 /// i to j.
 template <class T> struct BasicContactGeometry {
-  base::Vec3<T> normal;   ///< unit, from i to j
-  T overlap;              ///< [m], > 0
-  base::Vec3<T> velocity; ///< of i's material point relative to j's at the contact point [m/s]
-  T effectiveMass;        ///< m_i m_j / (m_i + m_j) [kg]
-  T effectiveRadius{};    ///< R_i R_j / (R_i + R_j) [m]; for Hertz, cohesion and rolling
+  base::Vec3<T> normal;                   ///< unit, from i to j
+  T overlap;                              ///< [m], > 0
+  base::Vec3<T> velocity;                 ///< of i's material point relative to j's at the contact point [m/s]
+  T effectiveMass;                        ///< m_i m_j / (m_i + m_j) [kg]
+  T effectiveRadius{};                    ///< R_i R_j / (R_i + R_j) [m]; for Hertz, cohesion and rolling
+  T dampingShare = base::broadcast<T>(1); ///< of both dashpots' coefficients [-]: see BasicLaw::fixedShare
+  bool crushes{false}; ///< the overlap stays as it is while the surfaces approach: the grain gives way (crushing.hpp)
 };
 using ContactGeometry = BasicContactGeometry<float>;
 
+/// How the stiffness of a contact's springs has changed since the last step. Those of Hertz' law follow the contact
+/// radius, and so the root of the overlap.
+template <class T> struct StiffnessChange {
+  T kept = base::broadcast<T>(1); ///< of a spring's length [-]: while it stiffens its force stays, else its length
+  T taken{};                      ///< by that, of stiffness times the square of the length before [-], >= 0
+};
+
+/// From the way [m] by which the surfaces have approached within the step.
+template <class T> GROUSER_HD StiffnessChange<T> hertzChange(T overlap, T way) {
+  using Scalar = ScalarOf<T>;
+  const T one = base::broadcast<T>(1), share = way / overlap, within = share < one ? share : one;
+  const T root = squareRoot(one - within), less = within / (one + root); // former stiffness over present; 1 - that
+  const T kept = root < one ? root : one;
+  return {kept, Scalar(0.5) * kept * (less < Scalar(0) ? -less : less)};
+}
+
 /// What one contact does in one step.
 template <class T> struct BasicReaction {
-  base::Vec3<T> force; ///< on i [N]; on j it is the exact opposite
-  T damped;            ///< by the dashpots within the step [J]
-  T rubbed;            ///< by sliding within the step [J]
-  T pressing;          ///< normal force without cohesion and adhesion [N], what limits friction
-  T normalStiffness;   ///< dF_n / d overlap of the elastic spring [N/m]
-  T yielded{};         ///< plastic work within the step [J]
+  base::Vec3<T> force;         ///< on i [N]; on j it is the exact opposite
+  T damped;                    ///< by the dashpots within the step [J]
+  T rubbed;                    ///< by sliding within the step [J]
+  T pressing;                  ///< normal force without cohesion and adhesion [N], what limits friction
+  T normalStiffness;           ///< dF_n / d overlap of the elastic spring [N/m]
+  T yielded{};                 ///< plastic work within the step [J]
+  T slipped{};                 ///< by the tangential spring as it stiffens or softens within the step [J]
+  StiffnessChange<T> change{}; ///< Hertz: for the rolling spring too
 };
 using Reaction = BasicReaction<float>;
 
@@ -178,8 +207,9 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
 /// for a single collision. A contact that sticks dissipates by its dashpots alone; of one that slides it is all work
 /// but what its spring gains, with the slip at the start of the step: what is held at Coulomb's limit by other contacts
 /// must not seem to move. What turning the spring into the tangent plane takes away is an error of the step's length,
-/// not a loss, and is booked nowhere here. With Hertz' law a loaded tangential spring gains or loses energy as k_t
-/// follows the contact radius, however short the step: that is the law's own, and booked as sliding.
+/// not a loss, and is booked nowhere here. With Hertz' law the tangential spring loses energy as k_t follows the
+/// contact radius, however short the step: that stands for the slip that begins at the rim of the contact, and is
+/// `slipped`.
 template <unsigned kFeatures, class T>
 GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const BasicContactGeometry<T>& touch,
                                          ScalarOf<T> dt, base::Vec3<T>& shear, BasicPlasticState<T>* state = nullptr) {
@@ -187,7 +217,8 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   const T zero{};
   const base::Vec3<T>& n = touch.normal;
   const T approach = dot(touch.velocity, n);
-  const Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);
+  Coefficients<T> c = coefficientsOf<kFeatures>(law, touch.overlap, touch.effectiveMass, touch.effectiveRadius);
+  c.damping *= touch.dampingShare, c.tangentialDamping *= touch.dampingShare;
   T elastic = c.elastic, least = zero, adhesion{}, yielded{};
   constexpr bool kMayYield = (kFeatures & (kPlastic | kGeneral)) != 0;
   if constexpr (kMayYield)
@@ -208,25 +239,27 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   BasicReaction<T> reaction{
       n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, zero, pressing, c.normalStiffness,
       yielded};
+  const bool hertz = kFeatures & kGeneral ? law.hertz : (kFeatures & kHertz) != 0;
+  if (hertz) reaction.change = hertzChange(touch.overlap, touch.crushes ? zero : approach * dt);
   if (!(kFeatures & (kFriction | kGeneral)) || law.friction <= 0) return reaction;
 
   // Turn the spring into the present tangent plane, then stretch it by this step's slip.
   const base::Vec3<T> slip = touch.velocity - n * approach;
   shear -= n * dot(shear, n);
-  const T storedBefore = c.tangentialStiffness * dot(shear, shear);
-  const bool hertz = kFeatures & kGeneral ? law.hertz : (kFeatures & kHertz) != 0;
-  if (hertz) { // k_t has grown as the root of the overlap, which was less by the way of this step
-    const T share = Scalar(1) - approach * dt / touch.overlap;
-    reaction.rubbed -= Scalar(0.5) * storedBefore * (Scalar(1) - squareRoot(share > zero ? share : zero));
+  if (hertz) {
+    reaction.slipped = c.tangentialStiffness * dot(shear, shear) * reaction.change.taken;
+    shear *= reaction.change.kept;
   }
+  const T storedBefore = c.tangentialStiffness * dot(shear, shear);
   shear += slip * base::broadcast<T>(dt);
   base::Vec3<T> tangential = shear * -c.tangentialStiffness - slip * c.tangentialDamping;
   const T limit = law.friction * (pressing > zero ? pressing : zero);
-  const T size2 = dot(tangential, tangential);
-  const auto slides = size2 > limit * limit;
+  const base::Vec3<T> scaled = tangential * base::broadcast<T>(kSquareScale);
+  const T scaledLimit = limit * Scalar(kSquareScale), size2 = dot(scaled, scaled), limit2 = scaledLimit * scaledLimit;
+  const auto slides = size2 > limit2;
   if (base::any(slides)) {
     // Sliding: the force lies on Coulomb's cone.
-    tangential = base::select(slides, tangential * (limit / squareRoot(size2)), tangential);
+    tangential = base::select(slides, tangential * (scaledLimit / squareRoot(size2)), tangential);
     if (!hertz) {
       // The spring is as long as it would hold that force.
       if (law.tangentialStiffness > 0)
@@ -236,9 +269,10 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
     } else {
       // Where contacts begin, k_t is as small as one likes, and a spring that took over the dashpot's force would be
       // as long: it is shortened only where it is beyond the cone alone.
-      const T spring2 = c.tangentialStiffness * c.tangentialStiffness * dot(shear, shear);
-      if (const auto beyond = slides & (spring2 > limit * limit); base::any(beyond))
-        shear = base::select(beyond, shear * (limit / squareRoot(spring2)), shear);
+      const T scaledStiffness = c.tangentialStiffness * Scalar(kSquareScale);
+      const T spring2 = scaledStiffness * scaledStiffness * dot(shear, shear);
+      if (const auto beyond = slides & (spring2 > limit2); base::any(beyond))
+        shear = base::select(beyond, shear * (scaledLimit / squareRoot(spring2)), shear);
     }
   }
   // A force at the rim of a sphere speeds the slip up by 1 + 5/2 of what it does to the centres: slip + 7/2 F h is the

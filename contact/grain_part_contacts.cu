@@ -330,11 +330,17 @@ GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const std::vector<std::int64_t> q = allSums();
   const auto energy = [&](std::size_t k) { return model_.energy.value(q[k]); };
   constexpr std::size_t kForce = kReceivedByGrains;
-  return {q[kPatchesNow],          q[kSqueezedNow],
-          energy(kElasticNow),     energy(kDampedByParts),
-          energy(kRubbedByParts),  energy(kRolledByParts),
-          energy(kCrushedByParts), model_.force.value({q[kCutByCrushing], 0, 0}).x * model_.timeStep,
-          q[kCappedNow],           model_.force.value({q[kForce], q[kForce + 1], q[kForce + 2]}) * model_.timeStep};
+  return {q[kPatchesNow],
+          q[kSqueezedNow],
+          energy(kElasticNow),
+          energy(kDampedByParts),
+          energy(kRubbedByParts),
+          energy(kRolledByParts),
+          energy(kSlippedByParts),
+          energy(kCrushedByParts),
+          model_.force.value({q[kCutByCrushing], 0, 0}).x * model_.timeStep,
+          q[kCappedNow],
+          model_.force.value({q[kForce], q[kForce + 1], q[kForce + 2]}) * model_.timeStep};
 }
 
 std::vector<std::uint32_t> GrainPartContacts::ended() const {

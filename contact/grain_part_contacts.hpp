@@ -91,6 +91,7 @@ public:
     std::int64_t squeezed{};             ///< pairs deeper than kSqueezed then
     double elastic{};                    ///< held in their springs [J]
     double damped{}, rubbed{}, rolled{}; ///< dissipated since the start [J]
+    double slipped{};                    ///< the same by springs of Hertz' law as they stiffen and soften [J]
     double crushed{};                    ///< the same where grains crush [J]
     double cutImpulse{};                 ///< that springs would have given without it since the start [N s]
     std::int64_t capped{};               ///< patches at the force at which their grain crushes, at the last compute

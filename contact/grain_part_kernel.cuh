@@ -124,7 +124,7 @@ private:
     addTo(partLoad[p].torque, sum.torqueOnPart);
     total.add(kPatchesNow, found);
     total.add(kElasticNow, model.energy.quantise(sum.elastic));
-    for (int cause = 0; cause < 3; ++cause)
+    for (int cause = 0; cause < 4; ++cause)
       total.add(kDampedByParts + cause, model.energy.quantise(static_cast<double>(sum.lost[cause])));
     if (crushes()) {
       total.add(kCappedNow, sum.capped);
@@ -153,7 +153,7 @@ private:
     GrainLoad onGrain{};
     base::Vec3l torqueOnPart{};
     double elastic = 0;          ///< held in springs [J]
-    float lost[3] = {};          ///< dissipated by dashpots, sliding and rolling resistance [J]
+    float lost[4] = {};          ///< dissipated by dashpots, sliding, rolling resistance, change of stiffness [J]
     double crushed = 0, cut = 0; ///< dissipated [J], force cut off [N] where the grain crushes
     int capped = 0;              ///< patches
   };
@@ -260,7 +260,7 @@ private:
       springs.shear = springs.rolled = {};
       return false;
     }
-    touch.overlap = y.overlap;
+    touch.overlap = y.overlap, touch.crushes = y.capped;
     law.damping *= y.damping, law.rootDamping *= y.damping;
     return true;
   }
@@ -290,13 +290,14 @@ private:
     sum.onGrain.force += quanta;
     sum.onGrain.torque += cross(arm, force).template as<float>();
     sum.lost[0] += reaction.damped, sum.lost[1] += reaction.rubbed;
+    sum.lost[3] += reaction.slipped;
     sum.elastic += storedEnergy(*law, static_cast<double>(touch.overlap), ball.radius, springs.shear);
     sum.torqueOnPart += model.torque.quantise(cross(point - part.centre, -force));
     if ((kFeatures & (kGeneral | kRollingFriction)) && law->rollingFriction > 0) {
       const base::Vec3f rolling = transposedTimes(part.rotation, ball.w - part.spin).template as<float>();
       const RollingMotion<float> how{touch.normal, rolling, radius, rollingInertia(mass, radius)};
-      const base::Vec3f torque =
-          rollingTorque(*law, how, reaction.pressing, reaction.normalStiffness, dt, springs.rolled, sum.lost[2]);
+      const base::Vec3f torque = rollingTorque(*law, how, reaction.pressing, reaction.normalStiffness, dt,
+                                               springs.rolled, sum.lost[2], law->hertz ? &reaction.change : nullptr);
       const float k = rollingStiffness(*law, reaction.normalStiffness, radius);
       sum.elastic += 0.5 * static_cast<double>(k * dot(springs.rolled, springs.rolled));
       // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.

@@ -39,6 +39,7 @@ enum PartSum : int {
   kSumsOfStep = kDampedByParts,
   kRubbedByParts,
   kRolledByParts,
+  kSlippedByParts,
   kCrushedByParts,   ///< dissipated where grains crush
   kCutByCrushing,    ///< force that springs would have had more, a step each
   kReceivedByGrains, ///< x, y, z: force, a step each

@@ -15,10 +15,13 @@ template <class T> struct RollingMotion {
 
 /// Of a sphere on what never moves.
 template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return ScalarOf<T>(1.4) * mass * radius * radius; }
-/// Of spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2).
+/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2). The scale keeps the product of both inertias in
+/// the range of a float for radii from 1 um to 10 m.
 template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T radiusJ) {
-  const T i = rollingInertia(massI, radiusI), j = rollingInertia(massJ, radiusJ);
-  return i * j / (i + j);
+  constexpr float kScale = 0x1p28f;
+  const T i = rollingInertia(massI, radiusI) * ScalarOf<T>(kScale),
+          j = rollingInertia(massJ, radiusJ) * ScalarOf<T>(kScale);
+  return i * j / (i + j) * (ScalarOf<T>(1) / ScalarOf<T>(kScale));
 }
 
 /// Stiffness of the rolling spring [N m/rad].
@@ -34,33 +37,39 @@ template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<ScalarOf<T>>& la
 /// The angle [rad] is the history of the relative spin in the tangent plane; where the spring is at the limit it is
 /// shortened to fit and the dashpot is off. Below, the dashpot may at most fill the torque up to the limit: in the
 /// paper it may exceed it many times, so that a fast ball loses percents of its energy in the moment of touch. Spin
-/// about the normal is not resisted. `pressing` and `normalStiffness` are the reaction's. Returns the torque on i [N
-/// m]; on j it is the exact opposite. Adds what it dissipates: by the dashpot, with the spin in the middle of the step
-/// as this torque alone would make it, and at the limit all work but what the spring gains.
-/// T as in contactForce(): one source for the kernels of both devices and for many contacts at a time.
+/// about the normal is not resisted. `pressing`, `normalStiffness` and `change` are the reaction's; `change`: null
+/// where k_n is constant. With Hertz' law k_r follows k_n, and the spring yields to it as the tangential one does: it
+/// gives no energy. Returns the torque on i [N m]; on j it is the exact opposite. Adds what it dissipates: by the
+/// dashpot, with the spin in the middle of the step as this torque alone would make it, at the limit all work but what
+/// the spring gains, and what the change of stiffness takes. T as in contactForce(): one source for the kernels of both
+/// devices and for many contacts at a time.
 template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarOf<T>>& law, const RollingMotion<T>& m,
                                                           T pressing, T normalStiffness, ScalarOf<T> dt,
-                                                          base::Vec3<T>& angle, T& dissipated) {
+                                                          base::Vec3<T>& angle, T& dissipated,
+                                                          const StiffnessChange<T>* change = nullptr) {
   using Scalar = ScalarOf<T>;
+  constexpr Scalar kScale = Scalar(kSquareScale); // torques and energies below are scaled by it
   const T zero{};
   if (law.rollingFriction <= 0) return angle = {};
   const base::Vec3<T> rolling = m.spin - m.normal * dot(m.spin, m.normal);
-  const T stiffness = rollingStiffness(law, normalStiffness, m.radius);
+  const T stiffness = rollingStiffness(law, normalStiffness, m.radius) * kScale, inertia = m.inertia * kScale;
   angle -= m.normal * dot(angle, m.normal);
+  T taken{};
+  if (change) taken = stiffness * dot(angle, angle) * change->taken, angle *= change->kept;
   const T storedBefore = stiffness * dot(angle, angle);
   angle += rolling * base::broadcast<T>(dt);
   const base::Vec3<T> spring = angle * -stiffness;
-  const T limit = law.rollingFriction * m.radius * (pressing > zero ? pressing : zero);
+  const T limit = law.rollingFriction * m.radius * (pressing > zero ? pressing : zero) * kScale;
   const T limit2 = limit * limit, size2 = dot(spring, spring);
   const auto slides = size2 > limit2;
   // Below the limit the dashpot fills the torque up to it.
-  base::Vec3<T> torque = spring - rolling * (Scalar(2) * law.rollingDamping * squareRoot(m.inertia * stiffness));
+  base::Vec3<T> torque = spring - rolling * (Scalar(2) * law.rollingDamping * squareRoot(inertia * stiffness));
   const T both2 = dot(torque, torque);
   if (const auto beyond = both2 > limit2; base::any(beyond))
     torque = base::select(beyond, torque * (limit / squareRoot(both2)), torque);
   // About their centres spheres are 7/2 times easier to turn than about the point of contact.
-  const base::Vec3<T> middle = rolling + torque * (Scalar(1.75) * dt / m.inertia);
-  T taken = dot(torque - spring, middle) * dt;
+  const base::Vec3<T> middle = rolling + torque * (Scalar(1.75) * dt / inertia);
+  T given = dot(torque - spring, middle) * dt;
   if (base::any(slides)) {
     const base::Vec3<T> held = spring * (limit / squareRoot(size2));
     const base::Vec3<T> shortened =
@@ -68,10 +77,10 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarO
     torque = base::select(slides, held, torque);
     angle = base::select(slides, shortened, angle);
     const T lost = dot(held, rolling) * dt + Scalar(0.5) * (stiffness * dot(angle, angle) - storedBefore);
-    taken = slides ? lost : taken;
+    given = slides ? lost : given;
   }
-  dissipated -= taken;
-  return torque;
+  dissipated -= (given - taken) * (Scalar(1) / kScale);
+  return torque * base::broadcast<T>(Scalar(1) / kScale);
 }
 
 } // namespace grouser::contact

@@ -14,4 +14,11 @@ inline double strongestForce(const ContactLaw& law, double radius, double hertz)
 /// `hertz` of forces, a fifth of the radius, and of energies, a hundredth.
 inline constexpr double kForcePress = 0.1, kEnergyPress = 1e-3;
 
+/// Lever arm that sets the quantum of torques [m]: 1 m for grains of 1 mm and more; it falls with the square of smaller
+/// radii, so that their rolling resistance still spans many quanta.
+inline double leverScale(double radius) {
+  const double share = 1e3 * radius;
+  return share < 1 ? share * share : 1;
+}
+
 } // namespace grouser::contact

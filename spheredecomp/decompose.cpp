@@ -30,9 +30,13 @@ constexpr double kFlatReach = 0.74;
 constexpr double kMerge = 0.5;
 /// Surface samples lie about this far apart [spacing].
 constexpr double kSampleStep = 0.33;
+/// The same for a thin part, in which a gap between discs is a hole.
+constexpr double kThinSampleStep = 0.2;
 
 /// Samples whose spheres are fitted side by side.
 constexpr std::size_t kBlock = 2048;
+/// The same of a thin part, whose fits cost more than what is covered meanwhile.
+constexpr std::size_t kThinBlock = 128;
 
 /// Runs body(i) for i in [0, count) on all threads; each i writes its own place, so the order does not matter.
 template <class Body> void parallel(std::size_t count, Body&& body) {
@@ -100,7 +104,8 @@ public:
     std::vector<SetSphere> fitted(points.size());
     parallel(points.size(), [&](std::size_t i) {
       if (points[i].near.triangle != kNone)
-        fitted[i] = detail::fitSphere(outer_, points[i].near.point, outer_.normal(points[i].near.triangle), radius_);
+        fitted[i] =
+            detail::fitSphere(outer_, points[i].near.point, outer_.normal(points[i].near.triangle), radius_, fit());
     });
     for (const SetSphere& s : fitted)
       if (s.radius > 0 && !centreWithin(s.centre, kMerge * spacing_)) add(s);
@@ -111,13 +116,14 @@ public:
   /// block run side by side, then its spheres are added in order and spare the next block's fits.
   void closeHoles(const std::vector<SurfaceSample>& samples) {
     std::vector<SetSphere> fitted;
-    for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
-      const std::size_t count = std::min(kBlock, samples.size() - begin);
+    const std::size_t block = options_.thin ? kThinBlock : kBlock;
+    for (std::size_t begin = 0; begin < samples.size(); begin += block) {
+      const std::size_t count = std::min(block, samples.size() - begin);
       fitted.assign(count, SetSphere{});
       parallel(count, [&](std::size_t i) {
         const SurfaceSample& sample = samples[begin + i];
         if (!coveredBeneath(sample) && !covered(sample.point))
-          fitted[i] = detail::fitSphere(outer_, sample.point, sample.normal, radius_);
+          fitted[i] = detail::fitSphere(outer_, sample.point, sample.normal, radius_, fit());
       });
       for (SetSphere& s : fitted) {
         // Near an edge the sphere cannot reach the sample: what counts is its own highest point.
@@ -143,8 +149,9 @@ private:
     spheres_.push_back(s);
   }
   void setFlat(SetSphere& s) const {
-    s.flat = detail::flatRadius(outer_, s, kFlatReach * spacing_, options_.flatTolerance);
+    s.flat = detail::flatRadius(outer_, s, kFlatReach * spacing_, options_.flatTolerance, options_.thin);
   }
+  detail::Fit fit() const { return {options_.smallest, options_.thin}; }
   bool centreWithin(const Vec3d& p, double distance) const {
     return centres_.any(p, distance,
                         [&](std::uint32_t i) { return norm2(spheres_[i].centre - p) < distance * distance; });
@@ -199,7 +206,7 @@ SphereSet decomposeAt(const TriangleMesh& mesh, const std::string& name, const D
   const OuterSurface outer(mesh, spacing / 6);
   const double shell = radius + 0.5 * spacing;
   const std::vector<LatticePoint> inside = pointsInside(outer, lattice, shell);
-  const std::vector<SurfaceSample> samples = outer.samples(kSampleStep * spacing);
+  const std::vector<SurfaceSample> samples = outer.samples((options.thin ? kThinSampleStep : kSampleStep) * spacing);
 
   SurfaceBuilder builder(outer, radius, spacing, options);
   builder.addLattice(inside);
@@ -260,6 +267,7 @@ void check(const std::string& name, const DecompositionOptions& o) {
   range("spacingRatio", o.spacingRatio, 0.2, 1.5, "[-]");
   range("maxDip", o.maxDip, 0.001, 0.5, "[radius]");
   range("flatTolerance", o.flatTolerance, 0.001, 0.2, "[radius]");
+  range("smallest", o.smallest, 1e-6, 1, "[radius]");
   if (o.radius == 0 && o.targetCount == 0) throw base::InputError(name + ": give radius [m] or targetCount");
   if (o.radius != 0) range("radius", o.radius, kSmallestRadius, kLargestRadius, "m");
 }
@@ -278,14 +286,14 @@ void checkFits(const TriangleMesh& mesh, const std::string& name, double radius)
 } // namespace
 
 std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options) {
-  const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, interior] = options; // all of them
+  const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, smallest, thin, interior] = options; // all
   base::StateHash hash;
   for (const Vec3d& v : mesh.vertices)
     for (int k = 0; k < 3; ++k) hash.add(base::bitsAs<std::uint64_t>(v[k]));
   hash.add(mesh.indices);
   return fmt::format("sphere set, version {}\nradius {}\ntargetCount {}\nspacingRatio {}\nmaxDip {}\nflatTolerance {}\n"
-                     "interior {}\nmesh of {} vertices, {} triangles, hash {}\n",
-                     kCutVersion, radius, targetCount, spacingRatio, maxDip, flatTolerance, interior,
+                     "smallest {}\nthin {}\ninterior {}\nmesh of {} vertices, {} triangles, hash {}\n",
+                     kCutVersion, radius, targetCount, spacingRatio, maxDip, flatTolerance, smallest, thin, interior,
                      mesh.vertices.size(), mesh.indices.size() / 3, hash.hex());
 }
 

@@ -23,6 +23,8 @@ struct DecompositionOptions {
   /// spacing apart; between those it may dip up to (sqrt(2 maxDip) + 0.165)^2 / 2.
   double maxDip{0.05};
   double flatTolerance{0.01}; ///< a flat disc may stand this much out of the mesh [radius]
+  double smallest{0.2};       ///< spheres shrink to this share of the radius where the part is thin [-]
+  bool thin{false};           ///< the part is thin somewhere: fits, discs and samples are finer there
   bool interior{true};        ///< also fill the inside with lattice spheres (contacts need the surface only)
 };
 

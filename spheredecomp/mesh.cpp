@@ -2,6 +2,8 @@
 #include "spheredecomp/mesh.hpp"
 
 #include "base/error.hpp"
+#include "spheredecomp/detail/obj_text.hpp"
+#include "spheredecomp/detail/polygon.hpp"
 
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace grouser::spheredecomp {
@@ -36,6 +39,34 @@ TriangleMesh weld(const TriangleMesh& mesh) {
 }
 
 namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Directed edges that are not met as often in the other direction.
+std::vector<Edge> openEdges(const TriangleMesh& mesh) {
+  std::vector<Edge> edges, opposite, open;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh.indices[i + k], b = mesh.indices[i + (k + 1) % 3];
+      edges.emplace_back(a, b);
+      opposite.emplace_back(b, a);
+    }
+  std::sort(edges.begin(), edges.end());
+  std::sort(opposite.begin(), opposite.end());
+  std::set_difference(edges.begin(), edges.end(), opposite.begin(), opposite.end(), std::back_inserter(open));
+  return open;
+}
+
+/// Vertices at open edges, ascending by x.
+std::vector<std::uint32_t> openVertices(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> found;
+  for (const auto& [a, b] : openEdges(mesh)) found.push_back(a), found.push_back(b);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  std::stable_sort(found.begin(), found.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return mesh.vertices[a].x < mesh.vertices[b].x; });
+  return found;
+}
 
 void checkFinite(const TriangleMesh& mesh, const std::string& name) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -69,19 +100,7 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
     throw base::InputError(name + ": the mesh is flat and encloses nothing, but only closed bodies can be cut into "
                                   "spheres; give it a thickness (extrude it), or use a thin box or a plane instead");
 
-  // Count directed edges; each must be met as often in the other direction.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, opposite;
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.indices[i + k], b = mesh.indices[i + (k + 1) % 3];
-      edges.emplace_back(a, b);
-      opposite.emplace_back(b, a);
-    }
-  std::sort(edges.begin(), edges.end());
-  std::sort(opposite.begin(), opposite.end());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
-  std::set_difference(edges.begin(), edges.end(), opposite.begin(), opposite.end(), std::back_inserter(open));
-  if (!open.empty()) {
+  if (const std::vector<Edge> open = openEdges(mesh); !open.empty()) {
     const Vec3d a = mesh.vertices[open.front().first], b = mesh.vertices[open.front().second];
     throw base::InputError(
         fmt::format("{}: the mesh is not watertight: {} open edges, one from ({:.6g}, {:.6g}, {:.6g}) to "
@@ -93,26 +112,88 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
         fmt::format("{}: the mesh encloses {:.3g} m3, its faces point inwards; flip them", name, volume));
 }
 
-TriangleMesh importMesh(const std::string& path) {
+std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance) {
+  const std::vector<std::uint32_t> open = openVertices(mesh);
+  std::vector<std::uint32_t> target(mesh.vertices.size());
+  std::iota(target.begin(), target.end(), 0u);
+  std::size_t merged = 0;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (target[open[i]] != open[i]) continue;
+    const Vec3d& p = mesh.vertices[open[i]];
+    for (std::size_t k = i + 1; k < open.size() && mesh.vertices[open[k]].x - p.x <= tolerance; ++k)
+      if (target[open[k]] == open[k] && norm(mesh.vertices[open[k]] - p) <= tolerance)
+        target[open[k]] = open[i], ++merged;
+  }
+  if (merged == 0) return 0;
+  TriangleMesh welded = mesh;
+  for (std::uint32_t& v : welded.indices) v = target[v];
+  for (std::size_t i = 0; i + 2 < welded.indices.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = i + (k + 1) % 3;
+      if (welded.indices[i + k] == welded.indices[next] && mesh.indices[i + k] != mesh.indices[next]) return 0;
+    }
+  for (std::size_t v = 0; v < target.size(); ++v) welded.vertices[v] = mesh.vertices[target[v]];
+  mesh = weld(welded);
+  return merged;
+}
+
+namespace {
+
+/// Files keep about seven digits of a coordinate; twice the rounding of two that should be equal [m].
+double weldTolerance(const TriangleMesh& mesh) {
+  double largest = 0;
+  for (const Vec3d& v : mesh.vertices) largest = std::max({largest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  return 4e-6 * largest;
+}
+
+/// The faces of one assimp mesh as triangles, appended.
+void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (unsigned v = 0; v < part.mNumVertices; ++v)
+    mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
+  checkFinite(mesh, path); // before faces are cut and vertices welded: a NaN is equal to anything
+  std::vector<Vec3d> corners;
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices < 3) continue; // a point or a line
+    corners.clear();
+    for (unsigned k = 0; k < face.mNumIndices; ++k) corners.push_back(mesh.vertices[first + face.mIndices[k]]);
+    const auto triangles = detail::triangulate(corners);
+    if (triangles.empty())
+      throw base::InputError(
+          fmt::format("{}: the outline of a face of {} corners crosses itself, one corner at ({:.6g}, "
+                      "{:.6g}, {:.6g}) m; repair it or export triangles",
+                      path, corners.size(), corners[0].x, corners[0].y, corners[0].z));
+    for (const auto& triangle : triangles)
+      for (const std::uint32_t k : triangle) mesh.indices.push_back(first + face.mIndices[k]);
+  }
+}
+
+} // namespace
+
+TriangleMesh importMesh(const std::string& path, std::string* note) {
   if (!std::filesystem::is_regular_file(path)) throw base::InputError(path + ": no such mesh file; check the path");
+  if (std::filesystem::path(path).extension() == ".obj") detail::checkObjVertices(path);
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_PreTransformVertices);
   if (!scene)
     throw base::InputError(
         fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path, importer.GetErrorString()));
 
   TriangleMesh mesh;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& part = *scene->mMeshes[m];
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (unsigned v = 0; v < part.mNumVertices; ++v)
-      mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
-    for (unsigned f = 0; f < part.mNumFaces; ++f)
-      if (const aiFace& face = part.mFaces[f]; face.mNumIndices == 3)
-        for (unsigned k = 0; k < 3; ++k) mesh.indices.push_back(first + face.mIndices[k]);
-  }
-  checkFinite(mesh, path); // before the weld, to which a NaN is equal to anything
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(*scene->mMeshes[m], path, mesh);
   mesh = weld(mesh);
+  if (!openEdges(mesh).empty()) {
+    const double tolerance = weldTolerance(mesh);
+    TriangleMesh welded = mesh;
+    if (const std::size_t merged = weldOpenEdges(welded, tolerance); merged > 0 && openEdges(welded).empty()) {
+      mesh = std::move(welded);
+      if (note)
+        *note = fmt::format("{}: {} vertices at open edges were merged with others that lie within {:.2g} units of the "
+                            "file, as rounding leaves them apart",
+                            path, merged, tolerance);
+    }
+  }
   checkClosed(mesh, path);
   return mesh;
 }

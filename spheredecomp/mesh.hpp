@@ -11,11 +11,15 @@ namespace grouser::spheredecomp {
 using base::TriangleMesh;
 using base::Vec3d;
 
-/// Reads a mesh by assimp (OBJ, STL, PLY, glTF, ... any format it knows) and welds vertices of equal position.
-/// Several closed shells may overlap or touch: inside is where the winding number is not zero.
+/// Reads a mesh by assimp (OBJ, STL, PLY, glTF, ... any format it knows), cuts faces of more than three corners into
+/// triangles and welds vertices of equal position; where that leaves it open, also those at open edges that differ by
+/// rounding, see weldOpenEdges. Several closed shells may overlap or touch: inside is where the winding number is not
+/// zero.
 /// @param path  file; coordinates in metres
-/// Throws base::InputError: no such file, unknown format, no triangles, not watertight, inside out.
-TriangleMesh importMesh(const std::string& path);
+/// @param note  receives a sentence on vertices that were welded though they differ; may be null
+/// Throws base::InputError: no such file, unknown format, no triangles, a face that crosses itself, not watertight,
+/// inside out.
+TriangleMesh importMesh(const std::string& path, std::string* note = nullptr);
 
 /// Throws base::InputError, naming `name` and an open edge, unless every directed edge has its opposite, all
 /// coordinates are finite and the signed volume is positive.
@@ -23,6 +27,11 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name);
 
 /// Merges vertices of exactly equal position and drops triangles that this makes degenerate.
 TriangleMesh weld(const TriangleMesh& mesh);
+
+/// Merges vertices of open edges that lie within `tolerance` [m] of each other: files that several programs have
+/// written have them apart by rounding. Never two that an edge joins, which would collapse a thin part: then nothing is
+/// merged. Returns how many vertices are gone.
+std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance);
 
 /// Enclosed volume by the divergence theorem [m3]; where shells overlap, the common part counts as often as it is
 /// covered.

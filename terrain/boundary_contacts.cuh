@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/for_each.cuh"
+#include "terrain/feet_search.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
 namespace grouser::terrain {
@@ -23,9 +24,9 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     GrainSize<Real> size;
     std::uint32_t before; ///< boundaries that it touched in the last step
   };
-  /// By dashpots, sliding, rolling resistance and yielding [J].
+  /// By dashpots, sliding, rolling resistance, change of stiffness and yielding [J].
   struct Losses {
-    Real damped = 0, rubbed = 0, rolled = 0, yielded = 0;
+    Real damped = 0, rubbed = 0, rolled = 0, slipped = 0, yielded = 0;
   };
   struct Reaction {
     Vec force, rolling; ///< on the grain [N], torque of rolling resistance [N m]
@@ -57,7 +58,9 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
       now |= 1u << b;
       touchFixed(grain, b, d.walls[b].normal.template as<Real>(), overlap, sum, lost);
     }
-    if (!held && has(kFloor) && !d.floor.clearOf(x, radius)) {
+    if (!held && has(kFloor) && d.floor.marks) {
+      now |= touchHollows(grain, radius, sum, lost);
+    } else if (!held && has(kFloor) && !d.floor.clearOf(x, radius)) {
       const FootPoint foot = d.floor.closestPoint(x);
       const Real overlap = static_cast<Real>(radius - foot.distance);
       if (overlap > 0) {
@@ -93,6 +96,8 @@ private:
     books.add(kDamped, wholeQuanta(q * static_cast<double>(lost.damped)));
     if (has(contact::kFriction)) books.add(kRubbed, wholeQuanta(q * static_cast<double>(lost.rubbed)));
     if (has(contact::kRollingFriction)) books.add(kRolled, wholeQuanta(q * static_cast<double>(lost.rolled)));
+    if (has(contact::kFriction) && has(contact::kHertz))
+      books.add(kSlipped, wholeQuanta(q * static_cast<double>(lost.slipped)));
   }
 
   GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap,
@@ -105,6 +110,32 @@ private:
     sum.force += reaction.force;
     if (has(contact::kFriction)) sum.torque += cross(arm, reaction.force);
     if (has(contact::kRollingFriction)) sum.torque += reaction.rolling;
+  }
+
+  /// A floor with hollows tighter than the grain: all places of contact, each with springs of its own.
+  GROUSER_HD std::uint32_t touchHollows(const Grain& grain, double radius, BoundaryLoad<Real>& sum,
+                                        Losses& lost) const {
+    if (d.floor.clearOf(grain.x, radius)) return 0;
+    Feet feet;
+    FeetSearch(d.floor, grain.x, radius).run(feet);
+    if (feet.tooMany)
+      base::atomicMin64(&d.flags->fault,
+                        static_cast<std::uint64_t>(Fault::rough) << 56 | d.id[d.nearBoundary[grain.place]]);
+    int place[Feet::kMost];
+    const std::uint32_t floorBits = (1u << Feet::kMost) - 1;
+    float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
+    Grain here = grain;
+    here.before = takePlaces(feet, grain.before >> d.wallCount & floorBits, normals, place) << d.wallCount;
+    std::uint32_t now = 0;
+    for (int k = 0; k < feet.count; ++k) {
+      const Real overlap = static_cast<Real>(radius - feet.foot[k].distance);
+      if (overlap <= 0) continue;
+      const Vec normal = feet.foot[k].normal.template as<Real>();
+      now |= 1u << (d.wallCount + place[k]);
+      touchFixed(here, d.wallCount + place[k], normal, overlap, sum, lost);
+      if (normals) storeVector(normals + 3 * place[k], feet.foot[k].normal.template as<float>());
+    }
+    return now;
   }
 
   /// Surfaces that may move. The grain gets the force in whole quanta, the surface exactly the opposite.
@@ -148,12 +179,9 @@ private:
   /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
   GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
                             const Vec& spin, const base::Mat3d* turned, BoundaryLoad<Real>& sum, Losses& lost) const {
-    const contact::BasicLaw<Real>& law = f.boundaryLaws[boundary * d.materials + grain.size.material];
+    const contact::BasicLaw<Real>& law = f.boundaryLaws[d.lawOf(boundary) * d.materials + grain.size.material];
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
-    float* history = Kernel::hasHistory()
-                         ? d.boundaryHistory + (static_cast<std::int64_t>(grain.place) * d.boundaryCount + boundary) *
-                                                   Kernel::historyWidth()
-                         : nullptr;
+    float* history = Kernel::hasHistory() ? d.historyOf(grain.place, boundary, Kernel::historyWidth()) : nullptr;
     Vec shear{};
     if (held) shear = loaded(history, turned);
     contact::BasicPlasticState<Real> plastic{};
@@ -163,6 +191,7 @@ private:
     if (Kernel::hasHistory()) store(history, turned, shear);
     if (has(contact::kPlastic)) storePlastic(Kernel::plasticIn(history), plastic);
     lost.damped += reaction.damped, lost.rubbed += reaction.rubbed, lost.yielded += reaction.yielded;
+    if (has(contact::kHertz)) lost.slipped += reaction.slipped;
     Reaction result{reaction.force, {}};
     if (has(contact::kRollingFriction)) {
       Vec angle{};
@@ -170,7 +199,7 @@ private:
       const contact::RollingMotion<Real> motion{touch.normal, spin, grain.size.radius,
                                                 contact::rollingInertia(grain.size.mass, grain.size.radius)};
       result.rolling = contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
-                                              angle, lost.rolled);
+                                              angle, lost.rolled, has(contact::kHertz) ? &reaction.change : nullptr);
       store(history + 3, turned, angle);
     }
     if (touch.overlap > sum.deepest) sum.deepest = touch.overlap;

@@ -68,6 +68,7 @@ GrainBookkeeping::Totals GrainBookkeeping::totals(const base::Comm& comm) const 
           energy(kDamped),
           energy(kRubbed),
           energy(kRolled),
+          energy(kSlipped),
           energy(kYielded),
           s[kMass].value() * massQuantum_,
           vector(kMoment, scale_.perMoment),

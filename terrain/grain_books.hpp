@@ -26,6 +26,7 @@ enum Book : int {
   kDamped = kFirstOfWalls, ///< taken by dashpots of contacts
   kRubbed,                 ///< by sliding
   kRolled,                 ///< by rolling resistance
+  kSlipped,                ///< by tangential springs of Hertz' law as they stiffen and soften
   kGrainBooks,
   /// x, y, z: of walls, floor and fixed grains on the grains, and of what holds fixed ones against surfaces and
   /// parts; a step each
@@ -53,7 +54,7 @@ GROUSER_HD std::int64_t wholeQuanta(double quanta) {
 
 /// What dissipation takes from one grain in one step [J].
 struct Lost {
-  double damped, rubbed, rolled;
+  double damped, rubbed, rolled, slipped;
 };
 
 /// What several grains have added to the sums from kBegin to kEnd.
@@ -69,7 +70,9 @@ template <int kBegin, int kEnd> struct BooksOf {
     }
   }
 };
-using GrainBooks = BooksOf<0, kGrainBooks>;
+/// Without kSlipped where contacts are linear.
+template <bool kSlips> using GrainBooksOf = BooksOf<0, kSlips ? kGrainBooks : kSlipped>;
+using GrainBooks = GrainBooksOf<true>;
 using WallBooks = BooksOf<kFirstOfWalls, kYielded>;
 using HeldBooks = BooksOf<kWallForce, kYielded>; ///< forces by grains that never move
 using YieldBooks = BooksOf<kYielded, kBooks>;

@@ -97,17 +97,11 @@ struct NumberArrived {
 
 GrainBoundaries::GrainBoundaries(const base::Exec& exec, const GrainConstants& c, const Boundaries& boundaries)
     : exec_(exec), count_(c.boundaryCount), room_(0.5 * c.smallestRadius), walls_(exec, boundaries.walls), near_(exec),
-      springsWidth_(static_cast<std::size_t>(c.boundaryCount) * static_cast<std::size_t>(c.historyWidth)),
-      springs_(exec), fromSurfaces_(exec), singleLoads_(exec), doubleLoads_(exec) {
-  if (boundaries.floor) makeFloor(*boundaries.floor);
+      floorPlaces_(c.floorPlaces), springsWidth_(c.springsWidth()), springs_(exec), fromSurfaces_(exec),
+      singleLoads_(exec), doubleLoads_(exec) {
+  if (boundaries.floor) floor_ = SearchedHeightField(exec, *boundaries.floor, c.model.radius);
+  hasFloor_ = boundaries.floor.has_value();
   makeSurfaces(c.model, boundaries.surfaces);
-}
-
-void GrainBoundaries::makeFloor(const HeightField& floor) {
-  hasFloor_ = true;
-  floorHeights_ = base::Array<double>(exec_, floor.heights());
-  floorView_ = floor.view();
-  floorView_.heights = floorHeights_.data();
 }
 
 void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<RigidSurface>& surfaces) {
@@ -127,7 +121,8 @@ void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<Ri
   poses_ = base::Mirrored<SurfacePose>(exec_, start.size());
   surfaceSums_ = base::Mirrored<contact::PartLoad>(exec_, start.size());
   surfaceLoads_.resize(start.size());
-  surfaceForce_ = surfaceTorque_ = base::fixedPointFor(pressed, 40);
+  surfaceForce_ = base::fixedPointFor(pressed, 40);
+  surfaceTorque_ = base::fixedPointFor(pressed * contact::leverScale(model.radius), 40);
   setSurfacePoses(start);
 }
 
@@ -224,11 +219,12 @@ std::optional<GrainBoundaries::Overlap> GrainBoundaries::overlapOf(const Vec3d& 
 void GrainBoundaries::describe(GrainKernelData& d) {
   d.features |= hasFloor_ ? kFloor : 0u;
   d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = count_;
-  d.floor = floorView_;
+  d.floor = floor_.view(), d.floorPlaces = floorPlaces_;
   d.surfaces = surfaces_.data(), d.surfaceCount = static_cast<int>(geometries_.size());
   d.placements = poses_.device().data(), d.surfaceLoads = surfaceSums_.device().data();
   d.surfaceForce = surfaceForce_, d.surfaceTorque = surfaceTorque_, d.fromSurfaces = fromSurfaces_.data();
   d.nearBoundary = near_.data(), d.boundaryHistory = springs_.data();
+  d.boundaryRow = static_cast<int>(springsWidth_);
 }
 
 std::size_t GrainBoundaries::bytes() const {

@@ -5,6 +5,7 @@
 #include "base/comm.hpp"
 #include "base/fixed_point.hpp"
 #include "terrain/grain_arrays.hpp"
+#include "terrain/searched_height_field.hpp"
 
 #include <optional>
 #include <type_traits>
@@ -72,7 +73,6 @@ public:
   std::size_t bytes() const;
 
 private:
-  void makeFloor(const HeightField& floor);
   void makeSurfaces(const GrainModel& model, const std::vector<RigidSurface>& surfaces);
 
   base::Exec exec_;
@@ -80,8 +80,7 @@ private:
   double room_; ///< that surfaces may move between two lists [m]
 
   base::Array<Wall> walls_;
-  base::Array<double> floorHeights_;
-  HeightFieldView floorView_{};
+  SearchedHeightField floor_;
   bool hasFloor_{false};
 
   std::vector<SurfaceGeometry> geometries_;
@@ -94,8 +93,9 @@ private:
   std::int64_t listings_{0};
 
   base::Array<std::uint32_t> near_; ///< slots
+  int floorPlaces_;
   std::size_t springsWidth_;
-  base::Array<float> springs_; ///< [place in near_][boundary][numbers of history]
+  base::Array<float> springs_; ///< [place in near_][as GrainKernelData::boundaryHistory says]
   base::Array<base::Vec3d> fromSurfaces_;
   base::Array<BoundaryLoad<float>> singleLoads_;
   base::Array<BoundaryLoad<double>> doubleLoads_;

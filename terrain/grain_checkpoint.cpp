@@ -95,13 +95,20 @@ void saveTravelled(const GrainSystem& system, const std::vector<std::uint32_t>& 
 void saveBoundarySprings(const GrainSystem& system, const std::vector<std::uint32_t>& slots, GrainState& s) {
   const std::size_t width = static_cast<std::size_t>(system.constants.historyWidth),
                     boundaries = static_cast<std::size_t>(system.constants.boundaryCount);
-  if (width == 0) return;
+  if (width == 0 || boundaries == 0) return;
+  const std::size_t row = system.boundaries.springsWidth(), places = static_cast<std::size_t>(s.layout.places);
+  const std::size_t firstPlace = static_cast<std::size_t>(system.constants.wallCount);
   const std::vector<float> history = system.boundaries.springs().toHost();
   const std::vector<std::uint32_t> placeOf = system.arrays.fields().boundaryOf.now.toHost();
-  for (std::size_t k = 0; k < slots.size(); ++k)
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    const std::size_t start = s.wallBits[k] ? (placeOf[slots[k]] - std::size_t{1}) * row : 0;
+    for (std::size_t q = 0; q < places; ++q) {
+      const bool held = s.wallBits[k] >> (firstPlace + q) & 1;
+      s.floorNormal.push_back(held ? vectorAt(history, start + boundaries * width + 3 * q) : Vec3f{});
+    }
     for (std::size_t b = 0; b < boundaries; ++b) {
       const bool held = s.wallBits[k] >> b & 1;
-      const std::size_t at = held ? ((placeOf[slots[k]] - std::size_t{1}) * boundaries + b) * width : 0;
+      const std::size_t at = start + b * width;
       s.wallShear.push_back(held ? vectorAt(history, at) : Vec3f{});
       if (s.layout.rolling) s.wallRolling.push_back(held ? vectorAt(history, at + 3) : Vec3f{});
       if (s.layout.plastic) {
@@ -109,6 +116,7 @@ void saveBoundarySprings(const GrainSystem& system, const std::vector<std::uint3
         s.wallOrigin.push_back(held ? history[at + width - 1] : 0.0f);
       }
     }
+  }
 }
 
 void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& slots, GrainState& s) {
@@ -251,15 +259,20 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
 void GrainCheckpoint::loadBoundarySprings(GrainSystem& system) const {
   if (!system.boundaries.any()) return;
   const std::vector<float> all = historyOf(own_.wallShear, own_.wallRolling, own_.wallDeepest, own_.wallOrigin);
-  const std::size_t width = system.boundaries.springsWidth();
+  const auto places = static_cast<std::size_t>(own_.layout.places);
+  const std::size_t width = system.boundaries.springsWidth() - 3 * places;
   std::vector<float> springs;
   std::vector<std::uint32_t> placeOf(own_.rows());
-  std::uint32_t places = 0;
+  std::uint32_t rows = 0;
   for (std::size_t k = 0; k < own_.rows(); ++k) {
     if (own_.wallBits[k] == 0) continue;
-    placeOf[k] = ++places;
+    placeOf[k] = ++rows;
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * width);
     springs.insert(springs.end(), first, first + static_cast<std::ptrdiff_t>(width));
+    for (std::size_t q = 0; q < places; ++q) {
+      const Vec3f& n = own_.floorNormal[k * places + q];
+      springs.insert(springs.end(), {n.x, n.y, n.z});
+    }
   }
   system.arrays.fields().boundaryOf.now.assign(placeOf);
   system.boundaries.setSprings(springs);

@@ -3,7 +3,9 @@
 
 #include "base/error.hpp"
 #include "base/rounded.hpp"
+#include "terrain/feet_search.hpp"
 #include "terrain/length_units.hpp"
+#include "terrain/searched_height_field.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,12 +42,23 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   return features;
 }
 
-GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials) {
+int Boundaries::floorPlaces(double radius) const {
+  return !floor ? 0 : SearchedHeightField::hasHollows(*floor, radius) ? Feet::kMost : 1;
+}
+
+GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials, int floorPlaces) {
   const auto has = [&](unsigned feature) -> std::int64_t { return (features & feature) != 0; };
   const int springs = contact::plasticPlace(features);
-  return {has(kLedger),   boundaries,      springs > 0,
-          springs > 3,    has(kManyRadii), static_cast<std::int64_t>(materials),
-          has(kPeriodic), has(kFixed),     has(contact::kPlastic)};
+  return {has(kLedger),
+          boundaries,
+          springs > 0,
+          springs > 3,
+          has(kManyRadii),
+          static_cast<std::int64_t>(materials),
+          has(kPeriodic),
+          has(kFixed),
+          has(contact::kPlastic),
+          springs > 0 && floorPlaces > 1 ? floorPlaces : 0};
 }
 
 namespace {
@@ -99,7 +112,8 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
       smallestRadius(smallestOf(model, start)), diameterUnits(unitsOf(2 * model.radius, scale)),
       skinUnits(unitsOf(model.skin * smallestRadius, scale)),
       features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
-      historyWidth(contact::historyWidth(features)), boundaryCount(boundaries.count()),
+      historyWidth(contact::historyWidth(features)), wallCount(static_cast<int>(boundaries.walls.size())),
+      floorPlaces(boundaries.floorPlaces(model.radius)), boundaryCount(boundaries.count(model.radius)),
       period(periodOf(boundaries, scale, listRange())) {
   // Overlaps are whole units: those of a grain a thousand times smaller would be resolved to 1e-5 of its size only.
   if (smallestRadius < 1e-3 * model.radius)
@@ -107,8 +121,9 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
                                        "smallest",
                                        smallestRadius, model.radius));
   if (boundaryCount > 32)
-    throw base::InputError(
-        fmt::format("{} planes and other surfaces, the floor among them; at most 32 are possible", boundaryCount));
+    throw base::InputError(fmt::format(
+        "{} planes and other surfaces, the floor among them{}; at most 32 are possible", boundaryCount,
+        floorPlaces > 1 ? fmt::format(" as {}, since its hollows are tighter than the grains", floorPlaces) : ""));
 }
 
 float GrainConstants::storedRadius(const GrainSpec& grain) const {

@@ -11,7 +11,7 @@ namespace grouser::terrain {
 /// alike; without loads of rigid parts. Where the boundaries are does not matter.
 unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool manyRadii);
 /// The fields that grains of these features have. `materials`: GrainMaterials::count().
-GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials);
+GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials, int floorPlaces = 1);
 
 /// What of the grains of a scene never changes once they are made; alike on all ranks.
 struct GrainConstants {
@@ -26,11 +26,18 @@ struct GrainConstants {
   std::int64_t skinUnits;     ///< of the neighbour list [units]
   unsigned features;          ///< see featuresOf()
   int historyWidth;           ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
-  int boundaryCount;          ///< planes, floor and surfaces together
+  int wallCount;              ///< planes
+  int floorPlaces;            ///< contacts that a grain may have with the floor
+  int boundaryCount;          ///< planes, places of the floor and surfaces together
   base::Period period;        ///< of periodic boundaries
 
   bool has(unsigned feature) const { return (features & feature) != 0; }
-  GrainLayout layout() const { return layoutOf(features, boundaryCount, model.materials.count()); }
+  GrainLayout layout() const { return layoutOf(features, boundaryCount, model.materials.count(), floorPlaces); }
+  /// Numbers that a grain near boundaries has in GrainBoundaries::springs().
+  std::size_t springsWidth() const {
+    const auto normals = static_cast<std::size_t>(3 * layout().places);
+    return static_cast<std::size_t>(boundaryCount) * static_cast<std::size_t>(historyWidth) + normals;
+  }
   bool manyRadii() const { return has(kManyRadii); }
   /// Two grains farther apart than this never touch before the neighbour list is built anew [units].
   std::int64_t listRange() const { return diameterUnits + skinUnits; }

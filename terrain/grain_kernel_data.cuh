@@ -26,8 +26,9 @@ struct GrainKernelData {
   float maxSurfaceShare;   ///< the same with walls, floor and surfaces, whether or not they differ [-]
   base::Vec3d gravityStep; // g dt
   const Wall* walls;
-  int wallCount, boundaryCount; ///< planes; planes, floor and surfaces together, in this order
+  int wallCount, boundaryCount; ///< planes; planes, places of the floor and surfaces together, in this order
   HeightFieldView floor;
+  int floorPlaces; ///< contacts that a grain may have with the floor: 1, or Feet::kMost where it has tight hollows
   base::Period period;
   const SurfaceGeometry* surfaces;
   const SurfacePose* placements; ///< of the surfaces in this step
@@ -49,9 +50,12 @@ struct GrainKernelData {
   base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
   Crossings* crossings;                 ///< of periodic boundaries; null without them
   contact::NeighbourView neighbours;
-  const std::uint32_t* nearBoundary;  ///< slots of the grains that may touch walls or floor before the next rebuild
-  const std::uint32_t* boundaryOf;    ///< by slot: 1 + place in that list, 0 for all others
-  float* boundaryHistory;             ///< [place in that list][boundary][width of the neighbours' history]
+  const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild
+  const std::uint32_t* boundaryOf;   ///< by slot: 1 + place in that list, 0 for all others
+  /// [place in that list]: [boundary][width of the neighbours' history], then the normals of the floor's places [3
+  /// each] where there are several. `boundaryRow`: numbers of one grain.
+  float* boundaryHistory;
+  int boundaryRow;
   std::uint32_t* boundaryContactMask; ///< a bit for each boundary
   base::Vec3d* fromSurfaces;          ///< [N] forces of the surfaces, by place in the list of grains near boundaries
   contact::PartLoad* surfaceLoads;    ///< sums of this step
@@ -60,6 +64,17 @@ struct GrainKernelData {
   contact::GrainLoadsView loads;
   StepFlags* flags;        ///< of this step
   const StepFlags* former; ///< of the step before in a batch: has it raised one, this step does nothing; else null
+
+  /// Springs of a grain against one of its boundaries; `place` in the list of grains near them.
+  GROUSER_HD float* historyOf(std::int64_t place, int boundary, int width) const {
+    return boundaryHistory + place * boundaryRow + boundary * width;
+  }
+  GROUSER_HD float* floorNormals(std::int64_t place, int width) const { return historyOf(place, boundaryCount, width); }
+  /// Which of the laws [walls, floor, surfaces] a boundary has: all places of the floor have one.
+  GROUSER_HD int lawOf(int boundary) const {
+    if (boundary <= wallCount || floorPlaces <= 1) return boundary;
+    return boundary < wallCount + floorPlaces ? wallCount : boundary - floorPlaces + 1;
+  }
 };
 
 /// Books what the contacts of slot i have lost by yielding in this step [J]; few scenes have any.

@@ -4,6 +4,7 @@
 
 #include "contact/sphere_pair.hpp"
 #include "contact/strongest_force.hpp"
+#include "terrain/feet_search.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
 
   base::FixedPoint energy, momentum, angular;
   base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching and squeezed pairs twice
-  /// Complements of the deepest overlap [units] and the largest speed [um/s]; the first sum that a grain's share is too
+  /// Complements of the deepest overlap [units] and the largest speed [nm/s]; the first sum that a grain's share is too
   /// large for.
   std::uint64_t* extremes;
   const std::uint32_t* ghost; ///< null where there are none
@@ -93,7 +94,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     }
     add(i, share);
     base::atomicMin64(extremes, ~static_cast<std::uint64_t>(held.deepest / d.unitLength));
-    base::atomicMin64(extremes + 1, ~static_cast<std::uint64_t>(norm(v) * 1e6));
+    base::atomicMin64(extremes + 1, ~static_cast<std::uint64_t>(norm(v) * 1e9));
   }
 
 private:
@@ -129,27 +130,53 @@ private:
   GROUSER_HD void measureBoundaries(int i, const Vec3d& x, const GrainSize<Real>& size, int first, Held& held) const {
     const double radius = static_cast<double>(size.radius);
     for (int b = first; b < d.boundaryCount; ++b) {
-      const double overlap = radius - distanceTo(b, x, radius);
-      if (overlap <= 0) continue;
-      const bool touched = d.boundaryContactMask[i] >> b & 1;
-      const float* history =
-          touched && Kernel::hasHistory()
-              ? d.boundaryHistory + ((std::int64_t{d.boundaryOf[i]} - 1) * d.boundaryCount + b) * Kernel::historyWidth()
-              : nullptr;
-      held.elastic += stored(f.boundaryLaws[b * d.materials + size.material], overlap, radius,
-                             static_cast<double>(size.mass), history);
-      held.deepest = overlap > held.deepest ? overlap : held.deepest;
-      ++held.boundary;
-      if (overlap > contact::kSqueezed * radius) ++held.squeezedAtBoundary;
+      if (b == d.wallCount && d.floorPlaces > 0) {
+        measureFloor(i, x, size, held);
+        b += d.floorPlaces - 1;
+      } else {
+        measureBoundary(i, b, d.boundaryContactMask[i], radius - distanceTo(b, x), size, held);
+      }
     }
   }
 
-  /// Of the floor only where it may be less than the radius.
-  GROUSER_HD double distanceTo(int boundary, const Vec3d& x, double radius) const {
+  GROUSER_HD void measureFloor(int i, const Vec3d& x, const GrainSize<Real>& size, Held& held) const {
+    const double radius = static_cast<double>(size.radius);
+    const std::uint32_t touched = d.boundaryContactMask[i];
+    if (d.floor.clearOf(x, radius)) return;
+    if (!d.floor.marks)
+      return measureBoundary(i, d.wallCount, touched, radius - d.floor.closestPoint(x).distance, size, held);
+    Feet feet;
+    FeetSearch(d.floor, x, radius).run(feet);
+    int place[Feet::kMost];
+    const float* normals = Kernel::hasHistory() && d.boundaryOf[i] > 0
+                               ? d.floorNormals(std::int64_t{d.boundaryOf[i]} - 1, Kernel::historyWidth())
+                               : nullptr;
+    const std::uint32_t before = touched >> d.wallCount & ((1u << Feet::kMost) - 1);
+    const std::uint32_t goOn = takePlaces(feet, before, normals, place) << d.wallCount;
+    for (int k = 0; k < feet.count; ++k)
+      measureBoundary(i, d.wallCount + place[k], goOn, radius - feet.foot[k].distance, size, held);
+  }
+
+  /// `touched`: bits of the boundaries whose contacts have a history.
+  GROUSER_HD void measureBoundary(int i, int b, std::uint32_t touched, double overlap, const GrainSize<Real>& size,
+                                  Held& held) const {
+    if (overlap <= 0) return;
+    const double radius = static_cast<double>(size.radius);
+    const float* history = touched >> b & 1 && Kernel::hasHistory()
+                               ? d.historyOf(std::int64_t{d.boundaryOf[i]} - 1, b, Kernel::historyWidth())
+                               : nullptr;
+    held.elastic += stored(f.boundaryLaws[d.lawOf(b) * d.materials + size.material], overlap, radius,
+                           static_cast<double>(size.mass), history);
+    held.deepest = overlap > held.deepest ? overlap : held.deepest;
+    ++held.boundary;
+    if (overlap > contact::kSqueezed * radius) ++held.squeezedAtBoundary;
+  }
+
+  /// To a plane or a surface.
+  GROUSER_HD double distanceTo(int boundary, const Vec3d& x) const {
     if (boundary < d.wallCount) return dot(d.walls[boundary].normal, x) - d.walls[boundary].offset;
     const int surface = boundary - (d.boundaryCount - d.surfaceCount);
-    if (surface >= 0) return gapTo(d.surfaces[surface], d.placements[surface].motion.toPart(x)).distance;
-    return d.floor.clearOf(x, radius) ? 2 * radius : d.floor.closestPoint(x).distance;
+    return gapTo(d.surfaces[surface], d.placements[surface].motion.toPart(x)).distance;
   }
 
   /// `history`: null where the contact has none yet.
@@ -216,7 +243,7 @@ void addBooks(GrainLedger& ledger, const GrainSystem& system) {
   const GrainModel& model = system.constants.model;
   const GrainBookkeeping::Totals books = system.books.totals(system.comm);
   ledger.damped = books.damped, ledger.rubbed = books.rubbed, ledger.rolled = books.rolled;
-  ledger.yielded = books.yielded;
+  ledger.slipped = books.slipped, ledger.yielded = books.yielded;
   ledger.work = books.work, ledger.turnover = books.turnover;
   ledger.impulse = (model.gravity * books.mass + books.wallForce) * model.timeStep;
   ledger.angularImpulse = (cross(books.moment, model.gravity) + books.wallTorque) * model.timeStep;
@@ -263,7 +290,7 @@ GrainLedger measureLedger(GrainSystem& system) {
     ledger.angularMomentum[a] = q[Sums::kAngular + axis] * angular.quantum;
   }
   ledger.deepestOverlap = static_cast<double>(~most[0]) * system.constants.scale.unit;
-  ledger.fastest = static_cast<double>(~most[1]) * 1e-6;
+  ledger.fastest = static_cast<double>(~most[1]) * 1e-9;
   addBooks(ledger, system);
   return ledger;
 }

@@ -76,8 +76,9 @@ std::string featureText(unsigned features);
 struct GrainLedger {
   double kinetic{}, rotational{}, potential{}, elastic{}; ///< now [J]
   double damped{}, rubbed{}, rolled{}; ///< dissipated by dashpots, sliding and rolling resistance [J]; 0 without books
+  double slipped{};                    ///< the same by springs of Hertz' law as they stiffen and soften [J]
   double yielded{};                    ///< the same by plastic work of contacts [J]
-  double dissipated() const { return damped + rubbed + rolled + yielded; }
+  double dissipated() const { return damped + rubbed + rolled + slipped + yielded; }
   double work{};                       ///< of all forces on the grains [J]: what kinetic and rotational have gained
   double turnover{};                   ///< the same without signs, a grain and a step each [J]
   base::Vec3d momentum;                ///< now [kg m/s]

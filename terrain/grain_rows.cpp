@@ -19,6 +19,9 @@ public:
 
   template <class T> void column(const std::vector<T>& values) { putWords(words_, values[at_.row]); }
   template <class T> void unhashed(const std::vector<T>&) {}
+  template <class T> void several(const std::vector<T>& values, std::size_t width) {
+    for (std::size_t k = at_.row * width; k < (at_.row + 1) * width; ++k) putWords(words_, values[k]);
+  }
   template <class... T> void contacts(const std::vector<std::uint32_t>& counts, const std::vector<T>*... columns) {
     for (std::uint32_t n = 0; n < counts[at_.row]; ++n, ++at_.contact)
       ((columns ? putWords(words_, (*columns)[at_.contact]) : void()), ...);

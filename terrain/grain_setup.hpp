@@ -35,7 +35,10 @@ struct Boundaries {
   PeriodicBoundaries periodic{}; ///< walls, floor and surfaces have no images: they must look alike at both
   std::vector<RigidSurface> surfaces{};
 
-  int count() const { return static_cast<int>(walls.size() + surfaces.size()) + (floor ? 1 : 0); }
+  /// Contacts that one grain may have with the floor: several where that has hollows tighter than `radius` [m].
+  int floorPlaces(double radius) const;
+  /// Boundaries that grains have springs with: walls, places of the floor, surfaces. `radius` [m]: the largest grain's.
+  int count(double radius) const { return static_cast<int>(walls.size() + surfaces.size()) + floorPlaces(radius); }
 };
 
 /// Laws against walls, floor and surfaces, [walls, floor, surfaces][materials].

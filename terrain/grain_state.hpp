@@ -22,6 +22,7 @@ struct GrainLayout {
   std::int64_t periodic{};   ///< 1: some boundaries are periodic
   std::int64_t fixed{};      ///< 1: some grains are fixed
   std::int64_t plastic{};    ///< 1: contacts have a plastic state
+  std::int64_t places{};     ///< contacts that a grain may have with the floor, where several; normals tell them apart
   bool operator==(const GrainLayout&) const = default;
   /// Numbers of history of a contact: contact::historyWidth().
   std::int64_t historyWidth() const { return 3 * (friction + rolling) + 2 * plastic; }
@@ -52,6 +53,7 @@ struct GrainState {
   std::vector<base::Vec3f> contactRolling; ///< as contactShear [rad]; empty without rolling friction
   std::vector<float> wallDeepest, wallOrigin;       ///< as wallShear [m], [N]: contact::BasicPlasticState; else empty
   std::vector<float> contactDeepest, contactOrigin; ///< as contactShear
+  std::vector<base::Vec3f> floorNormal;             ///< [rows][places] of the last step, zero out of touch; else empty
 
   std::vector<std::int64_t> books; ///< of the energies since the start (GrainBookkeeping); empty without a ledger
 
@@ -83,6 +85,7 @@ struct GrainState {
       visitor.boundaries(s.wallBits, static_cast<std::size_t>(l.boundaries), l.friction ? &s.wallShear : nullptr,
                          l.rolling ? &s.wallRolling : nullptr, l.plastic ? &s.wallDeepest : nullptr,
                          l.plastic ? &s.wallOrigin : nullptr);
+    if (l.places) visitor.several(s.floorNormal, static_cast<std::size_t>(l.places));
     visitor.unhashed(s.travelled);
     if (l.periodic) visitor.unhashed(s.crossings);
   }
@@ -96,6 +99,7 @@ struct GrainState {
     perGrain("fixed", s.fixed), perGrain("crossings", s.crossings);
     perGrain("wall_bits", s.wallBits), perGrain("wall_shear", s.wallShear), perGrain("wall_rolling", s.wallRolling);
     perGrain("wall_deepest", s.wallDeepest), perGrain("wall_origin", s.wallOrigin);
+    perGrain("floor_normal", s.floorNormal);
     perGrain("contacts", s.contacts), perGrain("travelled", s.travelled);
     perContact("neighbour", s.neighbour), perContact("contact_shear", s.contactShear);
     perContact("contact_rolling", s.contactRolling);

@@ -14,7 +14,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;
-  using Books = GrainBooks;
+  static constexpr bool kMaySlip = kFeatures & (contact::kHertz | contact::kGeneral);
+  using Books = GrainBooksOf<kMaySlip>;
 
   /// By grains that never move: part of the sum.
   struct Held {
@@ -24,7 +25,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   struct Sum {
     Vec force, torque;
-    Real damped = 0, rubbed = 0, rolled = 0, yielded = 0; ///< [J]
+    Real damped = 0, rubbed = 0, rolled = 0, slipped = 0, yielded = 0; ///< [J]
     float deepest = 0;
     Held held;
   };
@@ -44,12 +45,12 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   };
 
   GROUSER_HD void operator()(int k) const {
-    GrainBooks books;
+    Books books;
     run(k, books);
   }
 
   /// Adds what the step does to the energies to `books`, where they are kept.
-  GROUSER_HD void run(int k, GrainBooks& books) const {
+  GROUSER_HD void run(int k, Books& books) const {
     if (Kernel::ended()) {
       if (k == 0)
         // Each step of a batch reads only the flags of the step before it: one that is skipped raises its own, so that
@@ -75,7 +76,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
     if (has(kLoads)) addLoads(i, size, force, torque);
-    const Lost lost{static_cast<double>(sum.damped), static_cast<double>(sum.rubbed), static_cast<double>(sum.rolled)};
+    const Lost lost{static_cast<double>(sum.damped), static_cast<double>(sum.rubbed), static_cast<double>(sum.rolled),
+                    static_cast<double>(sum.slipped)};
     advance(i, {p, m, kept, reference}, size, force, torque, sum.deepest, lost, books);
   }
 
@@ -171,7 +173,9 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     contact::BasicContactGeometry<Real> touch{normal, overlap, own.velocity - other.velocity, f.halfMass,
                                               Real(0.5) * f.radius};
     const bool onGround = has(kFixed) && other.fixed;
-    if (onGround) touch.effectiveMass = own.size.mass;
+    const contact::BasicLaw<Real>& law =
+        has(kManyMaterials) ? f.pairLaws[own.size.material * d.materials + other.size.material] : f.law;
+    if (onGround) touch.effectiveMass = own.size.mass, touch.dampingShare = law.fixedShare;
     // Both lever arms meet in one point, so that angular momentum balances too: each sphere gives half the overlap.
     Real arm = Real(0.5) * pair.distance;
     if (has(kManyRadii)) {
@@ -183,8 +187,6 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     } else {
       touch.velocity += cross(own.spin + other.spin, normal * arm);
     }
-    const contact::BasicLaw<Real>& law =
-        has(kManyMaterials) ? f.pairLaws[own.size.material * d.materials + other.size.material] : f.law;
     Vec shear = history.spring.template as<Real>();
     contact::BasicPlasticState<Real> plastic{};
     if (has(contact::kPlastic) && history.held) plastic = loadPlastic<Real>(Kernel::plasticIn(history.at));
@@ -200,6 +202,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (has(contact::kFriction)) sum.torque += torque;
     sum.damped += share * reaction.damped;
     if (has(contact::kFriction)) sum.rubbed += share * reaction.rubbed;
+    if (has(contact::kFriction) && has(contact::kHertz)) sum.slipped += share * reaction.slipped;
     if (has(contact::kPlastic)) sum.yielded += share * reaction.yielded;
     if (has(contact::kRollingFriction)) {
       Vec angle{};
@@ -210,8 +213,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
                                              : contact::rollingInertia(f.mass, f.radius, f.mass, f.radius);
       const contact::RollingMotion<Real> motion{normal, own.spin - other.spin, touch.effectiveRadius, inertia};
       Real rolled = 0;
-      const Vec rolling =
-          contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle, rolled);
+      const Vec rolling = contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
+                                                 angle, rolled, has(contact::kHertz) ? &reaction.change : nullptr);
       sum.torque += rolling, torque += rolling;
       sum.rolled += share * rolled;
       storeVector(history.at + 3, angle.template as<float>());
@@ -279,12 +282,14 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// `work` on a grain in this step. `massShare`: of the mass of the model.
   GROUSER_HD void book(const base::Position& place, double work, double massShare, const Lost& lost,
-                       GrainBooks& books) const {
+                       Books& books) const {
     const double q = d.bookScale.perEnergy;
     books.of[kWork] += wholeQuanta(q * work);
     books.of[kTurnover] += wholeQuanta(q * fabs(work));
     books.of[kDamped] += wholeQuanta(q * lost.damped);
     if (Kernel::hasHistory()) books.of[kRubbed] += wholeQuanta(q * lost.rubbed);
+    if constexpr (kMaySlip)
+      if (has(contact::kHertz) && has(contact::kFriction)) books.of[kSlipped] += wholeQuanta(q * lost.slipped);
     if (has(contact::kRollingFriction)) books.of[kRolled] += wholeQuanta(q * lost.rolled);
     books.of[kMass] += has(kManyRadii) ? wholeQuanta(massShare * kMassQuanta) : kMassQuanta;
     const base::Vec3l u = base::toUnits(place);
@@ -308,7 +313,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
   GROUSER_HD void advance(int i, const State& now, const GrainSize<Real>& size, const base::Vec3d& force,
-                          const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books) const {
+                          const base::Vec3d& torque, float deepest, const Lost& lost, Books& books) const {
     base::Vec3f v = now.motion.velocity.xyz(), w = now.motion.spin.xyz();
     double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
     base::Vec3d gained, turned; // half squares

@@ -2,22 +2,24 @@
 #include "terrain/ground_contacts.hpp"
 
 #include "contact/patch_steps.cuh"
+#include "terrain/surface_contacts.hpp"
 
 namespace grouser::terrain {
 
 GroundContacts::GroundContacts(const base::Exec& exec, const Model& model, const HeightField& ground,
                                const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
                                const std::vector<int>& parts)
-    : model_(model), buffers_(exec, sets, setOfPart, parts), parts_(exec, parts), heights_(exec, ground.heights()),
-      ground_(ground.view()) {
+    : model_(model), buffers_(exec, sets, setOfPart, parts), parts_(exec, parts) {
   std::vector<double> reach;
   for (const base::SphereSet* set : sets) reach.push_back(contact::enclosingRadius(*set));
   reach_ = base::Array<double>(exec, reach);
-  ground_.heights = heights_.data();
+  std::vector<int> setOfGroundPart;
+  for (const int part : parts) setOfGroundPart.push_back(setOfPart[static_cast<std::size_t>(part)]);
+  ground_ = SearchedHeightField(exec, ground, widestSample(sets, setOfGroundPart) + model.margin);
 }
 
 GroundContacts::Target GroundContacts::target() const {
-  return {parts_.data(), buffers_.setOfPart.data(),      reach_.data(), ground_,
+  return {parts_.data(), buffers_.setOfPart.data(),      reach_.data(), ground_.view(),
           model_.law,    static_cast<int>(parts_.size())};
 }
 

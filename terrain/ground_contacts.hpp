@@ -2,7 +2,8 @@
 #pragma once
 
 #include "contact/patch_contacts.hpp"
-#include "terrain/height_field.hpp"
+#include "terrain/feet_search.hpp"
+#include "terrain/searched_height_field.hpp"
 
 namespace grouser::terrain {
 
@@ -46,8 +47,8 @@ public:
     template <class Group> GROUSER_HD bool findContact(int, const contact::PartMotion*, const base::Vec3d& x,
                                                        double radius, const Group&, base::Vec3d& normal,
                                                        double& overlap) const {
-      if (ground.clearOf(x, radius)) return false;
-      const FootPoint foot = ground.closestPoint(x);
+      FootPoint foot;
+      if (ground.clearOf(x, radius) || !deepestFoot(ground, x, radius, foot)) return false;
       overlap = radius - foot.distance;
       normal = foot.normal;
       return overlap > 0;
@@ -60,8 +61,8 @@ private:
   Model model_;
   contact::PatchBuffers buffers_;
   base::Array<int> parts_;
-  base::Array<double> reach_, heights_;
-  HeightFieldView ground_;
+  base::Array<double> reach_;
+  SearchedHeightField ground_;
 };
 
 } // namespace grouser::terrain

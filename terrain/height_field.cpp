@@ -2,11 +2,13 @@
 #include "terrain/height_field.hpp"
 
 #include "base/error.hpp"
+#include "terrain/node_slopes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace grouser::terrain {
 
@@ -46,6 +48,36 @@ Net controlNet(const std::vector<double>& heights, int columns, int rows, int i,
   return net;
 }
 
+/// Control net of a cell from values and slopes of its nodes; without slopes of the bilinear patch.
+Net controlNetOf(const HeightFieldView& v, int i, int j) {
+  Net net;
+  for (int b = 0; b < 2; ++b)
+    for (int a = 0; a < 2; ++a) {
+      const auto node = static_cast<std::size_t>(j + b) * v.columns + i + a;
+      NodeSlopes m = v.slopes ? v.slopes[node] : NodeSlopes{};
+      if (!v.slopes) {
+        const auto h = [&](int da, int db) { return v.heights[static_cast<std::size_t>(j + db) * v.columns + i + da]; };
+        m = {h(1, b) - h(0, b), h(a, 1) - h(a, 0), h(1, 1) - h(1, 0) - h(0, 1) + h(0, 0)};
+      }
+      const double sx = a == 0 ? 1 : -1, sy = b == 0 ? 1 : -1, h = v.heights[node];
+      const int x = 3 * a, y = 3 * b, xIn = 1 + a, yIn = 1 + b;
+      net[y][x] = h, net[y][xIn] = h + sx * m.x / 3, net[yIn][x] = h + sy * m.y / 3;
+      net[yIn][xIn] = h + (sx * m.x + sy * m.y) / 3 + sx * sy * m.xy / 9;
+    }
+  return net;
+}
+
+/// Whether the surface of bilinear cells bends in one, or along its edges.
+bool isCreased(const HeightFieldView& v, int i, int j) {
+  const auto h = [&](int a, int b) { return v.heights[static_cast<std::size_t>(b) * v.columns + a]; };
+  const double dx = h(i + 1, j) - h(i, j), dy = h(i, j + 1) - h(i, j);
+  const double size = std::fabs(h(i, j)) + std::fabs(dx) + std::fabs(dy);
+  for (int b = std::max(0, j - 1); b <= std::min(v.rows - 1, j + 2); ++b)
+    for (int a = std::max(0, i - 1); a <= std::min(v.columns - 1, i + 2); ++a)
+      if (std::fabs(h(i, j) + dx * (a - i) + dy * (b - j) - h(a, b)) > 1e-13 * size) return true;
+  return false;
+}
+
 /// Widens `bounds` by one cell. A Bezier patch and its derivatives stay within the range of their control nets.
 void include(HeightFieldBounds& bounds, const Net& net, double dx, double dy) {
   double hx = 0, hy = 0, hxx = 0, hyy = 0, hxy = 0;
@@ -67,8 +99,9 @@ void include(HeightFieldBounds& bounds, const Net& net, double dx, double dy) {
 
 } // namespace
 
-HeightField::HeightField(const Rectangle& area, int columns, int rows, std::vector<double> heights)
-    : area_(area), columns_(columns), rows_(rows), heights_(std::move(heights)) {
+HeightField::HeightField(const Rectangle& area, int columns, int rows, std::vector<double> heights,
+                         Interpolation interpolation)
+    : area_(area), columns_(columns), rows_(rows), heights_(std::move(heights)), interpolation_(interpolation) {
   if (columns < 2 || rows < 2 || heights_.size() != static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))
     throw InputError(
         fmt::format("height field: {} x {} nodes with {} heights; at least 2 x 2 nodes and one height each are needed",
@@ -82,7 +115,21 @@ HeightField::HeightField(const Rectangle& area, int columns, int rows, std::vect
     throw InputError(fmt::format("height field: the height of node column {}, row {} is {}; it must be finite",
                                  index % columns, index / columns, *bad));
   }
+  if (interpolation != Interpolation::smooth && isPlane(heights_, columns, rows))
+    interpolation_ = Interpolation::smooth;
+  if (interpolation_ == Interpolation::monotone) slopes_ = monotoneSlopes(heights_, columns, rows);
   bounds_ = boundsOver(area);
+}
+
+HeightFieldBounds HeightField::boundsOfCell(int i, int j) const {
+  const HeightFieldView v = view();
+  HeightFieldBounds bounds;
+  bounds.lowest = bounds.highest = heights_[static_cast<std::size_t>(j) * columns_ + i];
+  const bool smooth = interpolation_ == Interpolation::smooth;
+  include(bounds, smooth ? controlNet(heights_, columns_, rows_, i, j) : controlNetOf(v, i, j), v.dx, v.dy);
+  if (interpolation_ == Interpolation::bilinear && isCreased(v, i, j))
+    bounds.valleyCurvature = std::numeric_limits<double>::infinity();
+  return bounds;
 }
 
 HeightFieldBounds HeightField::boundsOver(const Rectangle& part) const {
@@ -95,7 +142,12 @@ HeightFieldBounds HeightField::boundsOver(const Rectangle& part) const {
   HeightFieldBounds bounds;
   bounds.lowest = bounds.highest = heights_[static_cast<std::size_t>(j0) * columns_ + i0];
   for (int j = j0; j <= j1; ++j)
-    for (int i = i0; i <= i1; ++i) include(bounds, controlNet(heights_, columns_, rows_, i, j), v.dx, v.dy);
+    for (int i = i0; i <= i1; ++i) {
+      const HeightFieldBounds one = boundsOfCell(i, j);
+      bounds.lowest = std::min(bounds.lowest, one.lowest), bounds.highest = std::max(bounds.highest, one.highest);
+      bounds.slope = std::max(bounds.slope, one.slope);
+      bounds.valleyCurvature = std::max(bounds.valleyCurvature, one.valleyCurvature);
+    }
   return bounds;
 }
 
@@ -108,18 +160,20 @@ HeightField HeightField::plane(const Rectangle& area, double z, double slopeX, d
 HeightField HeightField::raised(double dz) const {
   std::vector<double> heights = heights_;
   for (double& h : heights) h += dz;
-  return HeightField(area_, columns_, rows_, std::move(heights));
+  return HeightField(area_, columns_, rows_, std::move(heights), interpolation_);
 }
 
 HeightFieldView HeightField::view() const {
   return {.heights = heights_.data(),
+          .slopes = slopes_.empty() ? nullptr : slopes_.data(),
           .columns = columns_,
           .rows = rows_,
           .xMin = area_.xMin,
           .yMin = area_.yMin,
           .dx = area_.width() / (columns_ - 1),
           .dy = area_.length() / (rows_ - 1),
-          .slopeBound = bounds_.slope};
+          .slopeBound = bounds_.slope,
+          .interpolation = interpolation_};
 }
 
 } // namespace grouser::terrain

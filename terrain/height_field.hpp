@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/vec.hpp"
+#include "terrain/node_weights.hpp"
 
 #include <cstdint>
 #include <utility>
@@ -33,58 +33,25 @@ struct FootPoint {
   double distance{}; ///< signed [m], positive above; a sphere of radius R there has the overlap R - distance
 };
 
-/// Weights of four consecutive nodes for value, slope and second derivative of a cubic along one axis [cells].
-struct CubicWeights {
-  int first{}; ///< index of the node that w[0] belongs to; may be -1, with zero weight
-  double w[4]{}, d[4]{}, dd[4]{};
-};
-
-/// Catmull-Rom weights at `u` [cells] among `n` >= 2 nodes. The missing node beyond either end continues the last two
-/// linearly; outside [0, n - 1] the curve is its end tangent. Continuous with its slope everywhere, exact on lines.
-GROUSER_HD CubicWeights cubicWeights(double u, int n) {
-  CubicWeights c;
-  if (!(u >= 0) || u > n - 1) {
-    c.first = !(u >= 0) ? -1 : n - 3;
-    const double t = u - (c.first + 1);
-    c.w[1] = 1 - t, c.w[2] = t;
-    c.d[1] = -1, c.d[2] = 1;
-    return c;
-  }
-  const int below = static_cast<int>(u);
-  const int i = below < n - 2 ? below : n - 2;
-  const double t = u - i;
-  c.first = i - 1;
-  c.w[0] = 0.5 * t * (t * (2 - t) - 1), c.w[1] = 0.5 * (t * t * (3 * t - 5) + 2);
-  c.w[2] = 0.5 * t * (t * (4 - 3 * t) + 1), c.w[3] = 0.5 * t * t * (t - 1);
-  c.d[0] = 0.5 * (t * (4 - 3 * t) - 1), c.d[1] = 0.5 * t * (9 * t - 10);
-  c.d[2] = 0.5 * (t * (8 - 9 * t) + 1), c.d[3] = 0.5 * t * (3 * t - 2);
-  c.dd[0] = 2 - 3 * t, c.dd[1] = 9 * t - 5, c.dd[2] = 4 - 9 * t, c.dd[3] = 3 * t - 1;
-  if (i == 0) {
-    c.w[1] += 2 * c.w[0], c.w[2] -= c.w[0], c.w[0] = 0;
-    c.d[1] += 2 * c.d[0], c.d[2] -= c.d[0], c.d[0] = 0;
-    c.dd[1] += 2 * c.dd[0], c.dd[2] -= c.dd[0], c.dd[0] = 0;
-  }
-  if (i == n - 2) {
-    c.w[2] += 2 * c.w[3], c.w[1] -= c.w[3], c.w[3] = 0;
-    c.d[2] += 2 * c.d[3], c.d[1] -= c.d[3], c.d[3] = 0;
-    c.dd[2] += 2 * c.dd[3], c.dd[1] -= c.dd[3], c.dd[3] = 0;
-  }
-  return c;
-}
-
-/// A smooth rigid surface z = h(x, y) through heights on a grid: tensor product of Catmull-Rom cubics (Catmull, Rom
-/// 1974). Plain pointers and scalars, to be passed to kernels by value; `heights` must outlive it. Beyond the border
-/// the surface goes on along its tangent.
+/// A rigid surface z = h(x, y) through heights on a grid: tensor product of Catmull-Rom cubics (Catmull, Rom 1974), of
+/// cubics with limited slopes, or bilinear. Plain pointers and scalars, to be passed to kernels by value; what they
+/// point to must outlive it. Beyond the border the surface goes on along its tangent.
 struct HeightFieldView {
-  const double* heights{}; ///< [columns * rows] [m], row by row, row 0 at the smallest y
-  int columns{}, rows{};   ///< >= 2
-  double xMin{}, yMin{};   ///< position of heights[0] [m]
-  double dx{}, dy{};       ///< spacing [m]
-  double slopeBound{};     ///< largest |gradient| within the grid, from above [-]
+  const double* heights{};    ///< [columns * rows] [m], row by row, row 0 at the smallest y
+  const NodeSlopes* slopes{}; ///< [columns * rows] of monotone interpolation; null otherwise
+  int columns{}, rows{};      ///< >= 2
+  double xMin{}, yMin{};      ///< position of heights[0] [m]
+  double dx{}, dy{};          ///< spacing [m]
+  double slopeBound{};        ///< largest |gradient| within the grid, from above [-]
+  Interpolation interpolation{Interpolation::smooth};
+  /// [(columns - 1) * (rows - 1)] for FeetSearch; null where no hollow is tighter than the spheres that come here.
+  const std::uint8_t* marks{};
+  const double* tops{}; ///< likewise: highest point of each cell, from above [m]
 
   static constexpr int kFootIterations = 16; ///< at most; 2 or 3 are usual
 
   GROUSER_HD SurfaceJet jet(double x, double y) const {
+    if (interpolation != Interpolation::smooth) return jetInCell(cellX(x), cellY(y), x, y);
     const CubicWeights cx = cubicWeights((x - xMin) / dx, columns);
     const CubicWeights cy = cubicWeights((y - yMin) / dy, rows);
     SurfaceJet s;
@@ -99,13 +66,12 @@ struct HeightFieldView {
       s.hx += cy.w[b] * d, s.hy += cy.d[b] * w;
       s.hxx += cy.w[b] * dd, s.hxy += cy.d[b] * d, s.hyy += cy.dd[b] * w;
     }
-    s.hx /= dx, s.hy /= dy;
-    s.hxx /= dx * dx, s.hxy /= dx * dy, s.hyy /= dy * dy;
-    return s;
+    return perMetre(s);
   }
 
   /// Height of the surface [m]; the same bits as jet().h.
   GROUSER_HD double height(double x, double y) const {
+    if (interpolation != Interpolation::smooth) return jet(x, y).h;
     const CubicWeights cx = cubicWeights((x - xMin) / dx, columns);
     const CubicWeights cy = cubicWeights((y - yMin) / dy, rows);
     double h = 0;
@@ -116,6 +82,35 @@ struct HeightFieldView {
       h += cy.w[b] * w;
     }
     return h;
+  }
+
+  /// The cell that a place lies in, or the nearest one.
+  GROUSER_HD int cellX(double x) const { return cellAt((x - xMin) / dx, columns - 1); }
+  GROUSER_HD int cellY(double y) const { return cellAt((y - yMin) / dy, rows - 1); }
+
+  /// As the patch of cell (i, j) says, which goes on beyond it; not of smooth interpolation.
+  GROUSER_HD SurfaceJet jetInCell(int i, int j, double x, double y) const {
+    const double u = (x - xMin) / dx, v = (y - yMin) / dy;
+    const CellWeights cx = slopes ? hermiteWeights(u, i, columns - 1) : lineWeights(u, i);
+    const CellWeights cy = slopes ? hermiteWeights(v, j, rows - 1) : lineWeights(v, j);
+    SurfaceJet s;
+    for (int b = 0; b < 2; ++b) {
+      // Along the row: of the heights, and of the slopes across it.
+      double w = 0, d = 0, dd = 0, wAcross = 0, dAcross = 0, ddAcross = 0;
+      for (int a = 0; a < 2; ++a) {
+        const std::int64_t node = static_cast<std::int64_t>(cy.first + b) * columns + cx.first + a;
+        const double z = heights[node];
+        const NodeSlopes m = slopes ? slopes[node] : NodeSlopes{};
+        w += cx.v[a] * z + cx.s[a] * m.x, wAcross += cx.v[a] * m.y + cx.s[a] * m.xy;
+        d += cx.dv[a] * z + cx.ds[a] * m.x, dAcross += cx.dv[a] * m.y + cx.ds[a] * m.xy;
+        dd += cx.ddv[a] * z + cx.dds[a] * m.x, ddAcross += cx.ddv[a] * m.y + cx.dds[a] * m.xy;
+      }
+      s.h += cy.v[b] * w + cy.s[b] * wAcross;
+      s.hx += cy.v[b] * d + cy.s[b] * dAcross, s.hy += cy.dv[b] * w + cy.ds[b] * wAcross;
+      s.hxx += cy.v[b] * dd + cy.s[b] * ddAcross, s.hxy += cy.dv[b] * d + cy.ds[b] * dAcross;
+      s.hyy += cy.ddv[b] * w + cy.dds[b] * wAcross;
+    }
+    return perMetre(s);
   }
 
   /// True when a sphere of `radius` [m] about `p` surely does not touch the surface: one look-up instead of the search.
@@ -181,6 +176,16 @@ struct HeightFieldView {
 
 private:
   GROUSER_HD static int clamp(int i, int n) { return i < 0 ? 0 : i < n ? i : n - 1; }
+  /// A number beyond the range of integers, or none, must not reach the conversion.
+  GROUSER_HD static int cellAt(double u, int cells) {
+    return !(u > 0) ? 0 : u < cells ? static_cast<int>(u) : cells - 1;
+  }
+  /// Derivatives by metres from those by cells.
+  GROUSER_HD SurfaceJet perMetre(SurfaceJet s) const {
+    s.hx /= dx, s.hy /= dy;
+    s.hxx /= dx * dx, s.hxy /= dx * dy, s.hyy /= dy * dy;
+    return s;
+  }
   GROUSER_HD static double squaredDistance(const Vec3d& p, double x, double y, double z) {
     return (x - p.x) * (x - p.x) + (y - p.y) * (y - p.y) + (z - p.z) * (z - p.z);
   }
@@ -188,11 +193,13 @@ private:
 
 /// Bounds of a height field over its grid, from the control net of each bicubic cell: never too small; on smooth ground
 /// too large by 5 (slope) to 20 (curvature) per cent, on noise up to threefold. The tangent continuation beyond the
-/// border is not included. The surface may swing beyond its nodes' range by some per cent of a step between them.
+/// border is not included.
 struct HeightFieldBounds {
   double lowest{}, highest{}; ///< [m]
   double slope{};             ///< |gradient| [-]
-  double valleyCurvature{};   ///< of the hollows [1/m]; a sphere larger than 1 / this may touch twice
+  /// Largest curvature of the hollows [1/m]; a sphere larger than 1 / this may touch in several places. Infinite at
+  /// creases of bilinear ground, hollow or not.
+  double valleyCurvature{};
 };
 
 /// Owner of the heights of a surface over a rectangle. Immutable.
@@ -200,7 +207,9 @@ class HeightField {
 public:
   /// `heights`: columns x rows, row by row, row 0 at `area.yMin` [m]; the nodes of the border lie on the rectangle's
   /// sides. InputError: fewer than 2 nodes a side, a rectangle without area, a height that is no finite number.
-  HeightField(const Rectangle& area, int columns, int rows, std::vector<double> heights);
+  /// Where all heights lie in a plane all interpolations are one surface, and the smooth one computes it.
+  HeightField(const Rectangle& area, int columns, int rows, std::vector<double> heights,
+              Interpolation interpolation = Interpolation::smooth);
 
   /// Level surface at `z` [m].
   static HeightField flat(const Rectangle& area, double z);
@@ -224,7 +233,11 @@ public:
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   const std::vector<double>& heights() const { return heights_; }
+  Interpolation interpolation() const { return interpolation_; }    ///< smooth where all nodes lie in a plane
+  const std::vector<NodeSlopes>& slopes() const { return slopes_; } ///< empty unless monotone
   const HeightFieldBounds& bounds() const { return bounds_; }
+  /// Bounds of one cell.
+  HeightFieldBounds boundsOfCell(int i, int j) const;
   /// Bounds over the cells that `part` touches.
   HeightFieldBounds boundsOver(const Rectangle& part) const;
 
@@ -235,6 +248,8 @@ private:
   Rectangle area_;
   int columns_, rows_;
   std::vector<double> heights_;
+  Interpolation interpolation_;
+  std::vector<NodeSlopes> slopes_;
   HeightFieldBounds bounds_;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -33,6 +34,11 @@ using base::InputError;
 
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 
+/// Frees pixels of the decoder.
+struct FreePixels {
+  void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
 std::vector<stbi_uc> readFile(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error))
@@ -45,18 +51,77 @@ std::vector<stbi_uc> readFile(const std::filesystem::path& file) {
   return bytes;
 }
 
+constexpr stbi_uc kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+
+bool isPng(const std::vector<stbi_uc>& bytes) {
+  return bytes.size() >= std::size(kSignature) &&
+         std::equal(std::begin(kSignature), std::end(kSignature), bytes.begin());
+}
+
+/// Four bytes, the highest first.
+std::uint32_t wordAt(const std::vector<stbi_uc>& bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  for (std::size_t k = at; k < at + 4; ++k) word = word << 8 | bytes[k];
+  return word;
+}
+
 /// Columns and rows as the head of a PNG says (the decoder does not tell why it takes no large ones); 0 of another
 /// file.
 std::pair<std::int64_t, std::int64_t> sizeOfPng(const std::vector<stbi_uc>& bytes) {
-  constexpr stbi_uc kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   constexpr std::size_t kWidth = 16, kHeight = 20, kEnd = 24; // places in the first chunk, IHDR
-  if (bytes.size() < kEnd || !std::equal(std::begin(kSignature), std::end(kSignature), bytes.begin())) return {0, 0};
-  const auto number = [&](std::size_t at) {
-    std::int64_t n = 0;
-    for (std::size_t k = at; k < at + 4; ++k) n = n << 8 | bytes[k];
-    return std::min<std::int64_t>(n, 0x7FFFFFFF); // the format's limit
-  };
-  return {number(kWidth), number(kHeight)};
+  if (bytes.size() < kEnd || !isPng(bytes)) return {0, 0};
+  constexpr std::uint32_t kMost = 0x7FFFFFFF; // the format's limit
+  return {std::min(wordAt(bytes, kWidth), kMost), std::min(wordAt(bytes, kHeight), kMost)};
+}
+
+/// CRC-32 of ISO/IEC 15948, annex D.
+std::uint32_t crcOf(const stbi_uc* bytes, std::size_t count) {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t n = 0; n < 256; ++n) {
+    table[n] = n;
+    for (int k = 0; k < 8; ++k) table[n] = table[n] >> 1 ^ ((table[n] & 1) ? 0xEDB88320u : 0u);
+  }
+  std::uint32_t crc = ~std::uint32_t{0};
+  for (std::size_t k = 0; k < count; ++k) crc = table[(crc ^ bytes[k]) & 0xFFu] ^ crc >> 8;
+  return ~crc;
+}
+
+/// Whether the pixels' stream, in zlib's format, ends with the Adler-32 checksum of what it unpacks to (RFC 1950).
+bool isSound(const std::vector<char>& stream) {
+  int count = 0;
+  const std::unique_ptr<char, FreePixels> unpacked(
+      stbi_zlib_decode_malloc(stream.data(), static_cast<int>(stream.size()), &count));
+  if (!unpacked || stream.size() < 4) return false;
+  constexpr std::uint32_t kPrime = 65521;
+  std::uint32_t a = 1, b = 0;
+  for (int k = 0; k < count; ++k) {
+    a = (a + static_cast<unsigned char>(unpacked.get()[k])) % kPrime;
+    b = (b + a) % kPrime;
+  }
+  const std::vector<stbi_uc> tail(stream.end() - 4, stream.end());
+  return (b << 16 | a) == wordAt(tail, 0);
+}
+
+/// Names a damaged chunk of a PNG, since the decoder checks no checksums: " (wrong checksum of chunk IDAT at byte 41)".
+/// Empty for sound files and other formats.
+std::string damagedChunk(const std::vector<stbi_uc>& bytes) {
+  constexpr std::size_t kAround = 12; // length, type and checksum of a chunk
+  if (!isPng(bytes)) return {};
+  std::vector<char> stream;
+  for (std::size_t at = std::size(kSignature); at + kAround <= bytes.size();) {
+    const std::size_t length = wordAt(bytes, at);
+    const std::string type(bytes.begin() + static_cast<std::ptrdiff_t>(at + 4),
+                           bytes.begin() + static_cast<std::ptrdiff_t>(at + 8));
+    if (length > bytes.size() - at - kAround) break;
+    if (crcOf(&bytes[at + 4], length + 4) != wordAt(bytes, at + 8 + length))
+      return fmt::format(" (wrong checksum of chunk {} at byte {})", type, at);
+    if (type == "IDAT")
+      stream.insert(stream.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at + 8),
+                    bytes.begin() + static_cast<std::ptrdiff_t>(at + 8 + length));
+    if (type == "IEND") return isSound(stream) ? "" : " (wrong checksum of the pixels)";
+    at += length + kAround;
+  }
+  return " (no end mark)";
 }
 
 /// " (bad file)": what the decoder says to its last failure; empty where it says nothing.
@@ -86,9 +151,19 @@ std::vector<double> brightnessOf(const Channel* pixels, std::size_t count, int c
   return result;
 }
 
-struct FreePixels {
-  void operator()(void* pixels) const { stbi_image_free(pixels); }
-};
+template <class Channel> bool isTransparent(const Channel* pixels, std::size_t count, int channels, int white) {
+  for (std::size_t i = 0; channels % 2 == 0 && i < count; ++i)
+    if (pixels[(i + 1) * static_cast<std::size_t>(channels) - 1] != white) return true;
+  return false;
+}
+
+template <class Channel> bool isColour(const Channel* pixels, std::size_t count, int channels) {
+  for (std::size_t i = 0; channels > 2 && i < count; ++i) {
+    const Channel* p = pixels + i * channels;
+    if (p[0] != p[1] || p[0] != p[2]) return true;
+  }
+  return false;
+}
 
 } // namespace
 
@@ -115,12 +190,15 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
 
   const std::size_t count = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
   const bool deep = stbi_is_16_bit_from_memory(bytes.data(), size);
+  const std::string damage = isCutShort(bytes) ? " (no end mark)" : damagedChunk(bytes);
   const auto decode = [&](auto load, int white) {
     auto* const decoded = load(bytes.data(), size, &map.columns, &map.rows, &channels, 0);
     const std::unique_ptr<std::remove_pointer_t<decltype(decoded)>, FreePixels> pixels(decoded);
-    if (!pixels || isCutShort(bytes))
+    if (!pixels || !damage.empty())
       fail(fmt::format("{} announced, but the picture is damaged or cut short{}; save or copy it again", dimensions,
-                       pixels ? " (no end mark)" : decodersReason()));
+                       pixels ? damage : decodersReason()));
+    map.colour = isColour(pixels.get(), count, channels);
+    map.transparent = isTransparent(pixels.get(), count, channels, white);
     map.brightness = brightnessOf(pixels.get(), count, channels, white);
   };
   map.bits = deep ? 16 : 8;
@@ -149,7 +227,8 @@ HeightField heightFieldOf(const Heightmap& map, const HeightmapPlacement& placem
       const double b = map.at(column, row);
       heights[node] = (1 - b) * p.black + b * p.white;
     }
-  return HeightField({0, p.sizeX, -p.sizeY / 2, p.sizeY / 2}, map.columns, map.rows, std::move(heights));
+  return HeightField({0, p.sizeX, -p.sizeY / 2, p.sizeY / 2}, map.columns, map.rows, std::move(heights),
+                     p.interpolation);
 }
 
 } // namespace grouser::terrain

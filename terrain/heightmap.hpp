@@ -13,6 +13,8 @@ struct Heightmap {
   std::filesystem::path file;
   int columns{}, rows{}; ///< >= 2
   int bits{};            ///< of a channel: 8 or 16
+  bool colour{};         ///< some pixel is not grey
+  bool transparent{};    ///< some pixel is not opaque
   std::vector<double>
       brightness; ///< [columns * rows] [-], 0 = black, 1 = white of the format; row 0 is the picture's top
 
@@ -23,16 +25,18 @@ struct Heightmap {
 /// lossy: for lack of a better source).
 /// Colour becomes luminance Y = 0.2126 R + 0.7152 G + 0.0722 B of the stored values (weights of ITU-R BT.709); alpha is
 /// ignored. No gamma is applied: the value of a pixel is proportional to height.
-/// InputError: no such file, not a picture, cut short, fewer than 2 pixels a side, or more than 2^28 pixels.
+/// InputError: no such file, not a picture, damaged (a PNG's checksums are checked), cut short, fewer than 2 pixels a
+/// side, or more than 2^28 pixels.
 Heightmap loadHeightmap(const std::filesystem::path& file);
 
 /// Where a height-map lies in the world.
 struct HeightmapPlacement {
   double sizeX{}, sizeY{}; ///< [m] > 0; the outermost pixels lie on the border, so columns pixels span sizeX exactly
   double black{}, white{}; ///< heights [m] of the format's darkest and brightest value, not of this picture's
+  Interpolation interpolation{Interpolation::monotone};
 };
 
-/// The smooth surface through a height-map's pixels. The terrain starts at x = 0 and is centred on the x axis:
+/// The surface through a height-map's pixels. The terrain starts at x = 0 and is centred on the x axis:
 /// x in [0, sizeX], y in [-sizeY / 2, sizeY / 2]. The picture's left edge is x = 0, its top row is the far edge,
 /// y = sizeY / 2: the picture is the view from above with x to the right.
 /// InputError: a size that is not positive and finite, a height that is not finite.

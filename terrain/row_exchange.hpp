@@ -16,6 +16,7 @@
 ///   visitor.column(values)                     one value a row
 ///   visitor.unhashed(values)                   the same, left out of the state hash
 ///   visitor.contacts(counts, column*...)       counts[row] values a row of each; a null pointer: there is no such
+///   visitor.several(values, width)             `width` values a row
 ///   visitor.boundaries(bits, width, column*...)  a word of bits and `width` values a row of each
 namespace grouser::terrain {
 
@@ -37,6 +38,9 @@ public:
   RowPacker(RowCursor& at, std::vector<std::uint32_t>& words) : at_(at), words_(words) {}
   template <class T> void column(const std::vector<T>& values) { putWords(words_, values[at_.row]); }
   template <class T> void unhashed(const std::vector<T>& values) { column(values); }
+  template <class T> void several(const std::vector<T>& values, std::size_t width) {
+    for (std::size_t k = at_.row * width; k < (at_.row + 1) * width; ++k) putWords(words_, values[k]);
+  }
   template <class... T> void contacts(const std::vector<std::uint32_t>& counts, const std::vector<T>*... columns) {
     column(counts);
     for (std::uint32_t n = 0; n < counts[at_.row]; ++n, ++at_.contact)
@@ -64,6 +68,9 @@ public:
     at_ += sizeof(T) / 4;
   }
   template <class T> void unhashed(std::vector<T>& values) { column(values); }
+  template <class T> void several(std::vector<T>& values, std::size_t width) {
+    for (std::size_t k = 0; k < width; ++k) column(values);
+  }
   template <class... T> void contacts(std::vector<std::uint32_t>& counts, std::vector<T>*... columns) {
     column(counts);
     for (std::uint32_t n = 0; n < counts.back(); ++n) ((columns ? column(*columns) : void()), ...);

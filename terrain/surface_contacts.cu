@@ -15,7 +15,8 @@ std::vector<int> partsOf(const std::vector<SurfaceContacts::Pair>& pairs) {
   return parts;
 }
 
-/// Of the spheres of all parts [m].
+} // namespace
+
 double widestSample(const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart) {
   double widest = 0;
   for (const int set : setOfPart)
@@ -23,14 +24,11 @@ double widestSample(const std::vector<const base::SphereSet*>& sets, const std::
   return widest;
 }
 
-} // namespace
-
 SurfaceContacts::SurfaceContacts(const base::Exec& exec, const Model& model,
                                  const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart,
                                  const std::vector<Surface>& surfaces, const std::vector<Pair>& pairs,
                                  const HeightField* field)
-    : model_(model), buffers_(exec, sets, setOfPart, partsOf(pairs)), pairs_(exec, pairs), surfaces_(exec, surfaces),
-      heights_(exec) {
+    : model_(model), buffers_(exec, sets, setOfPart, partsOf(pairs)), pairs_(exec, pairs), surfaces_(exec, surfaces) {
   std::vector<bool> isTarget(sets.size());
   for (const Surface& s : surfaces)
     if (s.kind == Surface::Kind::mesh) isTarget[static_cast<std::size_t>(s.set)] = true;
@@ -46,15 +44,12 @@ SurfaceContacts::SurfaceContacts(const base::Exec& exec, const Model& model,
   }
   gridViews_ = base::Array<contact::SurfaceGridView>(exec, views);
   reach_ = base::Array<double>(exec, reach);
-  if (!field) return;
-  heights_ = base::Array<double>(exec, field->heights());
-  field_ = field->view();
-  field_.heights = heights_.data();
+  if (field) field_ = SearchedHeightField(exec, *field, widest + model.margin);
 }
 
 SurfaceContacts::Target SurfaceContacts::target() const {
   return {pairs_.data(), surfaces_.data(), gridViews_.data(), buffers_.setOfPart.data(),
-          reach_.data(), field_,           model_.law,        static_cast<int>(pairs_.size())};
+          reach_.data(), field_.view(),    model_.law,        static_cast<int>(pairs_.size())};
 }
 
 void SurfaceContacts::refresh(const base::Array<contact::PartMotion>& motion) {

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "contact/patch_contacts.hpp"
-#include "terrain/height_field.hpp"
+#include "terrain/feet_search.hpp"
 #include "terrain/rigid_surface.hpp"
+#include "terrain/searched_height_field.hpp"
 
 #include <vector>
 
 namespace grouser::terrain {
+
+/// Largest sample radius of all parts [m].
+double widestSample(const std::vector<const base::SphereSet*>& sets, const std::vector<int>& setOfPart);
 
 /// Contacts of rigid parts with the rigid surfaces of a scene: planes, boxes, cylinders, meshes, and for some parts a
 /// height-field. As GroundContacts: samples of the part, an elastic foundation.
@@ -83,7 +87,8 @@ public:
       const Surface& s = surface(p);
       if (s.kind == Surface::Kind::field) {
         if (field.clearOf(x, radius)) return false;
-        const FootPoint foot = field.closestPoint(x);
+        FootPoint foot;
+        if (!deepestFoot(field, x, radius, foot)) return false;
         overlap = radius - foot.distance, normal = foot.normal;
         return overlap > 0;
       }
@@ -105,8 +110,8 @@ private:
   base::Array<Surface> surfaces_;
   std::vector<contact::SurfaceGrid> grids_;
   base::Array<contact::SurfaceGridView> gridViews_;
-  base::Array<double> reach_, heights_;
-  HeightFieldView field_;
+  base::Array<double> reach_;
+  SearchedHeightField field_;
 };
 
 } // namespace grouser::terrain

@@ -31,15 +31,21 @@ constexpr VectorField kVectorFields[] = {
 };
 
 constexpr VehicleField kVehicleFields[] = {
-    {"heading", "rad", "of the hull, from world x towards y", &Observation::heading},
-    {"pitch_angle", "rad", "of the hull, nose up positive", &Observation::pitchAngle},
-    {"roll_angle", "rad", "of the hull, right side down positive", &Observation::rollAngle},
-    {"gross_traction", "N", "mean drive torques over the pitch radius", &Observation::grossTraction},
-    {"net_thrust", "N", "of the ground on the vehicle along the heading, mean since the last row",
+    {"heading", "rad", "of the hull, from world x towards y, counted on beyond whole turns", &Observation::heading},
+    {"pitch_angle", "rad", "of the hull, nose up positive, within +-pi/2", &Observation::pitchAngle},
+    {"roll_angle", "rad", "of the hull, right side down positive, counted on beyond whole turns",
+     &Observation::rollAngle},
+    {"gross_traction", "N", "mean drive torques over the pitch radius, in the direction of motion",
+     &Observation::grossTraction},
+    {"net_thrust", "N",
+     "of the ground on the vehicle in the direction of motion, along the ground, mean since the last row",
      &Observation::netThrust},
-    {"drawbar_pull", "N", "of the vehicle on its hitch, mean since the last row; net thrust where it has none",
+    {"drawbar_pull", "N",
+     "of the vehicle on its hitch in the direction of motion, mean since the last row; without a hitch net thrust less "
+     "the weight's share along the ground",
      &Observation::drawbarPull},
-    {"motion_resistance", "N", "gross traction minus net thrust", &Observation::motionResistance},
+    {"motion_resistance", "N", "gross traction minus net thrust; NaN where the tracks run against each other",
+     &Observation::motionResistance},
 };
 
 constexpr ScalarField kTrackFields[] = {

@@ -19,9 +19,16 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStandardGravity = 9.80665;
 /// Below this a sprocket stands and slip has no meaning [rad/s].
 constexpr double kStanding = 1e-6;
+/// Tracks run above, and a hull on standing tracks slides above [m/s]; a hull that was set down swings by less.
+constexpr double kRuns = 1e-4, kSlides = 0.01;
 /// Slack and stretch move the track against the sprocket by less than half a pitch; three quarters is on the way to a
 /// skip.
 constexpr double kSkip = 0.75;
+
+/// The angle of those that differ from `angle` by whole turns which lies nearest to `last` [rad].
+double continued(double angle, double last) {
+  return angle + 2 * base::kPi * std::floor((last - angle) / (2 * base::kPi) + 0.5);
+}
 
 /// Does the ground carry more than half of the weight?
 bool stands(const Assembly& vehicle, const GroundLoads& ground) {
@@ -94,7 +101,7 @@ double suspendedSag(const VehicleSpec& spec) {
 }
 
 Observer::Observer(const Assembly& vehicle, const ObserverOptions& options)
-    : vehicle_(&vehicle), stone_(options.stone) {
+    : vehicle_(&vehicle), stone_(options.stone), heading_(options.heading) {
   for (int i = 0; i < static_cast<int>(vehicle.tracks.size()); ++i)
     travel_.emplace_back(vehicle, i, options.averageTeeth);
   driven_.resize(vehicle.tracks.size());
@@ -105,8 +112,45 @@ void Observer::update(const multibody::State& state, double dt) {
   for (std::size_t i = 0; i < driven_.size(); ++i) {
     const multibody::JointReading& sprocket = state.joint[vehicle_->tracks[i].sprocketJoint];
     driven_[i].torque += sprocket.driveForce, driven_[i].power += sprocket.driveForce * sprocket.rate;
+    driven_[i].rate += sprocket.rate, driven_[i].speed += trackSpeed(*vehicle_, static_cast<int>(i), state);
   }
   ++updates_;
+  const Attitude now = attitude(state);
+  heading_ = now.heading, roll_ = now.roll;
+}
+
+Observer::Attitude Observer::attitude(const multibody::State& state) const {
+  const base::Quat& orientation = state.pose[vehicle_->chassis].orientation;
+  const Vec3d ahead = base::rotate(orientation, {1, 0, 0}), left = base::rotate(orientation, {0, 1, 0}),
+              up = base::rotate(orientation, {0, 0, 1});
+  return {continued(base::atan2(ahead.y, ahead.x), heading_),
+          base::atan2(ahead.z, std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y)),
+          continued(base::atan2(left.z, up.z), roll_)};
+}
+
+/// Means of one track since restartMeans(); before the first update, values of the state.
+Observer::DriveSums Observer::means(int track, const multibody::State& state) const {
+  const multibody::JointReading& sprocket = state.joint[vehicle_->tracks[track].sprocketJoint];
+  if (updates_ == 0)
+    return {sprocket.driveForce, sprocket.driveForce * sprocket.rate, sprocket.rate,
+            trackSpeed(*vehicle_, track, state)};
+  const DriveSums& sums = driven_[track];
+  return {sums.torque / updates_, sums.power / updates_, sums.rate / updates_, sums.speed / updates_};
+}
+
+/// 1 forward, -1 backward; 0 where the tracks run against each other.
+int Observer::direction(const multibody::State& state) const {
+  const auto signOf = [](double speed, double least) { return speed > least ? 1 : speed < -least ? -1 : 0; };
+  bool forward = false, backward = false;
+  double hull = 0;
+  for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
+    const DriveSums mean = means(i, state);
+    const int sign = signOf(mean.rate * vehicle_->spec.pitchRadius(), kRuns);
+    forward = forward || sign > 0, backward = backward || sign < 0, hull += mean.speed;
+  }
+  if (forward && backward) return 0;
+  if (forward || backward) return forward ? 1 : -1;
+  return signOf(hull / static_cast<double>(vehicle_->tracks.size()), kSlides) < 0 ? -1 : 1;
 }
 
 void Observer::restartMeans() {
@@ -159,9 +203,8 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
   const multibody::JointReading& slide = state.joint[t.slideJoint];
   o.sprocketSpeed = sprocket.rate;
   o.driveTorque = sprocket.driveForce;
-  const DriveSums& driven = driven_[track];
-  o.meanTorque = updates_ > 0 ? driven.torque / updates_ : o.driveTorque;
-  o.drivePower = updates_ > 0 ? driven.power / updates_ : o.driveTorque * o.sprocketSpeed;
+  const DriveSums mean = means(track, state);
+  o.meanTorque = mean.torque, o.drivePower = mean.power;
   for (const int arm : t.armJoints) o.armAngle.push_back(state.joint[arm].position);
   o.idlerForce = slide.springForce;
   o.idlerSlide = slide.position;
@@ -180,23 +223,17 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
 Observation Observer::observe(const multibody::State& state, const GroundLoads& ground,
                               const SurfaceHeight& surface) const {
   Observation o;
-  const base::Pose pose_W = vehiclePose(*vehicle_, state);
-  const Vec3d ahead = base::rotate(pose_W.orientation, {1, 0, 0});
-  const Vec3d left = base::rotate(pose_W.orientation, {0, 1, 0});
-  const Vec3d up = base::rotate(pose_W.orientation, {0, 0, 1});
+  const Attitude angles = attitude(state);
   o.time = state.time;
-  o.position = pose_W.position;
+  o.position = vehiclePose(*vehicle_, state).position;
   o.velocity = state.twist[vehicle_->chassis].v;
-  o.heading = base::atan2(ahead.y, ahead.x);
-  o.pitchAngle = base::atan2(ahead.z, std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y));
-  o.rollAngle = base::atan2(left.z, up.z);
+  o.heading = angles.heading, o.pitchAngle = angles.pitch, o.rollAngle = angles.roll;
 
   double torque = 0;
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
     o.tracks.push_back(observeTrack(i, state, ground, surface));
     torque += o.tracks.back().meanTorque;
   }
-  o.grossTraction = torque / vehicle_->spec.pitchRadius();
   o.groundForce = {kNaN, kNaN, kNaN};
   if (!ground.force.empty()) {
     Vec3d sum;
@@ -205,10 +242,23 @@ Observation Observer::observe(const multibody::State& state, const GroundLoads& 
     const Vec3d forward{base::cos(o.heading), base::sin(o.heading), 0};
     o.groundForce = {base::dot(sum, forward), base::dot(sum, Vec3d{-forward.y, forward.x, 0}), sum.z};
   }
-  o.netThrust = o.drawbarPull = o.groundForce.x;
-  o.motionResistance = o.grossTraction - o.netThrust;
+  const int way = direction(state);
+  const double sign = way < 0 ? -1 : 1, rise = surface ? riseAhead(state, surface) : 0;
+  o.along.forward = sign / std::sqrt(1 + rise * rise), o.along.up = o.along.forward * rise;
+  o.grossTraction = sign * torque / vehicle_->spec.pitchRadius();
+  o.netThrust = o.drawbarPull = o.along.of(o.groundForce);
+  o.motionResistance = way == 0 ? kNaN : o.grossTraction - o.netThrust;
   o.alarm = alarm(state, ground);
   return o;
+}
+
+/// Slope of the ground under the vehicle along its heading [-].
+double Observer::riseAhead(const multibody::State& state, const SurfaceHeight& surface) const {
+  const HullMotion m = hullMotion(*vehicle_, state);
+  const double middle = vehicle_->spec.roadWheel.firstX + 0.5 * vehicle_->spec.groundRun();
+  return groundPlane(vehicle_->spec, m.x - m.forwardX * middle, m.y - m.forwardY * middle, m.forwardX, m.forwardY,
+                     surface)
+      .ahead;
 }
 
 std::vector<double> Observer::save() const {
@@ -219,18 +269,24 @@ std::vector<double> Observer::save() const {
   }
   for (const DriveSums& sums : driven_) flat.push_back(sums.torque), flat.push_back(sums.power);
   flat.push_back(updates_);
+  for (const DriveSums& sums : driven_) flat.push_back(sums.rate), flat.push_back(sums.speed);
+  flat.push_back(heading_), flat.push_back(roll_);
   return flat;
 }
 
 void Observer::restore(const std::vector<double>& flat) {
   const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
-  if (flat.size() != each * travel_.size() + 2 * driven_.size() + 1)
+  const std::size_t former = each * travel_.size() + 2 * driven_.size() + 1; // does not know of directions and turns
+  if (flat.size() != former && flat.size() != former + 2 * driven_.size() + 2)
     throw base::InputError("observers: the checkpoint is of another vehicle");
   const auto place = [&](std::size_t i) { return flat.begin() + static_cast<std::ptrdiff_t>(i * each); };
   for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i].restore({place(i), place(i + 1)});
   const double* sums = flat.data() + each * travel_.size();
   for (DriveSums& driven : driven_) driven = {sums[0], sums[1]}, sums += 2;
-  updates_ = *sums;
+  updates_ = *sums++;
+  if (flat.size() == former) return;
+  for (DriveSums& driven : driven_) driven.rate = sums[0], driven.speed = sums[1], sums += 2;
+  heading_ = sums[0], roll_ = sums[1];
 }
 
 } // namespace grouser::vehicle

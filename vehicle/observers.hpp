@@ -4,16 +4,13 @@
 #include "multibody/state.hpp"
 #include "vehicle/assembly.hpp"
 #include "vehicle/blow_meter.hpp"
+#include "vehicle/ground_plane.hpp"
 #include "vehicle/travel.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace grouser::vehicle {
-
-/// Height of the undisturbed surface at (x, y), before the vehicle touched it [m].
-using SurfaceHeight = std::function<double(double x, double y)>;
 
 /// What the ground did to the bodies: force on each body of the model, world components [N]. Empty: not known.
 /// Best the mean over the output interval (impulse over time): on grains the force of a single step flickers, and with
@@ -51,18 +48,26 @@ struct TrackObservation {
   double wheelLift = 0;               ///< largest gap between a road wheel and the plates under it [m]
 };
 
+/// The direction of motion along the ground: a unit vector over the hull's heading. See Observer::observe().
+struct Along {
+  double forward = 1, up = 0; ///< its components along the heading, and upward [-]
+  /// Component along the motion of a vector (forward along the heading, left, up).
+  double of(const base::Vec3d& v) const { return v.x * forward + v.z * up; }
+};
+
 struct Observation {
-  double time = 0;             ///< [s]
-  base::Vec3d position;        ///< middle of the sprockets' axle line, world [m]
-  base::Vec3d velocity;        ///< of the chassis' centre of mass, world [m/s]
-  double heading = 0;          ///< of the hull's x axis from world x towards y [rad]
-  double pitchAngle = 0;       ///< nose up positive [rad]
-  double rollAngle = 0;        ///< right side down positive [rad]
-  base::Vec3d groundForce;     ///< sum over all bodies: forward along the heading, left, up [N]; NaN if not known
-  double grossTraction = 0;    ///< sum of the mean drive torques over the pitch radius [N]
-  double netThrust = 0;        ///< that the ground leaves the vehicle, forward along the heading [N]
-  double drawbarPull = 0;      ///< of the vehicle on its hitch; where it has none, netThrust: m a [N]
-  double motionResistance = 0; ///< grossTraction - netThrust [N]
+  double time = 0;          ///< [s]
+  base::Vec3d position;     ///< middle of the sprockets' axle line, world [m]
+  base::Vec3d velocity;     ///< of the chassis' centre of mass, world [m/s]
+  double heading = 0;       ///< of the hull's x axis from world x towards y, counted on beyond whole turns [rad]
+  double pitchAngle = 0;    ///< nose up positive, within +-pi/2 [rad]
+  double rollAngle = 0;     ///< right side down positive, counted on beyond whole turns [rad]
+  base::Vec3d groundForce;  ///< sum over all bodies: forward along the heading, left, up [N]; NaN if not known
+  Along along;              ///< which the next four are stated along
+  double grossTraction = 0; ///< sum of the mean drive torques over the pitch radius [N]
+  double netThrust = 0;     ///< of the ground on the vehicle [N]
+  double drawbarPull = 0; ///< of the vehicle on its hitch, which VehicleRig knows; netThrust as long as it does not [N]
+  double motionResistance = 0; ///< grossTraction - netThrust [N]; NaN where the tracks run against each other
   std::vector<TrackObservation> tracks;
   BlowMeter blows;   ///< of the whole run, where who steps the vehicle has one
   std::string alarm; ///< thrown or skipped track, in words; empty while all is well
@@ -71,6 +76,7 @@ struct Observation {
 struct ObserverOptions {
   int averageTeeth = 1; ///< tooth passages of one mean
   double stone{};       ///< [m] thickest that may lie between a road wheel and its plates and is no thrown track
+  double heading{};     ///< [rad] with which the vehicle was set down: the series of headings begins within pi of it
 };
 
 /// Watches a vehicle: update() after every step, observe() when there is something to be written.
@@ -80,7 +86,13 @@ public:
   explicit Observer(const Assembly& vehicle, const ObserverOptions& options = {});
 
   void update(const multibody::State& state, double dt);
-  /// `surface` may be null where there is no bed: sinkage is NaN then.
+  /// `surface` may be null where there is no bed: sinkage is NaN then, and the ground counts as level.
+  ///
+  /// Traction, thrust and resistance are stated in the direction of motion, along the ground: along the tangent of
+  /// groundPlane() that lies over the hull's heading, forward where the tracks run forward since restartMeans(),
+  /// backward where they run backward. Where they stand (locked, on a slope) the hull's own motion counts; where
+  /// nothing moves, and where the tracks run against each other (a pivot turn), forward, and of the latter there is no
+  /// resistance to motion along the heading.
   Observation observe(const multibody::State& state, const GroundLoads& ground, const SurfaceHeight& surface) const;
   /// The alarm alone, cheap enough for every step or every few: "" while all is well.
   std::string alarm(const multibody::State& state, const GroundLoads& ground) const;
@@ -98,12 +110,21 @@ private:
   /// Sums over the updates since restartMeans().
   struct DriveSums {
     double torque = 0, power = 0; ///< [N m], [W]
+    double rate = 0, speed = 0;   ///< of the sprocket [rad/s] and of the hull at the track [m/s]
   };
+  DriveSums means(int track, const multibody::State& state) const;
+  int direction(const multibody::State& state) const;
+  struct Attitude {
+    double heading, pitch, roll; ///< [rad]
+  };
+  double riseAhead(const multibody::State& state, const SurfaceHeight& surface) const;
+  Attitude attitude(const multibody::State& state) const;
 
   const Assembly* vehicle_;
   double stone_;                  ///< [m]
   std::vector<DriveSums> driven_; ///< one a track
   double updates_ = 0;
+  double heading_, roll_ = 0; ///< at the last update, counted on beyond whole turns [rad]
   std::vector<Travel> travel_;
 };
 

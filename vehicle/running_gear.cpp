@@ -2,6 +2,7 @@
 #include "vehicle/running_gear.hpp"
 
 #include "base/math.hpp"
+#include "vehicle/consistent_gear.hpp"
 #include "vehicle/wrap.hpp"
 
 #include <algorithm>
@@ -419,6 +420,12 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
   return "";
 }
 
+/// Keys that mend it together, to be added to advice; empty where none were found.
+std::string together(const VehicleSpec& spec) {
+  const std::string keys = consistentKeys(spec, [](const VehicleSpec& other) { return !firstFault(other); });
+  return keys.empty() ? "" : "; set together " + keys;
+}
+
 /// Says what mends a fault, at the key that does.
 SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
   const auto said = [&fault](const Knob& k, const std::string& advice) {
@@ -433,7 +440,7 @@ SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
       return said(k, fmt::format("set {} = {}", k.name, value));
     names += (names.empty() ? "" : ", ") + k.name;
   }
-  return said(first, fmt::format("no other value of {} alone mends it", names));
+  return said(first, fmt::format("no other value of {} alone mends it{}", names, together(spec)));
 }
 
 } // namespace
@@ -450,7 +457,8 @@ std::optional<SpecFault> runningGearFault(const VehicleSpec& spec) {
           fault->advice = fmt::format("set {} = {}", k.name, value);
     if (fault->advice.empty())
       fault->advice = "no other value of idler.x, shoe.count, idler.z, road_wheel.z, shoe.pitch, sprocket.teeth alone "
-                      "mends it";
+                      "mends it" +
+                      together(spec);
   }
   return withAdvice(spec, *fault);
 }

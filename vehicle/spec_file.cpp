@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vehicle/spec_file.hpp"
 
+#include "base/nearest_key.hpp"
+
 #include "base/error.hpp"
 #include "base/table.hpp"
 #include "vehicle/running_gear.hpp"
@@ -61,11 +63,8 @@ base::Document documentOf(const SpecSource& source) {
   return document;
 }
 
-} // namespace
-
-VehicleSpec readVehicleSpec(const SpecSource& source) {
-  const base::Document document = documentOf(source);
-  const base::Section root = document.root();
+/// Reads the sections one by one.
+VehicleSpec readSections(const base::Section& root) {
   root.allowOnly({"version", "vehicle", "chassis", "shoe", "sprocket", "road_wheel", "arm", "roller", "idler",
                   "contact", "engine"});
   VehicleSpec spec = root.section("vehicle").read(vehicleTable());
@@ -78,6 +77,23 @@ VehicleSpec readVehicleSpec(const SpecSource& source) {
   if (root.has("roller")) spec.roller = root.section("roller").read(rollerTable());
   spec.idler = root.section("idler").read(idlerTable());
   spec.contact = root.section("contact").read(contactTable());
+  return spec;
+}
+
+VehicleSpec sectionsOf(const base::Section& root) {
+  try {
+    return readSections(root);
+  } catch (const base::UnknownKey& unknown) {
+    throw base::amongAllKeys(unknown, specKeys());
+  }
+}
+
+} // namespace
+
+VehicleSpec readVehicleSpec(const SpecSource& source) {
+  const base::Document document = documentOf(source);
+  const base::Section root = document.root();
+  VehicleSpec spec = sectionsOf(root);
   checkTogether(root, spec);
   if (const std::optional<SpecFault> fault = runningGearFault(spec))
     root.section(fault->section).fail(fault->key, fault->message);
@@ -99,6 +115,13 @@ std::vector<SpecSection> specSections() {
   const auto of = [](const auto& table) { return SpecSection{table.name(), table.fields()}; };
   return {of(vehicleTable()), of(chassisTable()), of(shoeTable()),  of(sprocketTable()), of(roadWheelTable()),
           of(armTable()),     of(rollerTable()),  of(idlerTable()), of(contactTable()),  of(engineTable())};
+}
+
+std::vector<std::string> specKeys(const std::string& before) {
+  std::vector<std::string> keys;
+  for (const SpecSection& section : specSections())
+    for (const base::Field& field : section.fields) keys.push_back(before + section.name + "." + field.key);
+  return keys;
 }
 
 std::string specFieldHelp() {

@@ -27,6 +27,9 @@ struct SpecSection {
 /// All of them, in the order in which they are described.
 std::vector<SpecSection> specSections();
 
+/// Their keys, as "shoe.count", with a text before each.
+std::vector<std::string> specKeys(const std::string& before = "");
+
 /// All keys of a vehicle spec file with unit, range and meaning, as Markdown.
 std::string specFieldHelp();
 

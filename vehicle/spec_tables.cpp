@@ -135,7 +135,11 @@ Table<IdlerSpec> idlerTable() {
   t.add("damping", &IdlerSpec::damping, "N s/m", "tensioner damper").atLeast(0).atMost(1e9).required();
   t.add("preload", &IdlerSpec::preload, "N", "spring force at the wrap's place").atLeast(0).atMost(1e7).required();
   t.add("stop_stiffness", &IdlerSpec::stopStiffness, "N/m", "of both stops").above(0).atMost(1e12).required();
-  t.add("stop_damping", &IdlerSpec::stopDamping, "N s/m", "of both stops").atLeast(0).atMost(1e9).required();
+  t.add("stop_damping", &IdlerSpec::stopDamping, "N s/m",
+        "of both stops, which never pull: on the way out it takes at most what their springs give")
+      .atLeast(0)
+      .atMost(1e9)
+      .required();
   t.add("carrier_mass", &IdlerSpec::carrierMass, "kg", "sliding carrier").atLeast(1e-3).atMost(1e6).required();
   t.add("carrier_inertia", &IdlerSpec::carrierInertia, "kg m2", "of the carrier").above(0).atMost(1e8).required();
   addSurface(t);

@@ -4,6 +4,7 @@
 #include "multibody/detail/axis_springs.hpp"
 #include "multibody/detail/index.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace grouser::multibody::detail {
@@ -22,6 +23,15 @@ void add(AxisLaw& law, double force, double stiffness, double damping, double dt
 /// Adds a spring at position x.
 void add(AxisLaw& law, const LinearSpring& spring, double x, double dt) {
   add(law, spring.load - spring.stiffness * (x - spring.rest), spring.stiffness, spring.damping, dt);
+}
+
+/// Damping of an end stop over a step [N s/m] or [N m s/rad]. A stop never pulls: on the way out its damper takes at
+/// most what the spring still gives at the end of the step,
+///   k (over + dt rate) + c rate >= 0,
+/// which leaves no force at all as long as nothing else acts. Below 0: the step leads out of the stop, which is over.
+double stopDamping(const AxisSpring& spring, double over, double rate, double dt) {
+  if (rate * over >= 0) return spring.stopDamping;
+  return std::min(spring.stopDamping, spring.stopStiffness * (over + dt * rate) / -rate);
 }
 
 } // namespace
@@ -86,10 +96,10 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
     add(law, linearSpring(spring, loads.axisSprings[s]), position, dt);
     law.springDamping += dt * spring.damping;
 
-    // End stops; their dampers act on the way in only, so that they do not hold back what leaves.
     const double over = overLimit(spring, position);
     if (over == 0) continue;
-    const double damping = rate * over >= 0 ? spring.stopDamping : 0;
+    const double damping = stopDamping(spring, over, rate, dt);
+    if (damping < 0) continue;
     add(law, -spring.stopStiffness * over, spring.stopStiffness, damping, dt);
     law.stopDamping += dt * damping;
   }

@@ -18,6 +18,40 @@ void add(SoftRow& row, const LinearSpring& spring) {
   row.damping += spring.damping;
 }
 
+/// Mean force of one end stop over a stage, out of the stop, in the direction of its overlap.
+struct StopStage {
+  double elastic = 0, damper = 0;
+  double slope = 0; ///< of both over x1
+};
+
+/// `over0`, `over1`: overlap at the ends of the stage, on one side or 0.
+StopStage stopStage(const AxisSpring& spring, double over0, double over1, double dx, double h) {
+  const double k = spring.stopStiffness;
+  StopStage stop;
+  if (over0 * over1 > 0 || dx == 0) {
+    stop.elastic = 0.5 * k * (over0 + over1);
+    stop.slope = 0.5 * k;
+  } else {
+    // V(x1) - V(x0) over dx, with one of the ends beyond the limit.
+    stop.elastic = 0.5 * k * (over1 * over1 - over0 * over0) / dx;
+    stop.slope = (k * over1 - stop.elastic) / dx;
+  }
+  stop.damper = spring.stopDamping * (over1 - over0) / h;
+  if (over1 != 0) stop.slope += spring.stopDamping / h;
+  // A stop never pulls: on the way out its damper takes at most what the spring gives.
+  if (stop.damper != 0 && (stop.elastic + stop.damper) * (over0 + over1) <= 0)
+    stop.damper = -stop.elastic, stop.slope = 0;
+  return stop;
+}
+
+template <class Use> void forEachStop(const AxisSpring& spring, double x0, double x1, double h, const Use& use) {
+  const double over0 = overLimit(spring, x0), over1 = overLimit(spring, x1);
+  if (over0 == 0 && over1 == 0) return;
+  if (over0 * over1 >= 0) return use(stopStage(spring, over0, over1, x1 - x0, h));
+  // From one stop to the other within the stage.
+  use(stopStage(spring, over0, 0, x1 - x0, h)), use(stopStage(spring, 0, over1, x1 - x0, h));
+}
+
 } // namespace
 
 SoftRows::SoftRows(const Model& model, const ConstraintSystem& system, const std::vector<double>& driveStart)
@@ -64,25 +98,11 @@ void SoftRows::evaluate(const Loads& loads, double t, double h, std::vector<Soft
 
 ForceAndSlope SoftRows::stops(int axis, double x0, double x1, double h) const {
   ForceAndSlope sum;
-  for (const int s : stopsOf_[at(axis)]) {
-    const AxisSpring& spring = model_.axisSprings()[at(s)];
-    const double over0 = overLimit(spring, x0), over1 = overLimit(spring, x1), k = spring.stopStiffness;
-    if (over0 == 0 && over1 == 0) continue;
-    const double dx = x1 - x0;
-    if (over0 * over1 > 0 || dx == 0) {
-      sum.force -= 0.5 * k * (over0 + over1);
-      sum.slope += 0.5 * k;
-    } else {
-      // V(x1) - V(x0) over dx, with at most one of the ends beyond each limit.
-      const double dV = 0.5 * k * (over1 * over1 - over0 * over0);
-      sum.force -= dV / dx;
-      sum.slope += (k * over1 - dV / dx) / dx;
-    }
-    if (std::fabs(over1) > std::fabs(over0)) {
-      sum.force -= spring.stopDamping * (over1 - over0) / h;
-      sum.slope += spring.stopDamping / h;
-    }
-  }
+  for (const int s : stopsOf_[at(axis)])
+    forEachStop(model_.axisSprings()[at(s)], x0, x1, h, [&](const StopStage& stop) {
+      sum.force -= stop.elastic + stop.damper;
+      sum.slope += stop.slope;
+    });
   return sum;
 }
 
@@ -90,8 +110,8 @@ double SoftRows::stopForce(int axis, double x, double rate) const {
   double force = 0;
   for (const int s : stopsOf_[at(axis)]) {
     const AxisSpring& spring = model_.axisSprings()[at(s)];
-    const double over = overLimit(spring, x);
-    force -= spring.stopStiffness * over + (rate * over > 0 ? spring.stopDamping * rate : 0);
+    const double over = overLimit(spring, x), push = spring.stopStiffness * over + spring.stopDamping * rate;
+    if (push * over > 0) force -= push;
   }
   return force;
 }
@@ -107,11 +127,9 @@ double SoftRows::energy(const SoftRow& row, int axis, double x) const {
 
 double SoftRows::stopLoss(int axis, double x0, double x1, double h) const {
   double loss = 0;
-  for (const int s : stopsOf_[at(axis)]) {
-    const AxisSpring& spring = model_.axisSprings()[at(s)];
-    const double over0 = overLimit(spring, x0), over1 = overLimit(spring, x1);
-    if (std::fabs(over1) > std::fabs(over0)) loss += spring.stopDamping * (over1 - over0) / h * (x1 - x0);
-  }
+  for (const int s : stopsOf_[at(axis)])
+    forEachStop(model_.axisSprings()[at(s)], x0, x1, h,
+                [&](const StopStage& stop) { loss += stop.damper * (x1 - x0); });
   return loss;
 }
 

@@ -39,7 +39,7 @@ public:
   void evaluate(const Loads& loads, double t, double h, std::vector<SoftRow>& rows) const;
 
   /// End stops as discrete gradients of their energies V = stopStiffness over^2 / 2, with `over` beyond the limit:
-  ///   F = -(V(x1) - V(x0)) / (x1 - x0) - stopDamping (over1 - over0) / h  (the damper on the way in only),
+  ///   F = -(V(x1) - V(x0)) / (x1 - x0) - stopDamping (over1 - over0) / h,   0 where that would pull into the stop,
   /// so that over a stage the work of the elastic part is -(V(x1) - V(x0)) exactly, whatever the stage.
   ForceAndSlope stops(int axis, double x0, double x1, double h) const;
   /// Their force at a position and rate.

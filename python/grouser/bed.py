@@ -11,7 +11,7 @@ import numpy
 
 from .errors import FileError
 from .files import fields_of
-from .series import Quantity
+from .series import Brief, Quantity
 
 _TOP_BITS, _LOW_BITS = 10, 32  # of a coordinate of 42: base/position.hpp
 
@@ -25,8 +25,8 @@ def metres_of(words: numpy.ndarray, unit: float) -> numpy.ndarray:
     return ((top << _LOW_BITS) + low) * unit
 
 
-@dataclass(frozen=True, eq=False)
-class Bed:
+@dataclass(frozen=True, eq=False, repr=False)
+class Bed(Brief):
     """Grains by id. Fixed grains, those of a rough floor, are among them."""
 
     file: Path

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from .errors import FileError
 from .files import fields_of, read_json
-from .series import Estimate, number
+from .series import Estimate, counted, number
 from .soil import SoilTest
 
 
@@ -56,6 +56,9 @@ class Calibration:
                 Outcome(one["what"], number(one["wanted"]), number(one["tolerance"]),
                         _estimate(one["what"], one["reached"]), one["verdict"])
                 for one in self.json.get("outcomes", [])]  #: none before it has finished
+
+    def __repr__(self) -> str:
+        return f"<grouser.Calibration {self.folder}: {counted(len(self), 'trial')}>"
 
     @property
     def soil_file(self) -> Path | None:

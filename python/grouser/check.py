@@ -12,7 +12,7 @@ import numpy
 
 from .errors import FileError
 from .files import fields_of, read_csv, read_json
-from .series import Estimate, Series, number, split_unit
+from .series import Estimate, Series, counted, number, split_unit
 from .sweep import value_of
 
 
@@ -35,9 +35,10 @@ class CheckFigure:
     by_seeds: Estimate  #: value and the half of the seeds' 95 % interval
     seeds: int
     errors: dict[str, AxisError]  #: by axis
+    inconclusive: bool = False  #: over fewer than two teeth, or with a bar wider than its value
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class BarredSeries(Series):
     """A series with half widths, each of the shape [rows]; NaN where unknown. `2 * s` has twice the half widths; those
     of `s + t` and `s - t` are added, which is the most that they can be: errors of one check are not independent. A
@@ -64,6 +65,9 @@ class Check:
             figures = [self._figure(one) for one in self.json["figures"]]
         self.figures: dict[str, CheckFigure] = {figure.name: figure for figure in figures}
 
+    def __repr__(self) -> str:
+        return f"<grouser.Check {self.folder}: {counted(len(self), 'figure')}>"
+
     @staticmethod
     def _figure(one: dict) -> CheckFigure:
         name, unit = split_unit(one["name"])
@@ -71,7 +75,8 @@ class Check:
                                        e["verdict"], number(e.get("order"))) for e in one["errors"]}
         value = number(one["value"])
         return CheckFigure(name, Estimate(value, number(one["bar"]), unit, name),
-                           Estimate(value, number(one["seeds_half_width"]), unit, name), one["seeds"], errors)
+                           Estimate(value, number(one["seeds_half_width"]), unit, name), one["seeds"], errors,
+                           one.get("inconclusive", False))
 
     def __getitem__(self, name: str) -> CheckFigure:
         """KeyError names the figures that there are."""

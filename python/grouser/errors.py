@@ -2,6 +2,10 @@
 """What goes wrong, as exceptions."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
+
 
 class GrouserError(RuntimeError):
     """A call of the program that did not end with 0. `str()` is the program's own message."""
@@ -31,6 +35,17 @@ class StoppedError(GrouserError):
 
 KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: DeviceError, 129: StoppedError,
                                         130: StoppedError, 143: StoppedError}
+
+
+def briefly(function: Callable[..., Any]) -> Callable[..., Any]:
+    """What it raises is shown as raised here: the frames inside this package tell a reader nothing."""
+    @wraps(function)
+    def called(*given: Any, **options: Any) -> Any:
+        try:
+            return function(*given, **options)
+        except (GrouserError, FileError, KeyError) as error:
+            raise error.with_traceback(None) from error.__cause__
+    return called
 
 
 class FileError(ValueError):

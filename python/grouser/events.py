@@ -10,14 +10,14 @@ from pathlib import Path
 from .errors import FileError
 from .files import fields_of, read_json
 from .run import Run
-from .series import Estimate, number, split_unit
+from .series import Estimate, counted, number, split_unit
 
 
 @dataclass(frozen=True, eq=False)
 class EventRun:
     """One run of an event at a level."""
 
-    verdict: str  #: "go", "no-go", "failed" (for another cause than the vehicle's), "pending"
+    verdict: str  #: "go", "no-go", "failed" (for another cause than the vehicle's), "incomplete", "pending"
     why: str
     folder: Path
 
@@ -76,6 +76,9 @@ class Events:
                 one["event"]: EventLimit(one["event"], one["level_is"], number(one["go"]), number(one["no_go"]),
                                          one.get("reference") or "", one.get("agrees"))
                 for one in self.json.get("limits", [])}
+
+    def __repr__(self) -> str:
+        return f"<grouser.Events {self.folder}: {counted(len(self), 'row')}>"
 
     def _row(self, one: dict) -> EventRow:
         figures = {}

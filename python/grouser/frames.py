@@ -13,15 +13,15 @@ import numpy
 
 from .errors import FileError
 from .files import fields_of, still_open
-from .series import Series, nearest
+from .series import Brief, Series, counted, nearest
 
 #: Units of what frames hold of grains.
 UNITS = {"id": "-", "position": "m", "radius": "m", "speed": "m/s", "velocity": "m/s", "contact_force": "N",
          "fixed": "-"}
 
 
-@dataclass(frozen=True, eq=False)
-class Mesh:
+@dataclass(frozen=True, eq=False, repr=False)
+class Mesh(Brief):
     """Triangles of the parts, or of the ground."""
 
     vertices: numpy.ndarray  #: [v, 3] in the world [m]
@@ -37,6 +37,9 @@ class Frame:
         self._frames, self._name = frames, frames._names[place]
         self.time: float = float(frames.time[place])  #: [s]
         self.step: int = int(frames.step[place])
+
+    def __repr__(self) -> str:
+        return f"<grouser.Frame t = {self.time:.6g} s, step {self.step}>"
 
     @property
     def _group(self) -> h5py.Group:
@@ -131,6 +134,9 @@ class Frames:
             self.time = numpy.array([one["time"] for one in attributes])  #: [frames] [s]
             self.step = numpy.array([one["step"] for one in attributes], dtype=int)  #: [frames]
 
+    def __repr__(self) -> str:
+        return f"<grouser.Frames {self.path}: {counted(len(self), 'frame')}>"
+
     def close(self) -> None:
         self._opened.close()
 
@@ -146,7 +152,7 @@ class Frames:
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         if not -len(self) <= index < len(self):
-            raise IndexError(f"{self.path}: has {len(self)} frames, 0 to {len(self) - 1}; there is no frame "
+            raise IndexError(f"{self.path}: has {counted(len(self), 'frame')}, 0 to {len(self) - 1}; there is no frame "
                              f"{index}")
         return Frame(self, index)
 

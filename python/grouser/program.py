@@ -13,11 +13,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from .errors import KINDS, GrouserError
+from .errors import KINDS, GrouserError, briefly
 
-#: "settling:  12.3 %, t 0.10 s, 4 s left", as runs/support/progress.cpp writes it
+#: "settling:  12.3 %, t 0.10 s, about 4 s left", as runs/support/progress.cpp writes it
 _PROGRESS = re.compile(r"(?P<what>.+?): +(?P<percent>[\d.]+) %, (?P<detail>.*), "
-                       r"(?P<left>[^,]+ left|time left unknown yet)")
+                       r"(?P<left>[^,]+ left|time left unknown)")
 _ERASE = "\x1b[K"  # what a terminal is told before a line is written anew
 _ERROR = "grouser: error: "
 
@@ -29,7 +29,7 @@ class Progress:
     what: str  #: what it is at: "settling", "driving"
     fraction: float  #: of that, 0 to 1
     detail: str  #: "t 1.20 s"
-    left: str  #: "42 s left"
+    left: str  #: "about 42 s left"
 
     def __str__(self) -> str:
         return f"{self.what}: {100 * self.fraction:5.1f} %, {self.detail}, {self.left}"
@@ -59,14 +59,15 @@ class Job:
     words: the command line behind the program's name. folder: that it is started in. progress: called with a Progress
     for each line of progress, from another thread; None: nobody is; what it raises stops the call, and `wait()` raises
     it. environment: variables beside those of this process. refused: called where the program ends with exit code 2.
+    worded: what becomes of its message.
     """
 
     def __init__(self, words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
                  progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None,
-                 refused: Callable[[], None] | None = None):
+                 refused: Callable[[], None] | None = None, worded: Callable[[str], str] | None = None):
         self.command = [str(find_program()), *(os.fspath(word) for word in words)]
         self.progress: Progress | None = None  #: the last line of progress
-        self._tell, self._refused = progress, refused
+        self._tell, self._refused, self._worded = progress, refused, worded
         self._raised: BaseException | None = None  # by progress
         self._lines: list[str] = []
         self._errors: list[str] = []
@@ -120,7 +121,9 @@ class Job:
         if self._raised is not None:
             raise self._raised
         if code != 0:
-            raise KINDS.get(code, GrouserError)(self._message(code), code, self.command, self.output)
+            message = self._message(code)
+            raise KINDS.get(code, GrouserError)(self._worded(message) if self._worded else message, code, self.command,
+                                                self.output)
         return self.output
 
     def _message(self, code: int) -> str:
@@ -170,6 +173,7 @@ class Job:
             self._errors.append(line)
 
 
+@briefly
 def call(words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
          progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None) -> str:
     """Runs the program to its end: `Job(...).wait()`."""

@@ -16,20 +16,20 @@ from .bed import Bed, open_bed
 from .errors import FileError
 from .files import fields_of, read_json, still_open
 from .frames import Frames
-from .series import Quantity, Series
+from .series import Brief, Quantity, Series, counted
 
 SIDES = ("left", "right")
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
+@dataclass(frozen=True, eq=False, repr=False)
+class Surface(Brief):
     """The undisturbed surface of the bed, before the vehicle touched it, on a grid of nodes, and what became of it:
     `surface.final_height - surface.height` are ruts where it is below 0."""
 
     x: numpy.ndarray  #: [columns] of the nodes [m]
     y: numpy.ndarray  #: [rows] of the nodes [m]
     height: numpy.ndarray  #: [rows, columns] at (x[column], y[row]) [m]
-    interpolation: str  #: between nodes: "bilinear" or "Catmull-Rom"
+    interpolation: str  #: between nodes: "bilinear", "Catmull-Rom" or "monotone"
     final_height: numpy.ndarray | None = None  #: [rows, columns] at the same nodes when the run ended [m]; None where
     #: it was not looked at (a run that has not ended, output.final_surface = false)
 
@@ -87,7 +87,7 @@ class Run:
         self.close()
 
     def __repr__(self) -> str:
-        return f"<grouser.Run {self.folder}: {self.status}, {self._rows} rows of {len(self._groups)} series>"
+        return f"<grouser.Run {self.folder}: {self.status}, {counted(self._rows, 'row')} of {len(self._groups)} series>"
 
     @cached_property
     def _groups(self) -> dict[str, h5py.Group]:
@@ -188,7 +188,8 @@ class Run:
 
     @property
     def status(self) -> str:
-        """"finished", "failed", "stopped" or "running"; "unknown" without a manifest."""
+        """"finished", "incomplete" (its vehicle never drove, or fewer than two teeth), "failed", "stopped" or "running";
+        "unknown" without a manifest."""
         return self.manifest.get("status", "unknown")
 
     @property

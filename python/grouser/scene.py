@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import os
+import re
 import tempfile
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
@@ -11,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from .check import Check
-from .errors import FileError
+from . import keys
+from .errors import FileError, briefly
 from .program import Job, Progress, call
 from .run import Run
 from .soil import SoilTest
@@ -38,17 +40,23 @@ def _path_of(key: str) -> list[str]:
 
 
 class Scene:
-    """A scene as a document of TOML: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys; the program judges
-    them when the scene is run, planned or checked.
+    """A scene as a document of TOML: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys. An unknown key is an
+    error where it is set; the program judges the values when the scene is run, planned or checked.
 
     document: nested dicts, as tomllib reads them; without it an empty scene of version 1. folder: that its files are
-    named from. name: of its results.
+    named from. name: of its results, and what messages call it. KeyError for a key that no scene has.
     """
 
     def __init__(self, document: Mapping[str, Any] | None = None, folder: str | os.PathLike = ".", name: str = "scene"):
         self.document: dict[str, Any] = copy.deepcopy(dict(document)) if document else {"version": 1}
         self.folder: Path = Path(folder).resolve()
         self.name = name
+        self._called = "scene" if name == "scene" else f"scene {name}"  # in messages
+        for key, value in (document or {}).items():
+            keys.check([key], value)
+
+    def __repr__(self) -> str:
+        return f"<grouser.Scene {self._called}: {', '.join(self.document)}>"
 
     @classmethod
     def read(cls, file: str | os.PathLike) -> Scene:
@@ -62,10 +70,14 @@ class Scene:
             raise FileError(f"{file}: is no text in UTF-8; save it as such") from error
         except ValueError as error:
             raise FileError(f"{file}: {error}") from error
-        return cls(document, file.parent, file.stem)
+        scene = cls(None, file.parent, file.stem)
+        scene.document, scene._called = document, str(file)
+        return scene
 
     def copy(self) -> Scene:
-        return Scene(self.document, self.folder, self.name)
+        other = Scene(None, self.folder, self.name)
+        other.document, other._called = copy.deepcopy(self.document), self._called
+        return other
 
     def __getitem__(self, key: str) -> Any:
         """The value of "section.key", or a whole section. KeyError where the scene does not say it (defaults are the
@@ -77,13 +89,18 @@ class Scene:
             table = table[word]
         return table
 
+    @briefly
     def __setitem__(self, key: str, value: Any) -> None:
-        """Sets "section.key", or a whole section to a dict. KeyError where something on the way is no section, such as
+        """Sets "section.key", or a whole section to a dict. KeyError where no scene has such a key, or something on the way is no section, such as
         a list ([[grains]], [[plane]]...), which `add()` and `scene["grains"][0]` are for."""
-        *sections, last = _path_of(key)
+        *sections, last = path = _path_of(key)
         table: Any = self.document
-        for k, word in enumerate(sections):
-            table = _section(table.setdefault(word, {}), sections[:k + 1], key)
+        for k, word in enumerate(sections):  # report a wrong section before a wrong key
+            table = _section(table.get(word, {}), sections[:k + 1], key)
+        keys.check(path, value)
+        table = self.document
+        for word in sections:
+            table = table.setdefault(word, {})
         table[last] = copy.deepcopy(value)
 
     def __delitem__(self, key: str) -> None:
@@ -105,9 +122,12 @@ class Scene:
             return False
         return True
 
-    def add(self, section: str, **keys: Any) -> Scene:
-        """Adds a section to a list: `scene.add("plane", material="glass")`. Returns the scene."""
-        self.document.setdefault(section, []).append(copy.deepcopy(keys))
+    @briefly
+    def add(self, section: str, **values: Any) -> Scene:
+        """Adds a section to a list: `scene.add("plane", material="glass")`. Returns the scene. KeyError for an unknown
+        key."""
+        keys.check([section], values)
+        self.document.setdefault(section, []).append(copy.deepcopy(values))
         return self
 
     def text(self) -> str:
@@ -121,8 +141,9 @@ class Scene:
         file.write_text(self.text(), encoding="utf-8")
         return file
 
-    # What follows writes the scene beside the folder of its results, as FOLDER.toml, which is what messages name.
+    # These methods write the scene beside the folder of its results, as FOLDER.toml; messages name the scene.
 
+    @briefly
     def start(self, out: str | os.PathLike, *, force: bool = False, resume: bool = False, device: str = "",
               threads: int | None = None, hash: bool = False, cache: bool = True, progress: Tell = None,
               environment: dict[str, str] | None = None) -> Job:
@@ -137,18 +158,26 @@ class Scene:
                                            ("--no-cache", not cache)) if given]
         return self._started("run", out, words + _options(device, threads), progress, environment)
 
+    @briefly
     def run(self, out: str | os.PathLike, **options: Any) -> Run:
         """Runs the scene to its end and opens the results; options as of `start()`. Raises what Job.wait() does."""
         self.start(out, **options).wait()
         return Run(out)
 
+    @briefly
     def plan(self, *, probe: bool = False) -> str:
         """What `grouser plan` says: features, size, step; with `probe` also how long a run will take. Raises InputError
         for a wrong scene, and writes nothing that stays."""
         with tempfile.TemporaryDirectory() as folder:
             file = self.write(Path(folder) / f"{self.name}.toml")
-            return call(["plan", file, *([] if probe else ["--no-probe"])], self.folder)
+            words = ["plan", file, *([] if probe else ["--no-probe"])]
+            return self._worded(Job(words, self.folder, worded=lambda text: self._worded(text, file)).wait(), file)
 
+    def _worded(self, text: str, file: Path) -> str:
+        """A message of the program, with the scene in place of the file that was written for it and its lines."""
+        return re.sub(re.escape(str(file)) + r"(:\d+)*", lambda _: self._called, text)
+
+    @briefly
     def sweep(self, out: str | os.PathLike, values: Mapping[str, Iterable[Any]] | None = None, *, seeds: int = 0,
               cases: Mapping[str, Mapping[str, Any]] | None = None, jobs: int = 1, force: bool = False,
               device: str = "", threads: int | None = None, progress: Tell = None,
@@ -169,6 +198,7 @@ class Scene:
         self._started("sweep", out, words, progress, environment).wait()
         return Sweep(out)
 
+    @briefly
     def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "",
               jobs: int = 1, force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
               environment: dict[str, str] | None = None) -> Check:
@@ -203,7 +233,8 @@ class Scene:
                 file.unlink(missing_ok=True)
 
         try:
-            return Job([command, file, "--out", out, *words], self.folder, progress, environment, put_back)
+            return Job([command, file, "--out", out, *words], self.folder, progress, environment, put_back,
+                       lambda text: self._worded(text, file))
         except BaseException:
             put_back()
             raise
@@ -233,6 +264,7 @@ def _put(file: Path, text: str) -> None:
         new.unlink(missing_ok=True)
 
 
+@briefly
 def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Iterable[str] = (), *, progress: Tell = None,
                  environment: dict[str, str] | None = None) -> SoilTest:
     """Runs `grouser soil`: the constants of a soil by its name, or by a file that ends in .toml. options: words of the

@@ -2,15 +2,25 @@
 """Numbers with their units: what all readers return."""
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from numbers import Number
 
 import numpy
 
 
-@dataclass(frozen=True, eq=False)
+class Brief:
+    """Of a dataclass: its name and fields in one line, of arrays the shape."""
+
+    def __repr__(self) -> str:
+        def text(value: object) -> str:
+            return f"array {list(value.shape)}" if isinstance(value, numpy.ndarray) else repr(value)
+        return f"<{type(self).__name__} " + ", ".join(f"{f.name}: {text(getattr(self, f.name))}" for f in fields(self)) + ">"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Quantity:
     """A number or an array with its unit.
 
@@ -29,6 +39,23 @@ class Quantity:
 
     def __float__(self) -> float:
         return float(self.value)
+
+    def __repr__(self) -> str:
+        """What it is, in one line: "slip [-]: 0.0729", "depth [m]: [24], 0 to 0.23, mean 0.115"."""
+        return f"{self._told()}: {self._summary()}"
+
+    def _summary(self) -> str:
+        value = numpy.asarray(self.value)
+        if value.dtype.kind not in "fiub" or value.size == 0:
+            return f"{list(value.shape)}" if value.shape else str(value)
+        if value.shape == ():
+            return f"{float(value):.6g}"
+        there = value[numpy.isfinite(value)]
+        if not there.size:
+            return f"{list(value.shape)}, no number in it"
+        unknown = value.size - there.size
+        return (f"{list(value.shape)}, {there.min():.4g} to {there.max():.4g}, mean {there.mean():.4g}"
+                + (f", {unknown} of {value.size} are NaN" if unknown else ""))
 
     def __len__(self) -> int:
         return len(self.value)
@@ -114,7 +141,7 @@ def nearest(times: numpy.ndarray, time: float, what: str, where: object) -> int:
     return int(numpy.argmin(numpy.abs(times - time)))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Series(Quantity):
     """A quantity over time: `value` has the shape [rows], or [rows, columns]. `for row in series` goes through the rows
     of `value`."""
@@ -122,6 +149,24 @@ class Series(Quantity):
     time: numpy.ndarray = None  #: [rows] [s]
     step: numpy.ndarray = None  #: [rows] [-]
     labels: tuple[str, ...] = ()  #: of the columns, e.g. ("x", "y", "z"); empty: none, or one a shoe
+
+    def _summary(self) -> str:
+        """Rows, from when to when, first and last value of one number a row, and least, mean and largest."""
+        rows = counted(len(self.value), "row")
+        if not len(self.value):
+            return rows
+        rows += f" from {self.time[0]:.6g} to {self.time[-1]:.6g} s" if self.time is not None and len(self.time) else ""
+        if numpy.ndim(self.value) > 1:
+            width = numpy.shape(self.value)[1]
+            rows += f", columns {', '.join(self.labels)}" if self.labels else f" of {counted(width, 'column')}"
+        else:
+            rows += f", first {self.value[0]:.4g}, last {self.value[-1]:.4g}"
+        there = self.value[numpy.isfinite(self.value)]
+        if not there.size:
+            return f"{rows}, no number in it"
+        unknown = numpy.size(self.value) - there.size
+        return (f"{rows}, min {there.min():.4g}, mean {there.mean():.4g}, max {there.max():.4g}"
+                + (f", {unknown} of {numpy.size(self.value)} are NaN" if unknown else ""))
 
     def __getitem__(self, label: str | int | slice) -> Series | numpy.ndarray:
         """A column by its label: `run["vehicle.position"]["x"]`, as a series of the shape [rows]; KeyError names those
@@ -149,7 +194,7 @@ class Series(Quantity):
         return self.value[nearest(self.time, time, "rows", self.name)]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Estimate:
     """A value with half of its interval, of 95 % where not said otherwise."""
 
@@ -166,16 +211,49 @@ class Estimate:
     def high(self) -> float:
         return self.value + self.half_width
 
+    @property
+    def inconclusive(self) -> bool:
+        """Whether the interval is wider than the value is large: then not even its sign is sure."""
+        return abs(self.value) < self.half_width < float("inf")
+
     def __float__(self) -> float:
         return self.value
 
-    def __str__(self) -> str:
-        return f"{self.name + ' = ' if self.name else ''}{self.value:.4g} +- {self.half_width:.2g} {self.unit}"
+    def __repr__(self) -> str:
+        value, half, power = estimate_text(self.value, self.half_width)
+        text = f"{value} +- {half}" if half else value
+        unit = "" if self.unit in ("", "-") else f" {self.unit}"
+        doubt = " (inconclusive)" if self.inconclusive else ""
+        return f"{self.name + ' = ' if self.name else ''}{f'({text})e{power}' if power else text}{unit}{doubt}"
+
+
+def estimate_text(value: float, half: float | None) -> tuple[str, str, int]:
+    """A value and half of its interval as texts: no more digits than the interval allows, two of its own; and a power of
+    ten of both, 0 for none. The second text is "?" for an interval that is unknown, "" for one below 1e-9 of the value,
+    where the runs agree but for rounding."""
+    if half is None or not math.isfinite(half) or not math.isfinite(value):
+        return f"{value:.4g}", "?" if math.isfinite(value) else "", 0
+    if half <= 1e-9 * abs(value):
+        return f"{value:.6g}", "", 0
+    places = 1 - math.floor(math.log10(half))
+    size = max(abs(value), half)
+    if size >= 1e6 or size < 1e-3 or places > 9:  # one power of ten for both
+        power = math.floor(math.log10(size))
+        places = max(0, places + power)
+        value, half = value / 10.0**power, half / 10.0**power
+    else:
+        power = 0
+    return *(f"{round(one, places) + 0.0:.{max(0, places)}f}" for one in (value, half)), power
 
 
 def number(value: float | None) -> float:
     """Of JSON, whose null stands for a number that is not known: NaN."""
     return float("nan") if value is None else float(value)
+
+
+def counted(number: int, one: str, many: str = "") -> str:
+    """"1 seed", "3 seeds": a number with the word that it counts."""
+    return f"{number} {one if number == 1 else many or one + 's'}"
 
 
 def split_unit(heading: str) -> tuple[str, str]:

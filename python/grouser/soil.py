@@ -10,7 +10,7 @@ import numpy
 
 from .errors import FileError
 from .files import fields_of, read_csv, read_json
-from .series import Estimate, number
+from .series import Brief, Estimate, number
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,10 +21,11 @@ class Constant:
     published: tuple[tuple[float, str], ...]  #: (value, source), in the unit of what was measured
     span: tuple[float, float] | None  #: that the published values leave room for
     verdict: str  #: "inside", "outside"...; "-" where not measured
+    inconclusive: str = ""  #: why the measured value is not to be used; empty where it is sound
 
 
-@dataclass(frozen=True, eq=False)
-class PlateCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class PlateCurve(Brief):
     """One plate pushed into one bed, lifted, and pushed again."""
 
     plate: str  #: "small" or "large"
@@ -35,8 +36,8 @@ class PlateCurve:
     pressure: numpy.ndarray  #: [points] [Pa]
 
 
-@dataclass(frozen=True, eq=False)
-class ShearCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class ShearCurve(Brief):
     """One layer sheared under one load."""
 
     load: float  #: [Pa]
@@ -64,8 +65,12 @@ class SoilTest:
             self.constants: dict[str, Constant] = {
                 name: Constant(Estimate(number(one["value"]), number(one["half_width"]), one["unit"], name),
                                tuple((number(p.get("value")), p["source"]) for p in one["published"]),
-                               tuple(one["span"]) if one.get("span") else None, one.get("verdict", "-"))
+                               tuple(one["span"]) if one.get("span") else None, one.get("verdict", "-"),
+                               one.get("inconclusive") or "")
                 for name, one in self.json["constants"].items()}
+
+    def __repr__(self) -> str:
+        return f"<grouser.SoilTest {self.folder}: {', '.join(map(str, (c.measured for c in self.constants.values())))}>"
 
     def __getitem__(self, name: str) -> Constant:
         """KeyError names the constants that there are."""

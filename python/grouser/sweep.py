@@ -12,7 +12,7 @@ import numpy
 from .errors import FileError
 from .files import fields_of, read_csv
 from .run import Run
-from .series import Estimate, Quantity, split_unit
+from .series import Estimate, Quantity, counted, split_unit
 
 #: Columns of summary.csv between the swept keys and the figures.
 _ABOUT = ("status", "message", "wall time [s]", "steps", "simulated time [s]")
@@ -33,8 +33,9 @@ class SweepRun:
 
     name: str  #: of its folder
     keys: dict[str, str]  #: {swept key: its value as given}
-    status: str  #: "finished", "failed"...
-    message: str  #: why it did not end
+    status: str  #: "finished", "incomplete", "failed"...
+    message: str  #: why it did not end, or is incomplete
+    inconclusive: str  #: why its figures are, as over fewer than two teeth; "" where they are sound
     figures: dict[str, float]  #: {"sinkage mean": ...}; NaN where it has none; units stand in Sweep.units
     state_hash: str
     folder: Path
@@ -52,6 +53,7 @@ class SweepMean:
     seeds: int
     mean: Estimate
     difference: Estimate  #: to the first combination, seed by seed, in the figure's unit
+    inconclusive: str = ""  #: why the mean is, as over fewer than two teeth; "" where it is sound
 
 
 class _Means(dict[str, list[SweepMean]]):
@@ -72,13 +74,16 @@ class Sweep:
             raise FileError(f"{self.folder / 'summary.csv'}: is no summary of a sweep")
         first = columns.index("status")
         self.keys: list[str] = columns[1:first]  #: the swept ones
-        figures = [c for c in columns[first + len(_ABOUT):] if c not in _BEHIND]
+        figures = [c for c in columns[first:] if c not in (*_ABOUT, "inconclusive", *_BEHIND)]
         with fields_of(self.folder / "summary.csv", "the summary of a sweep"):
             self.units: dict[str, str] = dict(map(split_unit, figures))  #: {figure: unit}
             self.runs: list[SweepRun] = [
                 SweepRun(row["run"], {key: row[key] for key in self.keys}, row["status"], row["message"],
-                         {split_unit(c)[0]: value_of(row[c]) for c in figures}, row["state hash"],
-                         self.folder / row["run"]) for row in rows]
+                         row.get("inconclusive", ""), {split_unit(c)[0]: value_of(row[c]) for c in figures},
+                         row["state hash"], self.folder / row["run"]) for row in rows]
+
+    def __repr__(self) -> str:
+        return f"<grouser.Sweep {self.folder}: {counted(len(self.runs), 'run')} over {', '.join(self.keys) or 'no key'}>"
 
     def __getitem__(self, figure: str) -> Quantity:
         """[runs] of a figure, NaN where a run has none. KeyError names the figures that there are."""
@@ -110,7 +115,7 @@ class Sweep:
                                       value_of(row["half width of the difference"]), unit,
                                       f"{name}, difference to the first")
                 keys = {key: row[key] for key in self.keys if key in row}
-                means.setdefault(name, []).append(SweepMean(keys, int(row["seeds"]), mean, difference))
+                means.setdefault(name, []).append(SweepMean(keys, int(row["seeds"]), mean, difference, row.get("inconclusive", "")))
         return means
 
 

@@ -195,7 +195,8 @@ std::unique_ptr<simulation::Simulation> prepare(const scene::Scene& scene, const
   std::unique_ptr<support::Progress> settling;
   const Clock::time_point start = Clock::now();
   const auto settle = [&](double time, double) {
-    if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
+    if (!settling)
+      settling = std::make_unique<support::Progress>("settling", comm.first(), 0, support::Progress::End::limit);
     settling->update(time / scene.terrain->settleTimeLimit, fmt::format("t {:.2f} s", time));
   };
   auto simulation =

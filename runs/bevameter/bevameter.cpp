@@ -2,6 +2,7 @@
 // `grouser soil`: which tests, one after the other or side by side, and what is written of them.
 #include "runs/bevameter/bevameter.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "runs/bevameter/preparation.hpp"
 #include "runs/bevameter/soil_report.hpp"
@@ -10,6 +11,7 @@
 #include "runs/support/progress.hpp"
 #include "runs/support/shared_work.hpp"
 #include "runs/support/stop_signals.hpp"
+#include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -70,10 +72,11 @@ void prepare(TestPlan& plan, studies::Pieces& pieces, Device& device, int jobs, 
   }
   const std::vector<double> trial = nearestTrial(pieces.read(name).rows, *plan.soil.porosity);
   plan.grains.preparationFriction = trial[0];
-  fmt::print("          beds settle with friction {:.4g} to a porosity of {:.4f}{}\n", trial[0], trial[1],
-             std::fabs(trial[1] - *plan.soil.porosity) > kPorosityNoted
-                 ? fmt::format(", the nearest to the soil's {:g} that these grains come to", *plan.soil.porosity)
-                 : "");
+  if (std::fabs(trial[1] - *plan.soil.porosity) > kPorosityNoted)
+    support::tell("WARNING: beds have a porosity of {:.4f}, the nearest to the soil's {:g} that these grains come to; "
+                  "change bed.porosity of the soil, or the spread of its radii\n",
+                  trial[1], *plan.soil.porosity);
+  fmt::print("          beds settle with friction {:.4g} to a porosity of {:.4f}\n", trial[0], trial[1]);
 }
 
 void printHead(const TestPlan& plan) {
@@ -81,10 +84,10 @@ void printHead(const TestPlan& plan) {
   fmt::print("          {}{}\n", s.title.empty() ? s.name : s.title,
              plan.options.coarse ? "; coarse: small plates of few grains, pushed fast" : "");
   fmt::print("          grains of {:g} mm +- {:g} %, plates of {:g} and {:g} d ({:.3g} and {:.3g} m), shear under {} "
-             "loads; {} seeds, {} of the large plate\n",
+             "loads; {}, {} of the large plate\n",
              2e3 * s.grainRadius, 100 * s.spread, plan.small.strip.breadth, plan.large.strip.breadth,
              plan.breadth(TestKind::small), plan.breadth(TestKind::large), plan.options.loads.size(),
-             plan.options.seeds, plan.options.largeSeeds);
+             base::counted(plan.options.seeds, "seed"), plan.options.largeSeeds);
   if (!s.isCalibrated())
     fmt::print("          note: the file's numbers are scaled from grains of {:g} mm; it was tested with radii of {:g} "
                "to {:g} mm\n",

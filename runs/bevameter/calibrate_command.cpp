@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser soil --calibrate`: shear first, then pressure and sinkage, then all constants of what was found.
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/bevameter/calibration_record.hpp"
+#include "runs/bevameter/constant_doubts.hpp"
 #include "runs/bevameter/soil_report.hpp"
 #include "runs/bevameter/test_notes.hpp"
 #include "runs/output/output.hpp"
@@ -47,7 +49,8 @@ public:
       search();
     } catch (const Unfinished& unfinished) {
       record_.stopped(unfinished.trial, unfinished.missing);
-      fmt::print("{} tests of this trial are missing: call again with --resume\n", unfinished.missing);
+      fmt::print("{} missing: call again with --resume\n",
+                 base::counted(unfinished.missing, "test of this trial is", "tests of this trial are"));
     }
   }
 
@@ -286,16 +289,20 @@ void removeTrials(const std::filesystem::path& folder) {
 
 std::string soilFileText(const TestedSoil& soil, const std::string& description, const SoilResults& reached,
                          const std::string& command) {
-  std::string text =
-      fmt::format("version = 1\n\n[soil]\ntitle = {}\ndescription = {}\ncalibrated = true\n\n[material]\n",
-                  base::toToml(soil.name), base::toToml(description));
+  const bool isMeasured = doubtsOf(reached).size() < reached.measured.size();
+  std::string text = fmt::format("version = 1\n\n[soil]\ntitle = {}\ndescription = {}\ncalibrated = {}\n\n[material]\n",
+                                 base::toToml(soil.name), base::toToml(description), isMeasured);
   for (const auto& [key, value] : soil.keys) text += key + " = " + value + "\n";
   text += fmt::format("\n[bed]\ngrain_radius = {}\nradius_spread = {}\n", base::toToml(soil.grainRadius),
                       base::toToml(soil.spread));
   if (soil.porosity) text += "porosity = " + base::toToml(*soil.porosity) + "\n";
   text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
   for (const auto& [q, e] : reached.measured) {
-    if (!std::isfinite(e.value) || !std::isfinite(e.halfWidth)) continue;
+    if (const std::string doubt = doubtOf(q, e); !doubt.empty()) {
+      text += fmt::format("\n# {} = {} {} is left out, since it is inconclusive: {}\n", symbolOf(q),
+                          studies::valueText(e), unitOf(q), doubt);
+      continue;
+    }
     text +=
         fmt::format("\n[[reached]]\nquantity = \"{}\"\nvalue = {}\nhalf_width = {}\nunit = \"{}\"\n", symbolOf(q),
                     base::toToml(inSoilFile(q, e.value)), base::toToml(inSoilFile(q, e.halfWidth)), soilFileUnitOf(q));
@@ -311,8 +318,10 @@ void calibrateCommand(const CalibrationCommand& command) {
   const std::filesystem::path folder = command.place.folder.empty()
                                            ? std::filesystem::path("out") / ("calibrate_" + targets.start.name)
                                            : std::filesystem::path(command.place.folder);
-  output::checkOutputFolder(folder, command.place.force || command.pieces.resume);
-  if (!command.pieces.resume) removeTrials(folder);
+  const bool goesOn =
+      command.pieces.resume || (!command.place.force && CalibrationRecord(command, targets, folder).isOfThisCall());
+  output::checkOutputFolder(folder, command.place.force || goesOn);
+  if (!goesOn) removeTrials(folder);
   const support::StopSignals signals;
   Calibration(command, std::move(targets), folder).run();
 }

@@ -9,8 +9,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 
 namespace grouser::bevameter {
 
@@ -75,6 +77,15 @@ CalibrationRecord::CalibrationRecord(const CalibrationCommand& command, const Ca
   json_["command"] = command.words;
   json_["machine"] = support::machineText();
   json_["version"] = build.version, json_["commit"] = build.commit;
+}
+
+bool CalibrationRecord::isOfThisCall() const {
+  std::ifstream file(file_);
+  const Json former = Json::parse(file, nullptr, false);
+  if (!former.is_object()) return false;
+  const auto keys = {"soil", "targets_file", "care", "grain_radius_m", "seeds", "targets"};
+  return std::all_of(keys.begin(), keys.end(),
+                     [&](const char* key) { return former.value(key, Json()) == json_.at(key); });
 }
 
 void CalibrationRecord::begun() {

@@ -33,6 +33,9 @@ public:
   CalibrationRecord(const CalibrationCommand& command, const CalibrationTargets& targets,
                     const std::filesystem::path& folder);
 
+  /// Whether the folder holds what a call with the same targets, care and seeds has left.
+  bool isOfThisCall() const;
+
   /// The first trial has begun. Trials of a former call are told again as they are read.
   void begun();
   /// A trial of shear that is whole, named as its folder.

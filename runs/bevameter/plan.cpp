@@ -2,6 +2,7 @@
 #include "runs/bevameter/plan.hpp"
 
 #include "base/error.hpp"
+#include "base/free_memory.hpp"
 #include "base/math.hpp"
 #include "base/sphere.hpp"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace grouser::bevameter {
 
@@ -91,6 +93,31 @@ void addTests(TestPlan& plan) {
     add(TestKind::wide, "wide", 0, seed, plateCost(plan.grains, plan.wide));
 }
 
+/// Throws where the grains of the largest bed or sample do not fit into the memory that is free.
+void checkSizes(const TestPlan& plan) {
+  constexpr double kGiB = 1073741824.0;
+  constexpr double kBytes = 600;   // of memory a grain
+  constexpr double kPacked = 1.15; // grains in a cube of one diameter
+  const std::optional<double> free = base::freeMemoryOfHost();
+  const auto require = [&](double grains, const std::string& what) {
+    if (free && grains * kBytes > *free)
+      throw base::InputError(fmt::format("{} {:.3g} grains, about {:.3g} GiB, and {:.3g} GiB are free; take less", what,
+                                         grains, grains * kBytes / kGiB, *free / kGiB));
+  };
+  const PlanOptions& o = plan.options;
+  for (const TestKind kind : {TestKind::small, TestKind::large, TestKind::wide}) {
+    if (kind == TestKind::wide && !o.wide) continue;
+    const PlateSinkage& plate = plan.plate(kind);
+    require(volumeOf(plan.grains, plate) / plan.grains.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0),
+            fmt::format("--plate-grains {:g}, --plate-ratio {:g}, --bin {:g}, --depth {:g} and --thickness {:g} make a "
+                        "bed of",
+                        o.plateGrains, o.plateRatio, o.bin, o.depth, o.thickness));
+  }
+  require(plan.cell.length * plan.cell.width * plan.cell.depth * kPacked,
+          fmt::format("--shear-height {:g} [m] with grains of radius {:g} m makes a sample of", o.shearHeight,
+                      plan.soil.grainRadius));
+}
+
 /// Between periodic boundaries no grain may touch two images of another.
 void checkBeds(const TestPlan& plan) {
   const double least = 3.5 * (1 + plan.soil.spread), d = 2 * plan.soil.grainRadius;
@@ -157,7 +184,7 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.cell.inertialNumber = options.shearInertialNumber, plan.cell.strain = options.shearStrain;
   plan.cell.core = soil.isPlain;
   plan.cell.tooth = kTooth, plan.cell.tip = kTip, plan.cell.pressesIn = true;
-  checkBeds(plan);
+  checkBeds(plan), checkSizes(plan);
   addTests(plan);
   return plan;
 }

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/bevameter/soil_report.hpp"
 
+#include "base/counted.hpp"
+#include "runs/bevameter/constant_doubts.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/csv_cell.hpp"
+#include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
+#include "terrain/packing_limits.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 
 namespace grouser::bevameter {
 
@@ -70,6 +75,21 @@ std::string motionText(const Estimate& added) {
                      added.value > kMuch ? ": what is measured is in part its motion; take less of --plate-waves" : "");
 }
 
+/// Warns of beds and samples looser than packings of spheres; empty without any.
+std::string looseText(const TestPlan& plan, const SoilResults& r) {
+  const auto has = [&](const char* key) { return numberOf(plan.soil, key, 0) > 0; };
+  const bool coheres = has("cohesion") || has("surface_energy") || has("adhesion_stiffness");
+  const double loosest = terrain::loosestPacking(has("rolling_friction"), coheres);
+  std::string text;
+  for (const TestCosts& c : r.costs)
+    if (c.porosity > loosest) text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", c.name, c.porosity);
+  return text.empty()
+             ? text
+             : fmt::format("porosity of {}; random packings of such grains are no looser than {:.2f}: beds are "
+                           "too thin, or have not settled",
+                           text, loosest);
+}
+
 std::string pad() { return std::string(43, ' '); }
 
 } // namespace
@@ -79,6 +99,7 @@ nlohmann::ordered_json estimateJson(const Estimate& e, const std::string& unit) 
 }
 
 std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
+  const std::map<Quantity, std::string> doubts = doubtsOf(r);
   std::string text =
       fmt::format("\n{}soil {}, +- half of the 95 % interval\n  {:<8} {:>20} {:<11} {}\n",
                   plan.options.coarse ? "coarse: " : "", plan.soil.name, "", "measured", "", "published");
@@ -91,7 +112,8 @@ std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
     if (isAtGivenN) text += row(symbolOf(q), measured->second, unitOf(q), "with the n above");
     const Estimate& compared = isAtGivenN ? given->second : measured->second;
     text += row(isAtGivenN ? fmt::format("  n={:g}", *r.givenN) : symbolOf(q), compared, unitOf(q),
-                span ? spanText(*span) + ": " + verdictOf(compared, *span) : "-");
+                (span ? spanText(*span) + ": " + verdictOf(compared, *span) : "-") +
+                    (doubts.contains(q) ? "; inconclusive" : ""));
     for (const PublishedValue& p : plan.soil.published)
       if (p.quantity == q) text += pad() + fmt::format("{:g}  {}\n", p.value, p.source);
   }
@@ -112,7 +134,7 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (r.plates[i] == 0) continue;
     const double b = plan.breadth(kBreadths[i]);
-    text += fmt::format("  plate {:.3g} m, {} seeds: ", b, r.plates[i]);
+    text += fmt::format("  plate {:.3g} m, {}: ", b, base::counted(r.plates[i], "seed"));
     text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", studies::valueText(r.k[i]),
                         studies::valueText(r.ownN[i]), studies::valueText(r.goodness[i]));
     text += atGivenNText(plan, r, i);
@@ -129,16 +151,16 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
         fmt::format("  bin of twice the width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n", 100 * r.wider->value,
                     100 * r.wider->halfWidth, studies::verdictText(studies::judge(*r.wider, 0.05)));
   if (r.hasShear())
-    text += fmt::format("  shear, {} seeds, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
+    text += fmt::format("  shear, {}, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
                         "misfit of 1 - exp(-j/K) {}\n",
-                        r.shearTests, plan.cell.depth * d, studies::valueText(r.peakAngle),
+                        base::counted(r.shearTests, "seed"), plan.cell.depth * d, studies::valueText(r.peakAngle),
                         studies::valueText(r.peakCohesion), studies::valueText(r.hump), studies::valueText(r.misfit)) +
             slipText(r);
   if (r.reposeTests > 0)
-    text += fmt::format("  repose, {} seeds: a bed that is tilted begins to flow at {} deg\n", r.reposeTests,
-                        studies::valueText(r.stability));
+    text += fmt::format("  repose, {}: a bed that is tilted begins to flow at {} deg\n",
+                        base::counted(r.reposeTests, "seed"), studies::valueText(r.stability));
   for (const TestCosts& c : r.costs) {
-    text += fmt::format("  {:<6} {:>3} tests, porosity {}", c.name, c.tests,
+    text += fmt::format("  {:<6} {:>9}, porosity {}", c.name, base::counted(c.tests, "test"),
                         studies::plusMinus({c.porosity, c.porosityHalfWidth}, 4));
     text += c.grains > 0 ? fmt::format(", {:.0f} grains, {:.0f} steps, {:.0f} s each\n", c.grains, c.steps, c.seconds)
                          : std::string("\n");
@@ -147,21 +169,25 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
 }
 
 std::string constantsCsv(const TestPlan& plan, const SoilResults& r) {
-  std::string text = "care,quantity,measured,half width,unit,published low,published high,verdict\n";
+  const std::map<Quantity, std::string> doubts = doubtsOf(r);
+  std::string text = "care,quantity,measured,half width,unit,published low,published high,verdict,inconclusive\n";
   for (const auto& [q, e] : r.measured) {
     const std::optional<PublishedSpan> span = publishedSpan(plan.soil, q);
+    const std::string doubt = doubts.contains(q) ? doubts.at(q) : "";
     text += fmt::format("{},{},{:.6g},{:.4g},{},", plan.care(), symbolOf(q), e.value, e.halfWidth, unitOf(q));
     if (const auto given = r.atGivenN.find(q); given != r.atGivenN.end()) {
-      text += ",,with the n above\n";
+      text += fmt::format(",,with the n above,{}\n", support::csvCell(doubt));
       text += fmt::format("{},{} at n {:g},{:.6g},{:.4g},{},", plan.care(), symbolOf(q), *r.givenN, given->second.value,
                           given->second.halfWidth, unitOf(q));
-      text += span ? fmt::format("{:.6g},{:.6g},{}\n", span->low, span->high,
-                                 support::csvCell(verdictOf(given->second, *span)))
-                   : std::string(",,\n");
+      text += (span ? fmt::format("{:.6g},{:.6g},{},", span->low, span->high,
+                                  support::csvCell(verdictOf(given->second, *span)))
+                    : std::string(",,,")) +
+              support::csvCell(doubtOf(q, given->second)) + "\n";
       continue;
     }
-    text += span ? fmt::format("{:.6g},{:.6g},{}\n", span->low, span->high, support::csvCell(verdictOf(e, *span)))
-                 : std::string(",,\n");
+    text += (span ? fmt::format("{:.6g},{:.6g},{},", span->low, span->high, support::csvCell(verdictOf(e, *span)))
+                  : std::string(",,,")) +
+            support::csvCell(doubt) + "\n";
   }
   return text;
 }
@@ -206,6 +232,8 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   for (const NotedTest& test : shorterSteps) json["tests_with_shorter_steps"].push_back(test.name);
   for (const auto& [q, e] : r.measured) {
     nlohmann::ordered_json one = estimateJson(e, unitOf(q));
+    const std::string doubt = doubtOf(q, e);
+    one["inconclusive"] = doubt.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(doubt);
     one["published"] = publishedJson(plan.soil, q);
     const auto given = r.atGivenN.find(q);
     if (given != r.atGivenN.end()) one["at_published_n"] = estimateJson(given->second, unitOf(q));
@@ -265,8 +293,14 @@ void reportSoil(const TestPlan& plan, const studies::Pieces& pieces, int missing
   if (!noted.empty())
     text += fmt::format("  with {:g} times as many steps a contact, since these ended unsoundly with the others':{}\n",
                         kShorterSteps, textOf(noted));
+  std::fflush(stdout);
+  std::string warnings;
+  for (const std::string& warning : {doubtsText(results, plan), looseText(plan, results)})
+    if (!warning.empty()) warnings += fmt::format("WARNING: {}\n", warning);
+  support::tell("{}", warnings);
   fmt::print("{}", text);
-  if (missing > 0) fmt::print("{} tests are missing: call again with --resume\n", missing);
+  text = warnings + text;
+  if (missing > 0) fmt::print("{} missing: call again with --resume\n", base::counted(missing, "test is", "tests are"));
   const auto& folder = pieces.folder();
   support::writeTextFile(folder / "soil.txt", text, "--out");
   support::writeTextFile(folder / "constants.csv", constantsCsv(plan, results), "--out");

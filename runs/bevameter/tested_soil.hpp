@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/table.hpp"
+#include "runs/scene/soil_calibration.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -58,8 +59,7 @@ struct TestedSoil {
   bool isOneAtAllSizes = false;
 
   bool isCalibrated() const {
-    return calibratedTo == 0 ||
-           (grainRadius >= calibratedFrom * (1 - 1e-9) && grainRadius <= calibratedTo * (1 + 1e-9));
+    return calibratedTo == 0 || scene::isCalibratedSize({calibratedFrom, calibratedTo}, grainRadius);
   }
 };
 

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/bed_text.hpp"
 
+#include "base/math.hpp"
+#include "runs/setup/bed_options.hpp"
+#include "runs/support/tell.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <variant>
 
@@ -23,6 +29,15 @@ double pressedDiameter(const simulation::Simulation& simulation, double padWidth
   return random && random->grading.any() && random->grading.fineDepth >= kFine * padWidth
              ? 2 * random->radii.meanPower(1)
              : simulation.ground().structure->meanDiameter;
+}
+
+/// Preparation of the bed, or of the tile that it is copied from; null without a requested porosity.
+const setup::PreparationSetup* preparationOf(const setup::GroundSetup& ground) {
+  if (!ground.grains || !ground.grains->bed) return nullptr;
+  const setup::BedSetup& bed = *ground.grains->bed;
+  if (bed.alone) return preparationOf(*bed.alone);
+  if (bed.tile) return preparationOf(*bed.tile->ground);
+  return bed.preparation ? &*bed.preparation : nullptr;
 }
 
 } // namespace
@@ -87,6 +102,37 @@ std::vector<std::string> bedNotes(const simulation::Simulation& simulation) {
   return bedNotes({padWidth, 2 * spec.trackOffset, bed->thickness, simulation.ground().walls->length(),
                    bed->meanDiameter, !grains.constants.period.along(1), grains.fixedCount > 0,
                    pressedDiameter(simulation, padWidth)});
+}
+
+double leanOf(const base::Vec3d& gravity) {
+  const double across = std::hypot(gravity.x, gravity.y);
+  return across > 0 ? std::atan2(across, -gravity.z) * 180 / base::kPi : 0;
+}
+
+std::string porosityWarning(double wanted, const terrain::BedStructure& bed, const base::Vec3d& gravity) {
+  constexpr double kOff = 0.01, kErrors = 3; // five times what beds are prepared to [-]; standard errors
+  if (bed.grains == 0 || std::fabs(bed.porosity - wanted) <= std::max(kOff, kErrors * bed.porosityError)) return "";
+  const double lean = leanOf(gravity);
+  return fmt::format(
+      "the settled bed has a porosity of {:.3f}, terrain.porosity asks for {:g}: {}", bed.porosity, wanted,
+      lean > 0
+          ? fmt::format("it was prepared under gravity straight down, and moved when run.gravity began to act, which "
+                        "leans by {:.1f} degrees; raise the material's friction or rolling_friction, lean less, or "
+                        "report the porosity measured",
+                        lean)
+          : "so small or shallow a bed packs otherwise than the wide one on which its preparation is tried; enlarge "
+            "terrain.size or depth, or report the porosity measured");
+}
+
+std::string porosityWarning(const simulation::Simulation& simulation) {
+  const setup::PreparationSetup* preparation = preparationOf(simulation.setup().ground);
+  const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
+  return preparation && bed ? porosityWarning(preparation->porosity, *bed, simulation.setup().gravity) : "";
+}
+
+void warnOfTerrain(const scene::Scene& scene) {
+  for (const std::string& warning : setup::terrainWarnings(scene)) support::tell("WARNING: {}\n", warning);
+  for (const std::string& note : setup::terrainNotes(scene)) support::tell("grouser: note: {}\n", note);
 }
 
 } // namespace grouser::commands

@@ -34,4 +34,15 @@ std::vector<std::string> bedNotes(const TrackOnBed& track);
 /// The notes of a run with a vehicle on a bed; empty without.
 std::vector<std::string> bedNotes(const simulation::Simulation& simulation);
 
+/// Angle between gravity and straight down [deg]; 0 without gravity.
+double leanOf(const base::Vec3d& gravity);
+
+/// Where a settled bed has another porosity than the one that terrain.porosity asks for, and why; else empty.
+std::string porosityWarning(double wanted, const terrain::BedStructure& bed, const base::Vec3d& gravity);
+/// The same for the bed of a run; empty without a requested porosity.
+std::string porosityWarning(const simulation::Simulation& simulation);
+
+/// Prints what setup::terrainWarnings() and terrainNotes() say of the height-map.
+void warnOfTerrain(const scene::Scene& scene);
+
 } // namespace grouser::commands

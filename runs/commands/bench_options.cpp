@@ -19,7 +19,7 @@ namespace {
 void addCommon(CLI::App& sub, bench::BenchCommand& c) {
   sub.add_option("--device", c.device, "auto, cpu or cuda");
   sub.add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
-  sub.add_option("--json", c.json, "write the figures to this file");
+  sub.add_option("--json", c.json, "write the figures to this file")->check(support::writableFile("--json"));
 }
 
 /// What the bed is made of.
@@ -57,7 +57,8 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
          "grains from this file in place of the lattice, all of --radius and as many as --grains: lines of x, y, "
          "z, r [m], vx, vy, vz [m/s], wx, wy, wz [rad/s], as --save writes them")
       ->excludes(floor, spread);
-  bed.add_option("--save", b.save, "write the grains to this file after the last batch");
+  bed.add_option("--save", b.save, "write the grains to this file after the last batch")
+      ->check(support::writableFile("--save"));
 }
 
 void addBed(CLI::App& benches, const Invocation& invocation) {
@@ -158,7 +159,7 @@ void addContacts(CLI::App& benches, const Invocation& invocation) {
       ->capture_default_str();
   contacts->add_option("--device", c.device, "auto, cpu or cuda")->capture_default_str();
   contacts->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
-  contacts->add_option("--json", c.json, "write the figures to this file");
+  contacts->add_option("--json", c.json, "write the figures to this file")->check(support::writableFile("--json"));
   contacts->add_option("--plot", c.plot, "draw them into this PNG file");
   contacts->callback([command, words = invocation.words] {
     requireSameWords("bench contacts", words, command->ranks->comm());
@@ -181,7 +182,7 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
   multibody->add_option("--batches", c.batches, "timed batches")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  multibody->add_option("--json", c.json, "write the figures to this file");
+  multibody->add_option("--json", c.json, "write the figures to this file")->check(support::writableFile("--json"));
   multibody->callback([command] { bench::benchMultibodyCommand(*command); });
 }
 

@@ -74,7 +74,10 @@ void addCheck(CLI::App& app, const Invocation&) {
   check->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   check->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
       ->check(support::wholeNumber(0, 1024));
-  check->add_flag("--force", c.options.sweep.force, "run again what has already been run");
+  CLI::Option* resume =
+      check->add_flag("--resume")
+          ->description("go on with what an earlier call has left, which the same command does anyway");
+  check->add_flag("--force", c.options.sweep.force, "run again what has already been run")->excludes(resume);
   check->callback([command] { checkCommand(*command); });
 }
 

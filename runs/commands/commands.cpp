@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/commands.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
+#include "runs/commands/bed_warnings.hpp"
 #include "runs/commands/output_times.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/commands/run_scene.hpp"
@@ -18,6 +20,7 @@
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/sphere_cache.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/output_place.hpp"
 #include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/kept_checks.hpp"
@@ -126,6 +129,10 @@ void runCommand(const RunCommand& command) {
 }
 
 void sweepCommand(const SweepCommand& command) {
+  const fs::path folder = command.folder.empty()
+                              ? fs::path("out") / (fs::path(command.scene).stem().string() + "_sweep")
+                              : fs::path(command.folder);
+  support::requireFolder(folder);
   std::vector<std::string> fixed;
   if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
   if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
@@ -133,12 +140,12 @@ void sweepCommand(const SweepCommand& command) {
   if (!plan.runs.empty()) scene::printNotes(plan.runs.front().scene);
   sweeps::SweepOptions options;
   options.program = fs::read_symlink("/proc/self/exe");
-  options.folder =
-      command.folder.empty() ? fs::path("out") / (plan.scene.stem().string() + "_sweep") : fs::path(command.folder);
+  options.folder = folder;
   options.jobs = command.jobs, options.seconds = command.seconds, options.force = command.force;
   if (const int failed = sweeps::runSweep(plan, options))
-    throw base::SimulationError(fmt::format("{} of {} runs failed; their messages stand in {}", failed,
-                                            plan.runs.size(), (options.folder / sweeps::kSummaryFile).string()));
+    throw base::SimulationError(fmt::format("{} of {} failed; their messages stand in {}", failed,
+                                            base::counted(plan.runs.size(), "run"),
+                                            (options.folder / sweeps::kSummaryFile).string()));
 }
 
 void hashCommand(const HashCommand& command) {
@@ -149,18 +156,21 @@ void hashCommand(const HashCommand& command) {
 void sinkageCommand(const SinkageCommand& command) {
   const fs::path results = command.results;
   const fs::path folder = command.folder.empty() ? fs::absolute(results).parent_path() : fs::path(command.folder);
+  support::requireFolder(folder);
   if (command.shoes.empty()) {
     if (!command.control.empty())
       throw base::InputError("--control is drawn behind single shoes; name them by --shoes, such as 10-13,20");
+    if (!command.track.empty())
+      throw base::InputError("--track requires --shoes: the shoes of that track, such as 10-13,20");
     fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder).string());
     return drawAndName(results, folder, {"sinkage"});
   }
   const std::vector<int> shoes = output::shoesNamed(command.shoes);
-  if (!command.control.empty()) output::requireShoes(command.control, shoes);
-  fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder, shoes).string());
+  if (!command.control.empty()) output::requireShoes(command.control, shoes, command.track);
+  fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder, shoes, command.track).string());
   std::vector<fs::path> inputs{results};
   if (!command.control.empty()) inputs.push_back(fs::absolute(command.control));
-  inputs.emplace_back(fmt::format("{}", fmt::join(shoes, ",")));
+  inputs.emplace_back(command.track + (command.track.empty() ? "" : ":") + fmt::format("{}", fmt::join(shoes, ",")));
   output::drawPicture("single_shoes.py", inputs, folder / "sinkage_shoes.png");
 }
 
@@ -173,7 +183,6 @@ void planCommand(const PlanCommand& command) {
   scene::printNotes(scene);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, nullptr);
   const fs::path folder = folderOf(scene, command.folder);
-  sweeps::checkScene(scene);
   // What does not fit is neither laid nor run, but shown.
   std::string misfit;
   try {
@@ -181,6 +190,14 @@ void planCommand(const PlanCommand& command) {
   } catch (const base::InputError& error) {
     misfit = error.what();
   }
+  try {
+    sweeps::checkScene(scene, false);
+  } catch (const base::InputError&) {
+    // The size of such a scene is its fault, whatever is wrong with its step.
+    if (!misfit.empty()) throw base::InputError(misfit);
+    throw;
+  }
+  for (const std::string& warning : plannedBedWarnings(scene)) support::tell("WARNING: {}\n", warning);
   const forecast::CountedGrains counted =
       forecast::countGrains(scene, setup::chooseTimeStep(scene), misfit.empty() ? forecast::kMostLaid : 0);
   fmt::print("{}", planText(scene, &counted));

@@ -52,9 +52,10 @@ struct SinkageCommand {
   std::string results;
   std::string folder;  ///< empty: beside the results
   std::string shoes;   ///< a list "10-13,20"; empty: all
+  std::string track;   ///< of these shoes: "left" or "right"; empty: of each
   std::string control; ///< results of the same vehicle on rigid ground, drawn behind those shoes; empty: none
 };
-/// Throws InputError for shoes that are none, and a control without them.
+/// Throws InputError for shoes that are none, and a track or a control without them.
 void sinkageCommand(const SinkageCommand& command);
 
 struct PlanCommand {

@@ -23,6 +23,7 @@ void describeLedger(simulation::Simulation& simulation) {
   std::string causes;
   for (const auto& [cause, loss] : {std::pair{"damping", d.damping},
                                     {"friction", d.friction},
+                                    {"micro-slip", d.microSlip},
                                     {"rolling", d.rolling},
                                     {"yielding", d.yielding},
                                     {"crushing", d.crushing},

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -80,6 +81,26 @@ void addCommands(CLI::App& app, const std::vector<commands::CommandEntry>& all,
   }
 }
 
+/// The command that goes on with what this one has left, or begins again where it has left nothing.
+std::string nextCommand(const CLI::App& app, std::vector<std::string> words, const base::Ranks& ranks,
+                        const support::Stopped& stopped) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  const bool resumes =
+      stopped.left() == support::Stopped::Left::work && command->get_option_no_throw("--resume") != nullptr;
+  const auto has = [&](const std::string& option) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return word == option || word.starts_with(option + "="); });
+  };
+  if (resumes) std::erase(words, "--force");
+  if (resumes && !has("--resume")) words.emplace_back("--resume");
+  // Results that the call has left block a call that begins again.
+  const bool isInTheWay = !resumes && stopped.left() == support::Stopped::Left::work;
+  if (isInTheWay && command->get_option_no_throw("--force") && !has("--force")) words.emplace_back("--force");
+  if (!ranks.comm().alone()) words.insert(words.begin(), {"mpirun", "-np", std::to_string(ranks.comm().size())});
+  return fmt::format("{} with: {}", resumes ? "go on" : "begin again", support::shellLine(words));
+}
+
 /// Whether the first rank does it alone; a word that is no command is complained about by the first, too.
 bool isForFirstRank(const std::string& word, const std::vector<commands::CommandEntry>& all) {
   for (const commands::CommandEntry& command : all)
@@ -133,14 +154,18 @@ int main(int argc, char** argv) {
     const int code = app.exit(e); // --help and --version
     return printedAll() ? code : fail(ranks, kSimulation, kNotPrinted);
   } catch (const CLI::ParseError& e) {
-    return fail(ranks, kInput, fmt::format("{}; see grouser --help, or grouser COMMAND --help", e.what()).c_str());
+    return fail(ranks, kInput,
+                fmt::format("{}{}; see grouser --help, or grouser COMMAND --help", e.what(),
+                            support::nearestOptionHint(app, argc, argv))
+                    .c_str());
   } catch (const base::InputError& e) {
     return fail(ranks, kInput, e.what());
   } catch (const base::SimulationError& e) {
     return fail(ranks, kSimulation, e.what());
   } catch (const support::Stopped& e) {
     std::fflush(stdout);
-    if (ranks.comm().first()) std::fputs(fmt::format("grouser: {}\n", e.what()).c_str(), stderr);
+    const std::string next = nextCommand(app, {argv, argv + argc}, ranks, e);
+    if (ranks.comm().first()) std::fputs(fmt::format("grouser: {}; {}\n", e.what(), next).c_str(), stderr);
     return 128 + e.signal();
   } catch (const base::DeviceError& e) {
     return fail(ranks, kDevice, e.what());

@@ -18,7 +18,8 @@ void addSpheres(CLI::App& app, const Invocation&) {
   CLI::Option* count = spheres->add_option("--count", d.count, "wanted number of spheres, instead of a radius")
                            ->check(support::wholeNumber(1));
   radius->excludes(count);
-  spheres->add_option("--csv", d.csv, "write the spheres to this file: x, y, z, radius [m]");
+  spheres->add_option("--csv", d.csv, "write the spheres to this file: x, y, z, radius [m]")
+      ->check(support::writableFile("--csv"));
   spheres->add_flag("--force", d.force, "overwrite that file");
   spheres->callback([=] {
     if (!*radius && !*count) throw CLI::RequiredError("spheres: one of --radius and --count");

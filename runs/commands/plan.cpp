@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/plan.hpp"
 
+#include "base/counted.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
+#include "runs/commands/bed_text.hpp"
 #include "runs/forecast/elastic_layer.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/setup/bed_alone.hpp"
+#include "runs/setup/bed_options.hpp"
+#include "runs/setup/drive_length.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -113,7 +117,7 @@ std::string putOnBedLine(const scene::Scene& scene) {
   for (const setup::SceneSurface& s : setup::surfacesOf(scene))
     if (s.placedLater) names += (names.empty() ? "" : ", ") + s.name;
   if (const std::int64_t grains = setup::placedCount(scene); grains > 0)
-    names += fmt::format("{}{} grains", names.empty() ? "" : ", ", grains);
+    names += (names.empty() ? "" : ", ") + base::counted(grains, "grain");
   return onOff(true, "put on the settled bed", names);
 }
 
@@ -147,7 +151,7 @@ std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spe
 }
 
 /// How a bed is made; `t` is null without one.
-std::string bedLines(const scene::Terrain* t) {
+std::string bedLines(const scene::Terrain* t, const base::Vec3d& gravity) {
   const std::string none = "no bed";
   const bool random = t && !t->lattice();
   std::string text = onOff(random, "random arrangement",
@@ -156,7 +160,12 @@ std::string bedLines(const scene::Terrain* t) {
                                     : "terrain.arrangement = \"lattice\"");
   text += onOff(t && t->porosity, "preparation",
                 !t            ? none
-                : t->porosity ? fmt::format("to a porosity of {:g}", *t->porosity)
+                : t->porosity ? fmt::format("to a porosity of {:g}{}", *t->porosity,
+                                            leanOf(gravity) > 0
+                                                ? fmt::format(" under gravity straight down; run.gravity leans by "
+                                                              "{:.1f} degrees, and may loosen it",
+                                                              leanOf(gravity))
+                                                : "")
                               : "terrain.porosity is not given: as poured");
   text += onOff(t && t->coarsening, "grading by depth",
                 !t              ? none
@@ -197,7 +206,7 @@ std::string switchesText(const scene::Scene& scene) {
                         terrain::featureText(features), base::wordOf(scene.run.precision));
   }
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
-  text += bedLines(bed ? t : nullptr);
+  text += bedLines(bed ? t : nullptr, scene.run.gravity);
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");
   text += putOnBedLine(scene);
@@ -233,7 +242,10 @@ std::string switchesText(const scene::Scene& scene) {
 
 std::string planText(const scene::Scene& scene, const forecast::CountedGrains* counted) {
   setup::checkRestitutions(scene);
-  std::string text = fmt::format("{}\n\nswitched on and off\n{}\nsize\n", scene.file.string(), switchesText(scene));
+  std::string text;
+  if (const std::string warning = setup::shortDriveWarning(scene); !warning.empty())
+    text = fmt::format("WARNING: {}\n\n", warning);
+  text += fmt::format("{}\n\nswitched on and off\n{}\nsize\n", scene.file.string(), switchesText(scene));
   const std::int64_t grains = counted ? counted->grains : setup::plannedGrains(scene);
   const std::string doubt = counted && !counted->exact ? fmt::format(" ({})", counted->doubt) : "";
   text += fmt::format("  {:<24} {}{}\n", "grains", grains, doubt);
@@ -280,7 +292,10 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
     text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
                         "(docs/step_limits.md)\n",
                         base::roundedDown(calm, 4));
+  for (const std::string& warning : setup::terrainWarnings(scene)) text += fmt::format("\nWARNING: {}\n", warning);
+  for (const std::string& note : setup::terrainNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nwarning: {}\n", warning);
+  for (const std::string& note : setup::meshNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   if (!scene.mechanism.empty()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);

@@ -55,7 +55,11 @@ std::optional<output::UndisturbedSurface> undisturbedSurface(const simulation::G
     s.interpolation = "bilinear";
   } else if (const auto& field = ground.surface) {
     lay(field->area(), field->columns(), field->rows(), field->heights());
-    s.interpolation = "Catmull-Rom";
+    using terrain::Interpolation;
+    const Interpolation how = field->interpolation();
+    s.interpolation = how == Interpolation::smooth     ? "Catmull-Rom"
+                      : how == Interpolation::monotone ? "monotone"
+                                                       : "bilinear";
   } else {
     return {};
   }
@@ -104,8 +108,9 @@ void setGearRow(output::RowBuilder& row, const simulation::GearContacts& c) {
   for (const auto& [name, count] : counts) row.set(fmt::format("gear/{}", name), static_cast<double>(count));
 }
 
-void setHitchRow(output::RowBuilder& row, const simulation::HitchObservation& o) {
-  row.set("hitch/force", o.force), row.set("hitch/pull", o.pull);
+/// `pull`: the drawbar pull [N].
+void setHitchRow(output::RowBuilder& row, const simulation::HitchObservation& o, double pull) {
+  row.set("hitch/force", o.force), row.set("hitch/pull", pull);
   row.set("hitch/speed", o.speed), row.set("hitch/power", o.power), row.set("hitch/work", o.work);
   row.set("hitch/towed_way", o.towedWay), row.set("hitch/towed_speed", o.towedSpeed);
 }
@@ -117,6 +122,7 @@ void setLedgerRow(output::RowBuilder& row, const simulation::Ledger& l, bool tou
   row.set("ledger/dissipated", l.dissipated.total());
   row.set("ledger/dissipated_damping", l.dissipated.damping);
   row.set("ledger/dissipated_friction", l.dissipated.friction);
+  row.set("ledger/dissipated_micro_slip", l.dissipated.microSlip);
   row.set("ledger/dissipated_rolling", l.dissipated.rolling);
   row.set("ledger/dissipated_yielding", l.dissipated.yielding);
   row.set("ledger/dissipated_crushing", l.dissipated.crushing);
@@ -218,7 +224,8 @@ void Recorder::begin(const RunRequest& options, const simulation::Checkpoint* fo
   for (const output::FramePart& part : parts_) names.push_back(part.name);
   if (simulation_.ground().grains) writer_.namesOfParts(names);
   squeezed_ = SqueezedRecord(channels_, names);
-  for (const output::Row& row : writer_.formerRows()) squeezed_.add(row);
+  drive_ = DriveRecord(channels_);
+  for (const output::Row& row : writer_.formerRows()) squeezed_.add(row), drive_.add(row);
   if (const auto& grains = simulation_.ground().grains;
       grains &&
       output::GrainsCsv::isWanted(setup.output.grainsCsv,
@@ -234,8 +241,12 @@ std::vector<setup::Obstacle> Recorder::drawnObstacles() const {
 
 void Recorder::row() {
   row_.begin(simulation_.steps(), simulation_.time());
-  if (const simulation::VehicleRig* rig = simulation_.vehicle())
-    row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(rig->observe(), simulation_.setup().output.shoeForces));
+  double drawbarPull = 0;
+  if (const simulation::VehicleRig* rig = simulation_.vehicle()) {
+    const vehicle::Observation seen = rig->observe();
+    drawbarPull = seen.drawbarPull;
+    row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(seen, simulation_.setup().output.shoeForces));
+  }
   const simulation::Simulation::Ledger l = simulation_.ledger();
   if (const auto& grains = simulation_.ground().grains) {
     row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
@@ -266,13 +277,13 @@ void Recorder::row() {
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     row_.set("obstacles/" + obstacles[i].surface.name + "/force", simulation_.vehicle()->meanForceOn(i));
   if (const simulation::VehicleRig* rig = simulation_.vehicle(); rig && rig->towing())
-    setHitchRow(row_, rig->towing()->observe());
+    setHitchRow(row_, rig->towing()->observe(), drawbarPull);
   if (countsGear(simulation_)) setGearRow(row_, simulation_.vehicle()->contacts().gearContacts());
   if (const simulation::Mechanism* mechanism = simulation_.mechanism())
     output::setMechanismRow(row_, *mechanism, simulation_.setup().output.record);
   setLedgerRow(row_, l, !simulation_.mechanism());
   writer_.row(row_.row());
-  squeezed_.add(row_.row());
+  squeezed_.add(row_.row()), drive_.add(row_.row());
   if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
   simulation_.restartMeans();
 }
@@ -319,8 +330,14 @@ output::Frame Recorder::currentFrame() const {
 void Recorder::picture(int width) {
   const output::Frame whole = gathered(currentFrame(), simulation_.comm());
   if (!simulation_.comm().first()) return;
+  const setup::DrawnPlanes& planes = simulation_.setup().planes;
+  std::vector<output::FramePart> parts = parts_;
+  if (const simulation::Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      for (output::FramePart& part : parts)
+        if (part.name == surfaces->surface(i).name) part.mesh = output::surfaceMesh(planes, surfaces->surface(i), true);
   render::writePng(
-      render::drawLabelledFrame(whole, parts_, simulation_.ground().grains ? base::TriangleMesh{} : ground_, width),
+      render::drawLabelledFrame(whole, parts, simulation_.ground().grains ? output::floorMesh(planes) : ground_, width),
       writer_.folder() / "picture.png");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/commands/drive_record.hpp"
 #include "runs/commands/run_request.hpp"
 #include "runs/commands/squeezed_record.hpp"
 #include "runs/output/channels.hpp"
@@ -34,6 +35,7 @@ public:
 
   output::RunWriter& writer() { return writer_; }
   const SqueezedRecord& squeezed() const { return squeezed_; } ///< of all rows so far
+  const DriveRecord& drive() const { return drive_; }          ///< the same
 
 private:
   void begin(const RunRequest& options, const simulation::Checkpoint* former);
@@ -49,6 +51,7 @@ private:
   base::TriangleMesh ground_;
   output::RunWriter writer_;
   SqueezedRecord squeezed_;
+  DriveRecord drive_;
   std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
   std::optional<output::GrainsCsv> grainsCsv_;
 };

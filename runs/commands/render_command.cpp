@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
+#include "runs/support/output_place.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/shared_work.hpp"
 
@@ -172,6 +173,7 @@ void renderCommand(const RenderCommand& c) {
   const std::vector<std::size_t> frames = chosenFrames(reader, c);
   const fs::path folder =
       c.folder.empty() ? fs::absolute(c.frames).lexically_normal().parent_path() / "pictures" : fs::path(c.folder);
+  support::requireFolder(folder);
   checkTargets(c, folder, frames);
   const render::FramePainter painter(reader, options);
   c.comm.wait(); // all have looked at what is there before the first of them writes

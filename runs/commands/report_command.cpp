@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/locations.hpp"
+#include "runs/support/output_place.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/run_figures.hpp"
@@ -63,6 +64,7 @@ void checkPlaces(const ReportCommand& command, const fs::path& file) {
     throw base::InputError(fmt::format("{}: is there already; overwrite it with --force, or name another file with "
                                        "--out",
                                        file.string()));
+  support::requireFile(file, "--out");
   if (!command.film.empty() && !fs::is_regular_file(command.film, error))
     throw base::InputError(fmt::format("--film {}: there is no such file", command.film));
 }
@@ -89,7 +91,8 @@ void reportCommand(const ReportCommand& command) {
   const support::CallOutcome outcome = output::callPython(script, words);
   if (const int signal = support::StopSignals::received(); signal && outcome.status != 0)
     throw support::Stopped(signal,
-                           fmt::format("stopped by {}; no page was written", support::StopSignals::name(signal)));
+                           fmt::format("stopped by {}; no page was written", support::StopSignals::name(signal)),
+                           support::Stopped::Left::nothing);
   constexpr int kWrongInput = 2, kNotWritten = 4, kNoProgram = 127;
   if (outcome.status == kWrongInput || outcome.status == output::kMissingPackage)
     throw base::InputError(lastLine(outcome.output));

@@ -29,6 +29,8 @@ void addSinkage(CLI::App& app, const Invocation&) {
   sinkage->add_option("--shoes", s.shoes,
                       "single shoes, counted from 0: 10-13,20; writes sinkage_shoes.csv, and draws their heights and "
                       "sinkage");
+  sinkage->add_option("--track", s.track, "of the shoes of --shoes: left or right; default: those of both tracks")
+      ->check(CLI::IsMember({"left", "right"}));
   sinkage->add_option("--control", s.control,
                       "results.h5 of the same vehicle on rigid ground, whose shoes are drawn behind those of --shoes");
   sinkage->callback([command] { sinkageCommand(*command); });

@@ -62,7 +62,10 @@ void addSweep(CLI::App& app, const Invocation&) {
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
       ->check(support::wholeNumber(0, 1024));
-  sweep->add_flag("--force", c.force, "run again what has already been run");
+  CLI::Option* resume =
+      sweep->add_flag("--resume")
+          ->description("go on with what an earlier call has left, which the same command does anyway");
+  sweep->add_flag("--force", c.force, "run again what has already been run")->excludes(resume);
   sweep->callback([command] { sweepCommand(*command); });
 }
 
@@ -80,7 +83,9 @@ void addPlan(CLI::App& app, const Invocation&) {
   plan->add_option("--threads", p.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
   support::addOut(*plan, p.folder, "folder that results would go to; default: out/NAME of the scene");
   CLI::Option* without = plan->add_flag("!--no-probe", p.probe, "run nothing: no time to expect");
-  plan->add_option("--json", p.json, "also write the time to expect to this file, by its parts")->excludes(without);
+  plan->add_option("--json", p.json, "also write the time to expect to this file, by its parts")
+      ->excludes(without)
+      ->check(support::writableFile("--json"));
   plan->add_flag("!--no-cache", p.cache, "for a run that settles the bed and cuts the parts anew");
   plan->callback([command] { planCommand(*command); });
 }

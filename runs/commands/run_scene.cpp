@@ -3,13 +3,17 @@
 
 #include "base/error.hpp"
 #include "runs/commands/bed_text.hpp"
+#include "runs/commands/bed_warnings.hpp"
+#include "runs/commands/checkpoints.hpp"
 #include "runs/commands/failed_run.hpp"
 #include "runs/commands/ledger_text.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/recorder.hpp"
+#include "runs/commands/run_warnings.hpp"
 #include "runs/commands/signal_watch.hpp"
 #include "runs/forecast/machine_fit.hpp"
 #include "runs/output/mechanism_output.hpp"
+#include "runs/setup/drive_length.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/mechanism.hpp"
@@ -26,6 +30,7 @@
 #include <cmath>
 #include <ctime>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace grouser::commands {
 
@@ -75,7 +80,7 @@ void describePlaced(const simulation::Simulation& simulation) {
   if (!ground.grains || ground.grains->onBed.empty()) return;
   std::size_t grains = 0;
   for (const setup::PlacedGrains& p : ground.grains->onBed) grains += p.grains.size();
-  fmt::print("placed    {} grains on the settled bed\n", grains);
+  fmt::print("placed    {} grain{} on the settled bed\n", grains, grains == 1 ? "" : "s");
 }
 
 /// Where earlier runs may have left what this one needs; null: nothing is kept.
@@ -96,6 +101,7 @@ Caches cachesOf(const scene::Scene& scene, const RunRequest& options) {
 }
 
 void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const Caches& kept) {
+  if (const std::string warning = porosityWarning(simulation); !warning.empty()) fmt::print("WARNING   {}\n", warning);
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
     fmt::print("grains    {}, {:.0f} bytes each\n", grainsText(*grains),
@@ -122,72 +128,6 @@ void describeBuild(const simulation::Simulation& simulation, const base::Exec& e
     fmt::print("{}", output::mechanismSize(*mechanism));
   std::fflush(stdout);
 }
-
-/// The checkpoint of a run, written again and again.
-class Checkpoints {
-public:
-  Checkpoints(const setup::Provenance& provenance, const RunRequest& options)
-      : path_(options.folder / simulation::kCheckpointName) {
-    checkpoint_.scene = provenance.resolved;
-    checkpoint_.inputs = provenance.inputs;
-    checkpoint_.commit = support::buildInfo().commit;
-  }
-
-  void write(const simulation::Simulation& simulation, output::RunWriter& writer) {
-    if (writtenAt_ == simulation.steps()) return;
-    writer.sync();
-    describe(simulation, writer.rows(), writer.frames());
-    checkpoint_.state = simulation.save();
-    simulation::writeCheckpoint(path_, checkpoint_, simulation.comm());
-    checkpoint_.state = {};
-    writtenAt_ = simulation.steps();
-  }
-  /// Keeps the present state in memory, unless the last time is too short ago: should the run fail, it is left as its
-  /// checkpoint. Between rows, so that these are counted with it.
-  void remember(const simulation::Simulation& simulation, const output::RunWriter& writer) {
-    const auto& grains = simulation.ground().grains;
-    if (!simulation.comm().alone() || sinceRemembered_.seconds() < pause_) return;
-    if (grains && grains->count() > kMostRemembered) return;
-    const Stopwatch saving;
-    good_ = simulation.save();
-    goodRows_ = writer.rows(), goodFrames_ = writer.frames();
-    pause_ = kRememberPause * saving.seconds(), sinceRemembered_ = {};
-  }
-  /// Of a run that has failed: the last state that was remembered, where no later one has been written.
-  void writeRemembered(const simulation::Simulation& simulation, output::RunWriter& writer) {
-    if (!good_ || good_->steps <= writtenAt_) return;
-    try {
-      writer.sync();
-    } catch (const support::NotWritten&) {
-      // It is what failed, then. The rows up to here were whole when they were made.
-    }
-    describe(simulation, goodRows_, goodFrames_);
-    checkpoint_.state = std::move(*good_);
-    good_.reset();
-    simulation::writeCheckpoint(path_, checkpoint_, simulation.comm());
-    writtenAt_ = checkpoint_.state.steps;
-  }
-  /// "out/hills/checkpoint.h5, step 1000": where the last one is; empty while there is none.
-  std::string last() const { return writtenAt_ < 0 ? "" : fmt::format("{}, step {}", path_.string(), writtenAt_); }
-  /// The run goes on from one of this step.
-  void begunAt(std::int64_t step) { writtenAt_ = step; }
-
-private:
-  void describe(const simulation::Simulation& simulation, std::int64_t rows, std::int64_t frames) {
-    checkpoint_.timeStep = simulation.timeStep(), checkpoint_.rows = rows, checkpoint_.frames = frames;
-    if (const auto& grains = simulation.ground().grains) checkpoint_.lengths = simulation::lengthsOf(*grains);
-  }
-  static constexpr int kRememberPause = 200;                ///< of what it takes: half a percent of a run's time
-  static constexpr std::size_t kMostRemembered = 2'000'000; ///< grains: half a gigabyte
-
-  std::filesystem::path path_;
-  simulation::Checkpoint checkpoint_;
-  std::int64_t writtenAt_ = -1;
-  std::optional<simulation::SimulationState> good_;
-  std::int64_t goodRows_ = 0, goodFrames_ = 0;
-  double pause_ = 0; ///< until the next time [s]
-  Stopwatch sinceRemembered_;
-};
 
 /// Reads the checkpoint of a run to be resumed; null for one from the start.
 std::unique_ptr<simulation::Checkpoint> formerRun(const setup::Provenance& provenance, const RunRequest& options) {
@@ -217,9 +157,12 @@ std::unique_ptr<simulation::Simulation> makeSimulation(setup::SimulationSetup se
   FailedBed failed(setup, options, exec);
   simulation::SettleProgress settle = [&](double time, double agitation) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
-      throw support::Stopped(signal, fmt::format("stopped by {} while the bed settled; nothing was written",
-                                                 support::StopSignals::name(signal)));
-    if (!settling) settling = std::make_unique<support::Progress>("settling", comm.first());
+      throw support::Stopped(
+          signal,
+          fmt::format("stopped by {} while the bed settled; nothing was written", support::StopSignals::name(signal)),
+          support::Stopped::Left::nothing);
+    if (!settling)
+      settling = std::make_unique<support::Progress>("settling", comm.first(), 0, support::Progress::End::limit);
     if (time > 0 && !begun) begun.emplace(); // before that it waits for another run
     if (begun) kept.settling = begun->seconds();
     settling->update(time / limit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
@@ -242,9 +185,13 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
   const auto stepsOf = [dt](double interval) { return std::max<std::int64_t>(1, std::llround(interval / dt)); };
   const std::int64_t rowEvery = stepsOf(run.outputInterval), frameEvery = stepsOf(run.frameInterval);
   const std::int64_t saveEvery = run.checkpointInterval > 0 ? stepsOf(run.checkpointInterval) : total + 1;
-  support::Progress progress("running", simulation.comm().first());
-  SignalWatch signals(simulation.comm());
   const simulation::VehicleRig* rig = simulation.vehicle();
+  const setup::StopSetup stop = rig ? simulation.setup().vehicle->stop : setup::StopSetup{};
+  const bool mayStop = stop.distance || stop.edge || stop.immobile;
+  support::Progress progress("running", simulation.comm().first(),
+                             static_cast<double>(simulation.steps()) / static_cast<double>(total),
+                             mayStop ? support::Progress::End::limit : support::Progress::End::expected);
+  SignalWatch signals(simulation.comm());
   while (simulation.steps() < total && !(rig && !rig->ended().empty())) {
     const std::int64_t now = simulation.steps();
     simulation.advance(
@@ -255,9 +202,8 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
     if (simulation.steps() % saveEvery == 0) checkpoints.write(simulation, recorder.writer());
     if (const int signal = signals.receivedAt(simulation.steps())) {
       checkpoints.write(simulation, recorder.writer());
-      throw support::Stopped(signal,
-                             fmt::format("stopped by {} at {:.6g} s; go on with --resume ({})",
-                                         support::StopSignals::name(signal), simulation.time(), checkpoints.last()));
+      throw support::Stopped(signal, fmt::format("stopped by {} at {:.6g} s ({})", support::StopSignals::name(signal),
+                                                 simulation.time(), checkpoints.last()));
     }
     if (progress.due())
       progress.update(static_cast<double>(simulation.steps()) / static_cast<double>(total),
@@ -270,7 +216,7 @@ void drive(simulation::Simulation& simulation, Recorder& recorder, Checkpoints& 
   if (simulation.steps() % rowEvery != 0) recorder.row();
   if (simulation.steps() % frameEvery != 0) recorder.frame();
   recorder.finalSurface();
-  progress.finish(fmt::format("{} steps", simulation.steps()));
+  progress.finish(fmt::format("{} step{}", simulation.steps(), simulation.steps() == 1 ? "" : "s"));
 }
 
 /// Where the run has met a fault: the state before it as a checkpoint, and all as it is now as frame and picture.
@@ -333,25 +279,6 @@ void record(simulation::Simulation& simulation, Recorder& recorder, Checkpoints&
   }
 }
 
-/// When the vehicle drove off, and what has ended the run before its time.
-void describeDrive(const simulation::Simulation& simulation, output::RunWriter& writer, output::Summary& summary) {
-  if (!simulation.vehicle()) return;
-  const std::optional<double> start = simulation.vehicle()->driveStart();
-  if (start) summary.figures["drive_start_s"] = *start;
-  if (start && *start <= simulation.time())
-    fmt::print("drive     from {:.6g} s on\n", *start);
-  else
-    fmt::print("drive     not begun: {}\n", start ? "driver.drive_start lies after the end"
-                                                  : "the vehicle was not at rest before the end; raise run.duration");
-  if (const std::string& end = simulation.vehicle()->ended(); !end.empty()) {
-    fmt::print("ended     at {:.6g} s by {}\n", simulation.time(), end);
-    writer.fact("ended_by", end);
-  }
-  const vehicle::BlowMeter blows = simulation.vehicle()->observe().blows;
-  summary.figures["ground_force_most_over_weight"] = blows.most;
-  if (blows.isBlow()) fmt::print("blows     {}\n", blows.text());
-}
-
 /// Share of weight x time that crushing may cut off before its loads say little [-].
 constexpr double kSuspect = 0.01;
 
@@ -397,15 +324,6 @@ void describeSteps(const simulation::Mechanism& mechanism, output::Summary& summ
   summary.figures["mechanism_step_largest_s"] = r.largest;
 }
 
-/// What is sound and may still surprise.
-void warn(const scene::Scene& scene, const simulation::Simulation& simulation) {
-  for (const std::string& warning : setup::vehicleWarnings(scene)) support::tell("grouser: warning: {}\n", warning);
-  if (!simulation.mechanism()) return;
-  if (const std::string warning = setup::tensionStepWarningAtStart(scene, simulation.timeStep()); !warning.empty())
-    support::tell("grouser: warning: {}\n", warning);
-  if (const std::string note = setup::springStepNote(scene); !note.empty()) support::tell("grouser: note: {}\n", note);
-}
-
 /// `hasFolder`: whether it came so far that the folder is that of this run.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options,
                             bool& hasFolder) {
@@ -418,6 +336,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   support::FileLock folder; // of a run that goes on; one that begins makes its folder later
   if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<simulation::Checkpoint> former = formerRun(provenance, options);
+  if (!former && comm.first()) warnOfTerrain(scene); // before a bed settles
   Caches kept = cachesOf(scene, options);
   const std::unique_ptr<simulation::Simulation> made =
       makeSimulation(setup::simulationSetup(scene, provenance, comm.size()), exec, former.get(), options, kept);
@@ -429,11 +348,14 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));
   const double prepared = whole.seconds();
+  const std::vector<std::string> ofBed = bedWarnings(scene, simulation);
+  if (comm.first())
+    for (const std::string& warning : ofBed) support::tell("WARNING: {}\n", warning);
   describeBuild(simulation, exec, kept);
-  if (!former && comm.first()) warn(scene, simulation);
-
+  if (!former && comm.first()) warnOf(scene, simulation);
   Recorder recorder(simulation, options, exec, former.get(), total);
   hasFolder = true;
+  if (!ofBed.empty()) recorder.writer().fact("bed_warnings", fmt::format("{}", fmt::join(ofBed, "; ")));
   Checkpoints checkpoints(provenance, options);
   if (former) {
     checkpoints.begunAt(begin);
@@ -453,7 +375,8 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = whole.seconds();
-    describeDrive(simulation, recorder.writer(), summary);
+    describeDrive(scene, simulation, recorder.drive().teeth(), recorder.writer(), summary);
+    if (former) summary.figures["resumed_at_step"] = static_cast<double>(begin);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;
     summary.figures["wall_cutting_s"] = kept.spheres ? kept.spheres->cutting() : 0;
     if (simulation.settled().steps > 0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/events/event_forecast.hpp"
 
+#include "base/counted.hpp"
 #include "runs/forecast/counted_grains.hpp"
 #include "runs/forecast/forecast.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -75,7 +76,7 @@ std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::pat
     time.here += runs * here;
     time.h200 += runs * (plan.course.rigid ? here : h200Time(grains, duration, step));
   }
-  progress.finish(fmt::format("{} events", times.size()));
+  progress.finish(base::counted(times.size(), "event"));
   return times;
 }
 

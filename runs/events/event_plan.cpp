@@ -48,8 +48,8 @@ std::string vehicleFile(const std::string& word) {
   const fs::path found =
       support::findInput(isPath ? word : "vehicles/" + word + ".toml", fs::current_path() / "events.toml", tried);
   if (found.empty() || word.empty())
-    throw InputError(fmt::format("--vehicle {}: is no vehicle; ready ones: {}; or give the path of a file", word,
-                                 fmt::join(readyVehicles(), ", ")));
+    throw InputError(fmt::format("--vehicle {}: is no vehicle; ready ones: {}; or give the path of a vehicle file",
+                                 word, fmt::join(readyVehicles(), ", ")));
   return fs::absolute(found).lexically_normal().string();
 }
 

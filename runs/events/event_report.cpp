@@ -22,6 +22,10 @@ namespace {
 constexpr const char* kSteady[] = {"speed [m/s]",        "slip [-]",        "sinkage mean [m]",     "sinkage max [m]",
                                    "drive torque [N m]", "drive power [W]", "motion resistance [N]"};
 
+bool isOfSteadyPart(const std::string& figure) {
+  return std::find(std::begin(kSteady), std::end(kSteady), figure) != std::end(kSteady);
+}
+
 /// Whether means over the second half of a run tell of steady driving straight on, or on a circle.
 bool isSteady(Event event) {
   return event != Event::pivotTurn && event != Event::step && event != Event::gap && event != Event::ditch &&
@@ -68,7 +72,7 @@ Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs:
 }
 
 std::string goText(const EventRow& row) {
-  if (row.runs == 0) return row.pending > 0 ? "pending" : "failed";
+  if (row.runs == 0) return row.pending > 0 ? "pending" : row.incomplete > 0 ? "incomplete" : "failed";
   if (row.runs == 1) return row.gos ? "go" : "no-go";
   return fmt::format("{} {}/{}", row.gos == row.runs ? "go" : row.gos == 0 ? "no-go" : "partly", row.gos, row.runs);
 }
@@ -86,11 +90,16 @@ std::string limitText(const EventLimit& limit) {
 
 } // namespace
 
+std::string EventRow::doubtOf(const FigureOverSeeds& figure) const {
+  if (!doubt.empty() && isOfSteadyPart(figure.name)) return doubt;
+  return studies::isInconclusive(figure.estimate) ? "interval wider than the value" : "";
+}
+
 std::string EventRow::why() const {
   if (event == Event::drawbar && gos > 1 && gos == runs)
     for (const FigureOverSeeds& f : figures)
       if (f.name == kPull) return fmt::format("pulls {:.3g} kN in the mean", f.estimate.value / 1000);
-  for (const char* verdict : {"no-go", "go", "failed"})
+  for (const char* verdict : {"no-go", "go", "incomplete", "failed"})
     for (const RunVerdict& r : each)
       if (r.verdict == verdict) return r.why;
   return "";
@@ -98,12 +107,13 @@ std::string EventRow::why() const {
 
 std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
                                 const fs::path& folder) {
-  const sweeps::SweepFigures steady = sweeps::sweepFigures(plan.sweep, outcomes, folder);
+  sweeps::SweepFigures steady = sweeps::sweepFigures(plan.sweep, outcomes, folder);
   std::vector<EventRow> rows;
   for (const PlannedTrial& planned : plan.trials) {
     EventRow row;
     row.event = planned.event, row.level = planned.level;
     Gathered gathered;
+    steady.keepSound(planned.runs), row.doubt = steady.doubtOf(planned.runs);
     for (const std::size_t run : planned.runs) {
       const sweeps::SweepOutcome& outcome = outcomes[run];
       const fs::path at = folder / plan.sweep.runs[run].name;
@@ -113,8 +123,10 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
         ++row.runs, row.gos += verdict.go;
         said.verdict = verdict.go ? "go" : "no-go", said.why = verdict.why;
         for (std::size_t c = 0; isSteady(planned.event) && c < steady.columns.size(); ++c)
-          if (std::find(std::begin(kSteady), std::end(kSteady), steady.columns[c]) != std::end(kSteady))
-            gathered.add(steady.columns[c], steady.values[run][c]);
+          if (isOfSteadyPart(steady.columns[c])) gathered.add(steady.columns[c], steady.values[run][c]);
+      } else if (outcome.status == output::RunStatus::incomplete) {
+        ++row.incomplete;
+        said.verdict = "incomplete", said.why = outcome.message;
       } else if (outcome.status == output::RunStatus::failed) {
         const FailureVerdict failure = judgeFailure(outcome.message);
         failure.known ? ++row.runs : ++row.unknown;
@@ -172,10 +184,12 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
     text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row), goText(row), row.why());
     if (row.unknown > 0)
       text += fmt::format("{:<18}{} of its runs failed for a cause that is not the vehicle's\n", "", row.unknown);
+    if (row.incomplete > 0) text += fmt::format("{:<18}{} of its runs are incomplete\n", "", row.incomplete);
     if (row.pending > 0) text += fmt::format("{:<18}{} of its runs are still to be done\n", "", row.pending);
     for (const FigureOverSeeds& f : row.figures)
-      text += fmt::format("{:<18}  {:<50} {}\n", "", f.name,
-                          f.runs > 1 ? studies::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value));
+      text += fmt::format("{:<18}  {:<50} {}{}\n", "", f.name,
+                          f.runs > 1 ? studies::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
+                          row.doubtOf(f).empty() ? "" : "  inconclusive");
   }
   for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);
   if (plan.shoesAlone()) text += fmt::format("\n{}\n", kShoesAlone);
@@ -189,15 +203,16 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
 }
 
 std::string eventsCsv(const std::vector<EventRow>& rows) {
-  std::string text = "event,level,level is,runs,go,why,figure,runs with it,mean,half width\n";
+  std::string text = "event,level,level is,runs,go,why,figure,runs with it,mean,half width,inconclusive\n";
   for (const EventRow& row : rows) {
     const std::string head =
         fmt::format("{},{},{},{},{},{}", base::wordOf(row.event), levelCell(row),
                     support::csvCell(levelText(row.event)), row.runs, row.gos, support::csvCell(row.why()));
-    if (row.figures.empty()) text += head + ",,,,\n";
+    if (row.figures.empty()) text += head + ",,,,,\n";
     for (const FigureOverSeeds& f : row.figures)
-      text += fmt::format("{},{},{},{},{}\n", head, support::csvCell(f.name), f.runs,
-                          support::csvCell(f.estimate.value), support::csvCell(f.estimate.halfWidth));
+      text +=
+          fmt::format("{},{},{},{},{},{}\n", head, support::csvCell(f.name), f.runs, support::csvCell(f.estimate.value),
+                      support::csvCell(f.estimate.halfWidth), support::csvCell(row.doubtOf(f)));
   }
   return text;
 }
@@ -219,6 +234,7 @@ nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::
                   {"go", row.gos},
                   {"failed", row.unknown},
                   {"pending", row.pending},
+                  {"incomplete", row.incomplete},
                   {"why", row.why()},
                   {"each", Json::array()},
                   {"picture", row.picture},
@@ -231,7 +247,8 @@ nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::
       entry["figures"].push_back({{"name", f.name},
                                   {"runs", f.runs},
                                   {"mean", f.estimate.value},
-                                  {"half_width", number(f.estimate.halfWidth)}});
+                                  {"half_width", number(f.estimate.halfWidth)},
+                                  {"inconclusive", !row.doubtOf(f).empty()}});
     json["rows"].push_back(entry);
   }
   json["limits"] = Json::array();

@@ -24,7 +24,7 @@ struct FigureOverSeeds {
 /// What one run says.
 struct RunVerdict {
   std::string run;     ///< name of its folder
-  std::string verdict; ///< "go", "no-go", "failed" (for another cause than the vehicle's), "pending"
+  std::string verdict; ///< "go", "no-go", "failed" (for another cause than the vehicle's), "incomplete", "pending"
   std::string why;
 };
 
@@ -36,10 +36,14 @@ struct EventRow {
   int gos = 0;     ///< of these
   int unknown = 0; ///< runs that failed for another cause than the vehicle's
   int pending = 0;
+  int incomplete = 0; ///< runs whose vehicle never drove, or too little to tell
   std::vector<RunVerdict> each;
   std::vector<FigureOverSeeds> figures;
+  std::string doubt;   ///< why those of the steady part are inconclusive; empty where they are not
   std::string picture; ///< of the first run, from the folder; empty where there is none
 
+  /// Why a figure is inconclusive; empty where it is sound.
+  std::string doubtOf(const FigureOverSeeds& figure) const;
   /// Of the first run that is no go, since that decides; else of the first that has ended, and of drawbar pulls their
   /// mean.
   std::string why() const;

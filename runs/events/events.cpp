@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/events/events.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "runs/events/event_forecast.hpp"
 #include "runs/events/event_report.hpp"
@@ -19,6 +20,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 
 namespace grouser::events {
 
@@ -26,6 +29,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kCall = "call.json"; // what the runs of the folder were asked for
 constexpr const char *kTable = "events.csv", *kJson = "events.json", *kText = "events.txt", *kPlot = "events.png",
                      *kPictures = "pictures.png", *kDrawbar = "drawbar.png";
 
@@ -44,13 +48,49 @@ void printHead(const EventsCommand& command, const EventPlan& plan) {
              "run {:.3f} m, {:g} m/s\n",
              s.mass, s.massCentre.z, s.massCentre.x - s.firstWheel, s.groundRun(), plan.course.speed);
   if (!plan.course.rigid)
-    fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {} seeds{}\n",
+    fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {}{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
-               plan.seeds, command.options.quick ? "; coarse" : "");
+               base::counted(plan.seeds, "seed"), command.options.quick ? "; coarse" : "");
   if (plan.shoesAlone()) fmt::print("          {}\n", kShoesAlone);
   for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
-  fmt::print("          {} runs\n", plan.sweep.runs.size());
+  fmt::print("          {}\n", base::counted(plan.sweep.runs.size(), "run"));
   std::fflush(stdout);
+}
+
+/// All that decides which runs there are, as text.
+std::string callText(const EventOptions& o) {
+  const auto given = [](const auto& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  };
+  const nlohmann::ordered_json call = {{"vehicle", o.vehicle},
+                                       {"soil", o.soil},
+                                       {"only", o.only},
+                                       {"levels", o.levels},
+                                       {"set", o.fixed},
+                                       {"speed_m_s", given(o.speed)},
+                                       {"grain_radius_m", given(o.grainRadius)},
+                                       {"depth_m", given(o.depth)},
+                                       {"seeds", given(o.seeds)},
+                                       {"quick", o.quick},
+                                       {"frames", o.frames}};
+  return support::jsonText(call, 2) + "\n";
+}
+
+/// Whether the folder holds what a call with these options has left.
+bool isOfThisCall(const fs::path& folder, const EventOptions& options) {
+  std::ifstream file(folder / kCall, std::ios::binary);
+  return file && std::string(std::istreambuf_iterator<char>(file), {}) == callText(options);
+}
+
+/// So that the same call goes on there.
+void keepCall(const fs::path& folder, const EventOptions& options) {
+  if (isOfThisCall(folder, options)) return;
+  fs::create_directories(folder);
+  try {
+    support::replaceTextFile(folder / kCall, callText(options));
+  } catch (const std::runtime_error&) {
+    if (!isOfThisCall(folder, options)) throw; // else another part was quicker
+  }
 }
 
 /// The runs of a part "2/8": every eighth, from the second on. Its trials name runs that are not there.
@@ -115,12 +155,12 @@ void eventsCommand(const EventsCommand& command) {
   if (command.pieces.device != "auto") options.fixed.push_back("run.device=" + command.pieces.device);
   if (command.pieces.threads > 0) options.fixed.push_back(fmt::format("run.threads={}", command.pieces.threads));
   const fs::path folder = folderOf(command);
-  const bool goesOn = command.pieces.resume || !command.pieces.part.empty();
+  const bool goesOn = command.pieces.resume || !command.pieces.part.empty() || isOfThisCall(folder, command.options);
   std::error_code unreadable;
   if (!command.plan && !command.force && !goesOn && fs::is_directory(folder, unreadable) &&
       !fs::is_empty(folder, unreadable))
-    throw base::InputError(fmt::format("{}: the folder is not empty; go on there with --resume, name another with "
-                                       "--out, or run all of it again with --force",
+    throw base::InputError(fmt::format("{}: the folder holds something else than the runs of this command; go on there "
+                                       "with --resume, name another with --out, or run all of it again with --force",
                                        folder.string()));
   if (!command.plan) output::checkOutputFolder(folder, command.force || goesOn);
   const EventPlan plan = planEvents(options);
@@ -136,6 +176,7 @@ void eventsCommand(const EventsCommand& command) {
   sweep.folder = folder, sweep.jobs = command.jobs, sweep.seconds = command.pieces.seconds;
   sweep.force = command.force, sweep.failuresStay = true, sweep.shared = !command.pieces.part.empty();
   const sweeps::SweepPlan mine = partOf(plan.sweep, command.pieces.part);
+  keepCall(folder, command.options);
   const auto outcomes = sweeps::runMissing(mine, sweep, "events", [](const std::vector<sweeps::SweepOutcome>&) {});
   if (!command.pieces.part.empty()) {
     fmt::print("part      {} of the runs; a call with --resume and without --part writes the tables\n",

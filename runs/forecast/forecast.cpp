@@ -91,6 +91,7 @@ public:
     const Stopwatch all;
     findBed();
     const bool sound = step();
+    f_.cuts = simulation::cutReports(*simulation_);
     if (sound) output_ = options_.timeOutput(*simulation_, exec_, scratch(), scene_.output.plots); // it steps once more
     if (sound) output();
     if (sound) prepare();
@@ -363,7 +364,12 @@ Forecast forecastOf(const scene::Scene& scene, const CountedGrains& counted, con
 }
 
 std::string forecastText(const Forecast& f) {
-  std::string text = fmt::format("\nto expect on {}, by a probe of {}\n", f.onDevice, time(f.spent));
+  std::string text = f.cuts.empty() ? "" : "\nmeshes as spheres\n";
+  for (const spheredecomp::CutReport& cut : f.cuts) text += fmt::format("  {}\n", spheredecomp::protrusionLine(cut));
+  for (const spheredecomp::CutReport& cut : f.cuts)
+    if (const std::string warning = spheredecomp::protrusionWarning(cut); !warning.empty())
+      text += fmt::format("\nWARNING: {}\n", warning);
+  text += fmt::format("\nto expect on {}, by a probe of {}\n", f.onDevice, time(f.spent));
   text += partsText("preparation", f.preparation);
   text += partsText("steps", f.steps);
   text += partsText("output", f.output);

@@ -63,6 +63,7 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
   const auto all = static_cast<double>(grains);
   const double share = static_cast<double>(ranksOnHost) / ranks;
   Demand demand;
+  demand.grains = all;
   const double lists = grains > 0 ? all * setup::grainMemory(scene).most() : 0;
   // Every rank has the places that all grains begin at; then its own state, to save.
   const double start = all * static_cast<double>(sizeof(terrain::GrainSpec) + sizeof(base::Position));
@@ -98,8 +99,9 @@ Room roomOf(const base::Exec& exec, const fs::path& folder, bool overwritten) {
 std::string misfit(const Demand& demand, const Room& room) {
   std::vector<std::string> lacks;
   if (room.process && demand.process > *room.process)
-    lacks.push_back(fmt::format("it takes about {} of memory, and {} are free: use fewer or larger grains, more hosts "
+    lacks.push_back(fmt::format("{} about {} of memory, and {} are free: use fewer or larger grains, more hosts "
                                 "(mpirun), or end what else runs here",
+                                demand.grains > 0 ? fmt::format("its {:.3g} grains take", demand.grains) : "it takes",
                                 size(demand.process), size(*room.process)));
   if (room.device && demand.device > *room.device)
     lacks.push_back(fmt::format("its grains take about {} of each GPU, and {} are free: use fewer or larger grains, "

@@ -18,6 +18,7 @@ struct Demand {
   double process = 0;                          ///< memory of all its processes on this host together
   double device = 0;                           ///< of the GPU of one rank; 0 on a CPU
   double frames = 0, checkpoint = 0, rows = 0; ///< on the disk, at its end; tables and picture among the rows
+  double grains = 0;                           ///< [-] that it is of
   double disk() const { return frames + checkpoint + rows; }
 };
 

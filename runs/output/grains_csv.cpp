@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/grains_csv.hpp"
 
+#include "base/rounded.hpp"
 #include "runs/support/not_written.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -69,11 +70,12 @@ void GrainsCsv::add(std::int64_t step, double time, const terrain::Grains& grain
   const auto velocity = onFirst(mine.velocity, comm_), spin = onFirst(mine.spin, comm_);
   const auto radius = onFirst(mine.radius, comm_); // empty where all are alike
   if (!comm_.first()) return;
+  const double at = base::nearestDecimal(time);
   for (std::size_t i = 0; i < position.size(); ++i) {
     const auto& p = position[i];
     const auto &v = velocity[i], &w = spin[i];
-    file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", step, time, id[i], p.x, p.y, p.z, v.x, v.y, v.z,
-                         w.x, w.y, w.z, radius.empty() ? grains.model().radius : static_cast<double>(radius[i]));
+    file_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", step, at, id[i], p.x, p.y, p.z, v.x, v.y, v.z, w.x,
+                         w.y, w.z, radius.empty() ? grains.model().radius : static_cast<double>(radius[i]));
   }
   file_.flush();
   check();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/manifest.hpp"
 
+#include "base/rounded.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/text_file.hpp"
@@ -73,10 +74,10 @@ void Manifest::write(RunStatus status) const {
   json["machine"] = support::machineText();
   json["started"] = started_;
   for (const auto& [key, text] : notes_) json[key] = text;
-  if (status == RunStatus::finished) {
+  if (hasEnded(status)) {
     json["ended"] = now();
     json["steps"] = summary_.steps;
-    json["simulated_time_s"] = summary_.simulatedTime;
+    json["simulated_time_s"] = base::nearestDecimal(summary_.simulatedTime);
     json["wall_time_s"] = summary_.wallTime;
     if (!summary_.stateHash.empty()) json["state_hash"] = summary_.stateHash;
     for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
@@ -86,7 +87,7 @@ void Manifest::write(RunStatus status) const {
   try {
     support::replaceTextFile(path_, text, kRoom);
   } catch (const std::exception&) {
-    if (status == RunStatus::running || status == RunStatus::finished) throw;
+    if (status == RunStatus::running || hasEnded(status)) throw;
     support::overwriteTextFile(path_, text);
   }
 }

@@ -2,19 +2,20 @@
 #include "runs/output/output.hpp"
 
 #include "base/error.hpp"
+#include "base/rounded.hpp"
 #include "runs/output/frames_file.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/not_written.hpp"
+#include "runs/support/output_place.hpp"
 #include "runs/support/sealed_file.hpp"
 #include "runs/support/shared_folder.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <optional>
@@ -75,24 +76,9 @@ std::string dotted(std::string path) {
 } // namespace
 
 void checkOutputFolder(const fs::path& folder, bool force) {
+  support::requireFolder(folder);
   std::error_code error;
-  if (!fs::exists(folder, error)) {
-    // It will be made when the results begin; find out now whether it can be.
-    fs::path above = fs::absolute(folder, error).parent_path();
-    while (!above.empty() && above != above.root_path() && !fs::exists(above, error)) above = above.parent_path();
-    if (!fs::is_directory(above, error) || access(above.c_str(), W_OK) != 0)
-      throw base::InputError(
-          fmt::format("{}: cannot be made, since nothing may be written in {}; name another with --out",
-                      folder.string(), above.string()));
-    return;
-  }
-  if (!fs::is_directory(folder, error))
-    throw base::InputError(
-        fmt::format("{}: is a file, where the results' folder should be; name another with --out", folder.string()));
-  if (access(folder.c_str(), W_OK) != 0)
-    throw base::InputError(
-        fmt::format("{}: nothing may be written in this folder; name another with --out", folder.string()));
-  if (!force && !fs::is_empty(folder, error))
+  if (!force && fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw base::InputError(fmt::format(
         "{}: the folder is not empty; name another with --out, {}or overwrite it with --force", folder.string(),
         fs::exists(folder / simulation::kCheckpointName, error) ? "go on with --resume, " : ""));
@@ -199,7 +185,7 @@ struct RunWriter::Series {
   }
 
   void writeCsvRow(const Row& row) {
-    std::string line = fmt::format("{},{}", row.step, row.time);
+    std::string line = fmt::format("{},{}", row.step, base::nearestDecimal(row.time));
     const double* number = row.values.data();
     for (const Channel& c : channels) {
       if (c.width == 1 || !c.columns.empty())
@@ -339,7 +325,8 @@ void RunWriter::finish(const Summary& summary) {
   w.series->results.attribute("/", "state_hash", summary.stateHash);
   w.series->results.flush();
   w.series->manifest.add(summary);
-  w.series->manifest.write(RunStatus::finished);
+  if (!summary.incomplete.empty()) w.series->manifest.note("incomplete", summary.incomplete);
+  w.series->manifest.write(summary.incomplete.empty() ? RunStatus::finished : RunStatus::incomplete);
 }
 
 void RunWriter::abandon(const std::string& reason) {

@@ -27,10 +27,17 @@ std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const HalfSpace& h
   return kept;
 }
 
-base::TriangleMesh meshOf(const setup::DrawnPlanes& drawn, const std::vector<std::size_t>& planes) {
+constexpr double kFloor = 0.9;      ///< z of the normal of a plane that is a floor, at least
+constexpr double kFarOverRoom = 12; ///< so far a floor goes on beyond the room: to where no camera looks
+
+bool isFloor(const setup::DrawnPlanes::Plane& plane) { return plane.normal.z > kFloor; }
+
+base::TriangleMesh meshOf(const setup::DrawnPlanes& drawn, const std::vector<std::size_t>& planes, bool far = false) {
   base::TriangleMesh mesh;
   if (planes.empty()) return mesh;
-  const auto& [all, low, high] = drawn;
+  const auto& [all, narrowLow, narrowHigh] = drawn;
+  const double reach = far ? kFarOverRoom * norm(narrowHigh - narrowLow) : 0;
+  const Vec3d low = narrowLow - Vec3d{reach, reach, 0}, high = narrowHigh + Vec3d{reach, reach, 0};
   std::vector<HalfSpace> spaces;
   for (const setup::DrawnPlanes::Plane& p : all) spaces.push_back({p.normal, p.offset});
   for (int a = 0; a < 3; ++a) {
@@ -43,9 +50,9 @@ base::TriangleMesh meshOf(const setup::DrawnPlanes& drawn, const std::vector<std
     const Vec3d n = spaces[k].normal,
                 along = base::normalized(cross(n, std::abs(n.z) < 0.9 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0}));
     const Vec3d across = cross(n, along), middle = n * spaces[k].offset;
-    const double far = 4 * norm(high - low) + norm(middle) + norm(high) + norm(low);
-    std::vector<Vec3d> polygon{middle + (along + across) * far, middle + (across - along) * far,
-                               middle - (along + across) * far, middle + (along - across) * far};
+    const double outside = 4 * norm(high - low) + norm(middle) + norm(high) + norm(low);
+    std::vector<Vec3d> polygon{middle + (along + across) * outside, middle + (across - along) * outside,
+                               middle - (along + across) * outside, middle + (along - across) * outside};
     for (std::size_t other = 0; other < spaces.size(); ++other)
       if (other != k) polygon = clipped(polygon, spaces[other]);
     for (std::size_t i = 2; i < polygon.size(); ++i) {
@@ -67,5 +74,16 @@ base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn) {
 }
 
 base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn, std::size_t plane) { return meshOf(drawn, {plane}); }
+
+base::TriangleMesh floorMesh(const setup::DrawnPlanes& drawn) {
+  std::vector<std::size_t> floors;
+  for (std::size_t k = 0; k < drawn.planes.size(); ++k)
+    if (drawn.planes[k].wall && isFloor(drawn.planes[k])) floors.push_back(k);
+  return meshOf(drawn, floors, true);
+}
+
+base::TriangleMesh floorMesh(const setup::DrawnPlanes& drawn, std::size_t plane) {
+  return meshOf(drawn, {plane}, isFloor(drawn.planes[plane]));
+}
 
 } // namespace grouser::output

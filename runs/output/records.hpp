@@ -18,7 +18,7 @@ namespace grouser::output {
 struct UndisturbedSurface {
   std::vector<double> x, y;   ///< of the nodes [m]
   std::vector<double> height; ///< [y, x] row by row [m]
-  std::string interpolation;  ///< between them: "bilinear" or "Catmull-Rom"
+  std::string interpolation;  ///< between them: "bilinear", "Catmull-Rom" or "monotone"
 };
 
 /// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
@@ -72,6 +72,7 @@ struct Summary {
   double simulatedTime{};                ///< [s]
   double wallTime{};                     ///< [s]
   std::string stateHash;                 ///< hexadecimal; empty where not taken
+  std::string incomplete;                ///< why a vehicle did not drive, or too little; empty where it is complete
   std::map<std::string, double> figures; ///< anything else worth keeping: "particle steps per second"
 };
 

@@ -110,7 +110,7 @@ std::vector<FileField> resultFields() {
       fieldOf(kSurfaceHeight, "[lines, columns]"),
       fieldOf(kSurfaceFinal, "[lines, columns]"),
       {std::string(kSurfaceHeight.path) + "@interpolation", "text", "", "",
-       "between the nodes: \"bilinear\" or \"Catmull-Rom\""}};
+       "between the nodes: \"bilinear\", \"Catmull-Rom\" or \"monotone\""}};
   for (const BedConstant& c : kBedConstants) fields.push_back(fieldOf(c.constant, "[1]"));
   for (const BedCurve& c : kBedCurves) fields.push_back(fieldOf(c.curve, "[n]"));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfHull()) add(fields, channelOf(q));

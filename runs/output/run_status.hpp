@@ -10,17 +10,19 @@ enum class RunStatus {
   pending, ///< of a sweep: not yet begun
   running,
   finished,
+  incomplete, ///< ended as well, but its vehicle never drove, or too little for figures
   failed,
   stopped ///< by a signal; can be resumed
 };
+
+/// Whether a run has come to its end, by itself and without a fault.
+constexpr bool hasEnded(RunStatus status) { return status == RunStatus::finished || status == RunStatus::incomplete; }
 
 } // namespace grouser::output
 
 template <> struct grouser::base::EnumWords<grouser::output::RunStatus> {
   using E = output::RunStatus;
-  static constexpr EnumWord<E> list[] = {{E::pending, "pending"},
-                                         {E::running, "running"},
-                                         {E::finished, "finished"},
-                                         {E::failed, "failed"},
-                                         {E::stopped, "stopped"}};
+  static constexpr EnumWord<E> list[] = {{E::pending, "pending"},   {E::running, "running"},
+                                         {E::finished, "finished"}, {E::incomplete, "incomplete"},
+                                         {E::failed, "failed"},     {E::stopped, "stopped"}};
 };

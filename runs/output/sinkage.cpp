@@ -2,6 +2,7 @@
 #include "runs/output/sinkage.hpp"
 
 #include "base/error.hpp"
+#include "base/rounded.hpp"
 #include "runs/output/channels.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/text_file.hpp"
@@ -32,15 +33,19 @@ struct Tracks {
   std::vector<double> time;
 };
 
-Tracks readSinkage(const std::filesystem::path& results) {
+/// Of `side`, "left" or "right"; empty: of both.
+Tracks readSinkage(const std::filesystem::path& results, const std::string& chosen) {
   const support::Hdf5File file = support::Hdf5File::open(results);
   if (file.text("/", "creator") != "grouser")
     throw base::InputError(
         fmt::format("{}: was not written by grouser; give the results.h5 of a run", results.string()));
   Tracks read;
+  bool any = false;
   for (const std::string side : {"left", "right"}) {
     const std::string group = fmt::format("/{}", shoeSinkage(side));
     if (!file.has(group + "/value")) continue;
+    any = true;
+    if (!chosen.empty() && side != chosen) continue;
     read.time = file.numbers(group + "/time");
     read.tracks.push_back({side, file.shape(group + "/value").back(), file.numbers(group + "/value")});
     if (read.tracks.back().values.size() != read.time.size() * read.tracks.back().shoes)
@@ -48,6 +53,8 @@ Tracks readSinkage(const std::filesystem::path& results) {
           fmt::format("{}: {} has another length than its times; the file is damaged, run the scene again",
                       results.string(), group));
   }
+  if (any && read.tracks.empty())
+    throw base::InputError(fmt::format("--track {}: {} has no such track", chosen, results.string()));
   if (read.tracks.empty())
     throw base::InputError(fmt::format(
         "{}: has no sinkage, for its scene has no vehicle; give the results of one that has", results.string()));
@@ -92,8 +99,8 @@ std::vector<int> shoesNamed(const std::string& list) {
   return shoes;
 }
 
-void requireShoes(const std::filesystem::path& results, const std::vector<int>& shoes) {
-  for (const Track& t : readSinkage(results).tracks)
+void requireShoes(const std::filesystem::path& results, const std::vector<int>& shoes, const std::string& track) {
+  for (const Track& t : readSinkage(results, track).tracks)
     for (const int s : shoes)
       if (static_cast<std::size_t>(s) >= t.shoes)
         throw base::InputError(fmt::format("--shoes: there is no shoe {}; the {} track of {} has shoes 0 to {}", s,
@@ -101,20 +108,20 @@ void requireShoes(const std::filesystem::path& results, const std::vector<int>& 
 }
 
 std::filesystem::path writeSinkageCsv(const std::filesystem::path& results, const std::filesystem::path& folder,
-                                      const std::vector<int>& shoes) {
-  const Tracks read = readSinkage(results);
+                                      const std::vector<int>& shoes, const std::string& track) {
+  const Tracks read = readSinkage(results, track);
   const auto chosen = [&](const Track& t) {
     std::vector<std::size_t> list(shoes.begin(), shoes.end());
     if (shoes.empty())
       for (std::size_t s = 0; s < t.shoes; ++s) list.push_back(s);
     return list;
   };
-  if (!shoes.empty()) requireShoes(results, shoes);
+  if (!shoes.empty()) requireShoes(results, shoes, track);
   std::string text = "time [s]";
   for (const Track& t : read.tracks)
     for (const std::size_t s : chosen(t)) text += fmt::format(",{} {} [m]", t.side, s);
   for (std::size_t row = 0; row < read.time.size(); ++row) {
-    text += fmt::format("\n{}", read.time[row]);
+    text += fmt::format("\n{}", base::nearestDecimal(read.time[row]));
     for (const Track& t : read.tracks)
       for (const std::size_t s : chosen(t)) text += fmt::format(",{}", t.values[row * t.shoes + s]);
   }

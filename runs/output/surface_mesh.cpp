@@ -55,7 +55,7 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
 
 } // namespace
 
-TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface) {
+TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface, bool endless) {
   if (surface.mesh) return surface.mesh->mesh();
   const Vec3d& half = surface.geometry.half;
   switch (surface.geometry.shape) {
@@ -67,7 +67,7 @@ TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceS
   case SurfaceShape::plane:
     break;
   }
-  TriangleMesh mesh = planeMesh(planes, surface.number);
+  TriangleMesh mesh = endless ? floorMesh(planes, surface.number) : planeMesh(planes, surface.number);
   for (Vec3d& v : mesh.vertices) {
     v = surface.start.toBody(v);
     if (surface.aboveBed) v.z = 0; // where it was drawn nobody knew its height

@@ -8,7 +8,8 @@
 namespace grouser::output {
 
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
-/// cylinder shows its inside.
-base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface);
+/// cylinder shows its inside. `endless`: a floor goes on as far as one sees.
+base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface,
+                               bool endless = false);
 
 } // namespace grouser::output

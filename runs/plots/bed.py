@@ -8,8 +8,8 @@ def plot(run):
     distance, radial = run.field("terrain/bed/distance"), run.field("terrain/bed/radial_distribution")
     if depth is None or len(depth) == 0:
         return None
-    figure = drawing.Figure(figsize=(8.0, 3.6))
-    left, right = figure.subplots(1, 2)
+    # A bed of few layers has no radial distribution.
+    figure, (left, *rest) = drawing.panels(2 if len(distance) > 0 else 1)
     bulk = run.get("terrain/bed/porosity")
     left.plot(porosity, 1000 * depth, color="tab:brown")
     left.axvline(bulk, color="black", linestyle=":", linewidth=1, label=f"bulk {bulk:.3f}")
@@ -17,14 +17,12 @@ def plot(run):
     left.set_ylabel("depth below the surface [mm]")
     left.set_xlim(0, 1)
     left.invert_yaxis()
-    left.legend()
-    if len(distance) > 0:
+    drawing.legend_above(left)
+    for right in rest:
         right.plot(distance, radial, color="tab:brown")
-    else:
-        right.text(0.5, 0.5, "bed too thin", ha="center", transform=right.transAxes)
-    right.axhline(1, color="black", linestyle=":", linewidth=1)
-    right.set_xlabel("distance [mean diameters]")
-    right.set_ylabel("radial distribution [-]")
-    order = run.get("terrain/bed/order")
-    right.set_title(f"{100 * order:.1f} % of the grains in crystals", fontsize=9)
+        right.axhline(1, color="black", linestyle=":", linewidth=1)
+        right.set_xlabel("distance [mean diameters]")
+        right.set_ylabel("radial distribution [-]")
+        order = run.get("terrain/bed/order")
+        right.set_title(f"{100 * order:.1f} % of the grains in crystals", fontsize=9)
     return figure

@@ -55,7 +55,7 @@ def panel(axis, figure, check, costs):
     half = figure["seeds_half_width"]
     if check["seeds_matter"] and half is not None and share(half, value):
         axis.axhline(share(half, value), color="0.4", linestyle="--", linewidth=0.8,
-                     label=f"seeds, {figure['seeds']} of them")
+                     label=f"seeds ({figure['seeds']})")
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.margins(x=0.2)
@@ -94,13 +94,8 @@ def draw(check_path, costs_path):
         panels[row * columns].set_ylabel("error over value [-]")
     for axis in panels[:len(figures)][-columns:]:
         axis.set_xlabel("wall time of a run [s]")
-    entries = {}
-    for axis in panels[:len(figures)]:
-        entries.update(zip(*reversed(axis.get_legend_handles_labels())))
-    figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=5, fontsize=8, frameon=False)
     figure.suptitle(f"{pathlib.PurePath(check['scene']).name}: error against run time", fontsize=10)
-    below = 0.4 / (3.6 * rows + 0.8)  # room for the legend
-    figure.get_layout_engine().set(rect=(0, below, 1, 1 - below))
+    drawing.legend_below(figure, panels[:len(figures)])
     return figure
 
 

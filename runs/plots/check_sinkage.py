@@ -22,7 +22,10 @@ def surface_of(results):
     group = results["terrain/surface"]
     x, y, height = group["x"][:], group["y"][:], group["height"][:]
     smooth = group["height"].attrs["interpolation"]
-    smooth = (smooth.decode() if isinstance(smooth, bytes) else smooth) == "Catmull-Rom"
+    smooth = smooth.decode() if isinstance(smooth, bytes) else smooth
+    if smooth == "monotone":
+        sys.exit("the ground has terrain.interpolation = \"monotone\", which is not computed here; set \"smooth\"")
+    smooth = smooth == "Catmull-Rom"
 
     def along(nodes, v):
         """Index of the first of the nodes about v, and the weights of four."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all plots have in common: their style, the tables they read, and the frame of a script that draws one picture."""
 import csv
+import math
 import pathlib
 import re
 import sys
@@ -9,6 +10,7 @@ import packages
 
 packages.require("numpy", "matplotlib")
 import matplotlib
+from matplotlib import ticker
 from matplotlib.figure import Figure  # for the scripts, which need no import of their own
 
 matplotlib.use("Agg")
@@ -26,6 +28,67 @@ matplotlib.rcParams.update({
 
 EXIT_STATUS = """Exit status: 0 (also where there is nothing to draw), 2 where the words are wrong, 3 where a Python package is missing;
 its last line then says which."""
+
+
+NOTHING = 1e-30  # in SI units: what is smaller stands for 0
+LEAST_SPAN = 1e-9  # of the largest number at an axis: what varies less is constant but for rounding
+
+
+class Ticks(ticker.Formatter):
+    """Each number at an axis as a whole: no offset or power of ten that stands apart from it."""
+
+    def __call__(self, value, _=None):
+        most = max((abs(v) for v in self.locs), default=abs(value))
+        step = min((b - a for a, b in zip(self.locs, self.locs[1:])), default=most) or most
+        if abs(value) <= 1e-6 * step:
+            return "0"
+        power = 0 if 1e-4 <= most < 1e6 else math.floor(math.log10(abs(value)) + 1e-9)
+        value, step = value / 10.0**power, step / 10.0**power
+        digits = next((d for d in range(12) if abs(step - round(step, d)) < 1e-3 * step), 12)
+        text = f"{value:.{digits}f}".replace("-", "\u2212")
+        return text if power == 0 else f"{text}e{power}".replace("e-", "e\u2212")
+
+
+def save(figure, path, dpi):
+    """Writes a picture whose linear axes are readable: their numbers whole, and none finer than rounding."""
+    for axes in figure.axes:
+        for axis, limits, widen in ((axes.xaxis, axes.get_xlim, axes.set_xlim), (axes.yaxis, axes.get_ylim, axes.set_ylim)):
+            if axis.get_scale() != "linear" or not isinstance(axis.get_major_formatter(), ticker.ScalarFormatter):
+                continue
+            low, high = limits()
+            most = max(abs(low), abs(high))
+            if most < NOTHING:
+                widen(-0.05, 0.05)
+            elif abs(high - low) < LEAST_SPAN * most:
+                widen(low - 1e-3 * most, high + 1e-3 * most)
+            axis.set_major_formatter(Ticks())
+    figure.savefig(path, dpi=dpi)
+
+
+def legend_above(axes, columns=3, size=8):
+    """A legend that covers no curve and names each label once; none without labels."""
+    lines, labels = axes.get_legend_handles_labels()
+    once = dict(zip(labels, lines))
+    if once:
+        axes.legend(once.values(), once.keys(), loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=columns, fontsize=size)
+
+
+def legend_below(figure, axes):
+    """One legend of all panels, below them; none without labels."""
+    entries = {}
+    for one in axes:
+        entries.update(zip(*reversed(one.get_legend_handles_labels())))
+    if entries:
+        columns = max(1, min(len(entries), int(14 * figure.get_figwidth() / max(6, *map(len, entries)))))
+        legend = figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=columns, fontsize=8)
+        below = 0.2 * math.ceil(len(entries) / columns) / figure.get_figheight()
+        legend.set_in_layout(False)
+        figure.get_layout_engine().set(rect=(0, below, 1, 1 - below))
+
+
+def counted(number, one):
+    """"1 seed", "3 seeds"."""
+    return f"{number} {one}" + ("" if number == 1 else "s")
 
 
 def rows(path):
@@ -51,14 +114,6 @@ def panels(count):
     return figure, figure.subplots(1, count, squeeze=False)[0]
 
 
-def legend_once(axis, size):
-    """A legend that names each label once; none without labels."""
-    lines, labels = axis.get_legend_handles_labels()
-    if labels:
-        once = dict(zip(labels, lines))
-        axis.legend(once.values(), once.keys(), fontsize=size)
-
-
 def words(help_text, right):
     """The words behind the name of the script, where `right(words)`; ends the program with its help where not."""
     given = sys.argv[1:]
@@ -74,4 +129,4 @@ def main(help_text, draw, files=1, dpi=90):
     *inputs, picture = words(help_text, lambda given: len(given) == files + 1)
     figure = draw(*inputs)
     if figure is not None:
-        figure.savefig(picture, dpi=dpi)
+        save(figure, picture, dpi)

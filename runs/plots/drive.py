@@ -31,15 +31,14 @@ def plot(run):
         if series.finite(joints):
             tension.fill_between(run.time, joints.min(axis=1), joints.max(axis=1), color=colour, alpha=0.2, linewidth=0)
             tension.plot(run.time, numpy.mean(joints, axis=1), color=colour, linewidth=width,
-                         label=f"{side}: mean, and from least to largest")
+                         label=f"{side}: mean and range over its pins")
         drive_torque = run.get(f"vehicle/{side}/drive_torque")
         if drive_torque is not None:
-            torque.plot(run.time, drive_torque, color=colour, linewidth=width, label=side)
+            torque.plot(run.time, drive_torque, color=colour, linewidth=width, label=f"{side} sprocket")
     speed.set_ylabel("speed [m/s]")
     tension.set_ylabel("track tension [N]")
-    torque.set_ylabel("drive torque [N m]")
+    torque.set_ylabel("drive torque of each sprocket [N m]")
     torque.set_xlabel("time [s]")
     for axis in (speed, tension, torque):
-        if axis.get_legend_handles_labels()[0]:
-            axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, fontsize=9)
+        drawing.legend_above(axis, 2, 9)
     return figure

@@ -10,7 +10,7 @@ import math
 import drawing
 
 PANELS = (("drawbar pull [N]", 1e-3, "drawbar pull [kN]"), ("motion resistance [N]", 1e-3, "motion resistance [kN]"),
-          ("sinkage mean [m]", 1e3, "mean sinkage [mm]"), ("drive torque [N m]", 1e-3, "drive torque [kN m]"))
+          ("sinkage mean [m]", 1e3, "mean sinkage [mm]"), ("drive torque [N m]", 1e-3, "drive torque,\nboth sprockets [kN m]"))
 
 
 def draw(path):
@@ -25,12 +25,13 @@ def draw(path):
                         if f["name"] == name)
         if points:
             slips, means, halves = zip(*points)
-            bars = [factor * half if half is not None and math.isfinite(half) else 0 for half in halves]
-            axis.errorbar(slips, [factor * mean for mean in means], yerr=bars, marker="o", markersize=4, capsize=3)
+            bars = [factor * half if half is not None and math.isfinite(half) else math.nan for half in halves]
+            axis.errorbar(slips, [factor * mean for mean in means], yerr=bars if any(map(math.isfinite, bars)) else None, marker="o", markersize=4,
+                          capsize=3)
         axis.set_ylabel(label)
         axis.set_xlabel("slip [-]")
         axis.set_xlim(left=0)
-    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {results['seeds']} seeds, commit {results['commit']}",
+    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {drawing.counted(results['seeds'], 'seed')}, commit {results['commit']}",
                     fontsize=9)
     return figure
 

@@ -11,6 +11,7 @@ import drawing
 
 COLOURS = {"go": "#4c956c", "partly": "#e0a030", "no-go": "#b23a48"}
 FIGURES = ("speed [m/s]", "slip [-]", "sinkage mean [m]", "motion resistance [N]", "drive torque [N m]")
+LABELS = {"sinkage mean [m]": "mean sinkage [m]", "drive torque [N m]": "drive torque,\nboth sprockets [N m]"}
 
 
 def word(row):
@@ -26,7 +27,7 @@ def limits(axis, rows):
     """Marks of each level in the order of the events."""
     for place, row in enumerate(rows):
         axis.barh(place, 1, color=COLOURS.get(word(row), "#bbbbbb"))
-        text = axis.text(0.02, place, f"{row['verdict']}: {row['why']}", va="center", fontsize=7, color="white",
+        text = axis.text(0.02, place, ": ".join(filter(None, (row["verdict"], row["why"]))), va="center", fontsize=7, color="white",
                          clip_on=True)
         text.set_in_layout(False)  # messages of runs that failed are longer than any figure is wide
     axis.set_yticks(range(len(rows)), [label(row) for row in rows], fontsize=7)
@@ -40,11 +41,11 @@ def figure_of(axis, rows, name):
     found = [(place, f["mean"], f["half_width"]) for place, row in enumerate(rows) for f in row["figures"]
              if f["name"] == name]
     for place, mean, half in found:
-        bar = half if half is not None and math.isfinite(half) else 0
+        bar = half if half is not None and math.isfinite(half) else None
         axis.errorbar(mean, place, xerr=bar, fmt="o", markersize=4, capsize=3, color="C0")
     axis.set_yticks(range(len(rows)), [""] * len(rows))
     axis.set_ylim(len(rows) - 0.5, -0.5)
-    axis.set_xlabel(name, fontsize=8)
+    axis.set_xlabel(LABELS.get(name, name), fontsize=8)
     axis.tick_params(axis="x", labelsize=7)
     return bool(found)
 
@@ -61,7 +62,7 @@ def draw(path):
     limits(axes[0], rows)
     for axis, name in zip(axes[1:], names):
         figure_of(axis, rows, name)
-    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {results['seeds']} seeds, commit {results['commit']}",
+    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {drawing.counted(results['seeds'], 'seed')}, commit {results['commit']}",
                     fontsize=9)
     return figure
 

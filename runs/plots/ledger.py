@@ -22,9 +22,8 @@ def plot(run):
     energy, rest = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for values, label, colour in terms:
         energy.plot(run.time, values, color=colour, label=label)
-    energy.set_title("Changes since the first step of the run")
-    energy.set_ylabel("change of energy [J]")
-    energy.legend(loc="upper left")
+    energy.set_ylabel("change of energy since the first step [J]")
+    drawing.legend_above(energy, 5)
     error = run.get("ledger/integration_error")
     if series.finite(error):
         rest.plot(run.time, error, color="tab:purple")

@@ -7,6 +7,7 @@ import drawing
 import series
 
 MOST_BODIES = 12
+ROUND_OFF = 1e-18  # of joints' errors: what is smaller is closed to the last bit
 AXES = "xyz"
 TERMS = (("kinetic", "kinetic", "tab:blue"), ("potential", "potential", "tab:green"), ("elastic", "elastic", "tab:orange"),
          ("dissipated", "dissipated", "tab:red"), ("drive_work", "work of the drives", "black"))
@@ -24,8 +25,9 @@ def paths(axis, bodies):
     axis.set_xlabel(f"{AXES[across]} [m]")
     axis.set_ylabel(f"{AXES[up]} [m]")
     left_out = len(bodies) - MOST_BODIES
-    axis.set_title("paths of the centres" + (f" (the first {MOST_BODIES}, {left_out} more)" if left_out > 0 else ""), fontsize=10)
-    axis.legend(fontsize=7)
+    axis.set_title("paths of the centres of mass" + (f": {MOST_BODIES} of {len(bodies)} bodies" if left_out > 0 else ""),
+                   fontsize=10)
+    axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def plot(run):
@@ -37,25 +39,22 @@ def plot(run):
     paths(where, bodies)
     for name, label, colour in TERMS:
         values = run.get(f"ledger/{name}")
-        if series.finite(values) and numpy.any(values):
+        if series.finite(values) and numpy.nanmax(numpy.abs(values)) > drawing.NOTHING:
             energy.plot(run.time, values, color=colour, label=label)
-    energy.set_title("changes of energy since the start", fontsize=10)
-    energy.set_ylabel("[J]")
-    if energy.get_legend_handles_labels()[0]:
-        energy.legend(fontsize=7)
+    energy.set_ylabel("change of energy since the start [J]")
+    drawing.legend_above(energy)
     rest.plot(run.time, run.get("ledger/integration_error"), color="tab:purple")
-    rest.set_title("integration error: lost by the length of the steps", fontsize=10, loc="right")
-    rest.set_ylabel("[J]")
+    rest.set_ylabel("integration error [J]")
     for name, label in (("position_error", "gap [m, rad]"), ("velocity_error", "opening rate [m/s, rad/s]")):
         values = run.get(f"constraints/{name}")
-        if series.finite(values) and (values > 0).any():
-            gap.semilogy(run.time, numpy.where(values > 0, values, numpy.nan), label=label)
-    gap.set_title("joints: largest opening since the row before", fontsize=10)
+        if series.finite(values) and (values >= ROUND_OFF).any():
+            gap.semilogy(run.time, numpy.where(values >= ROUND_OFF, values, numpy.nan), label=label)
     if gap.get_legend_handles_labels()[0]:
-        gap.legend(fontsize=7)
-    else:
-        gap.set_yticks([])
-        gap.text(0.5, 0.5, "closed to the last bit", transform=gap.transAxes, ha="center", va="center")
-    for axis in (energy, rest, gap):
+        gap.set_ylabel("largest joint error since the last row")
+        drawing.legend_above(gap)
+    else:  # closed to the last bit
+        gap.remove()
+    for axis in (energy, rest, *([gap] if gap.figure else [])):
         axis.set_xlabel("time [s]")
+        axis.set_xlim(run.time[0], max(run.time[-1], run.time[0] + 1e-9))
     return figure

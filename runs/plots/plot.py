@@ -30,8 +30,8 @@ def main():
             figure = PLOTS[name](run)
             if figure is not None:
                 if run.text("soil_meets") not in ("", "all"):
-                    figure.text(0.995, 0.003, f"soil meets {run.text('soil_meets')} alone", fontsize=7, ha="right")
-                figure.savefig(pathlib.Path(folder) / f"{name}.png", dpi=150)
+                    figure.text(0.995, 0.995, f"soil contact: track {run.text('soil_meets')} only", fontsize=7, ha="right", va="top")
+                drawing.save(figure, pathlib.Path(folder) / f"{name}.png", dpi=150)
 
 
 if __name__ == "__main__":

@@ -55,7 +55,7 @@ OFF_GROUND = {"linewidth": 0.9, "alpha": 0.5}
 
 def say_empty(axis):
     """Instead of curves."""
-    axis.text(0.5, 0.5, "no shoe on the ground run and carrying\nat any output time", ha="center", va="center",
+    axis.text(0.5, 0.5, "no shoe in ground contact\nat any output time", ha="center", va="center",
               transform=axis.transAxes)
 
 
@@ -69,26 +69,28 @@ def heights(run):
         say_empty(figure.subplots())
         return figure
     side, four = chosen
-    whole, close = figure.subplots(2, 1, sharex=True)
-    level = []
+    level = numpy.concatenate([pads[side][numpy.isfinite(sinkage[side][:, shoe]), shoe] for shoe in four])
+    margin = max(0.003, 0.6 * float(numpy.ptp(level)))
+    low, high = level.min() - margin, level.max() + margin
+    all_heights = pads[side][:, four]
+    # A close-up where the whole way is much higher than what is carried.
+    has_close = float(numpy.nanmax(all_heights) - numpy.nanmin(all_heights)) > 2 * (high - low)
+    panels = figure.subplots(1 + has_close, 1, sharex=True, squeeze=False)[:, 0]
+    whole = panels[0]
     for shoe in four:
         height, on_ground = pads[side][:, shoe], numpy.isfinite(sinkage[side][:, shoe])
-        (line,) = whole.plot(run.time, height, **OFF_GROUND)
-        for axis in (whole, close):
-            axis.plot(run.time, numpy.where(on_ground, height, numpy.nan), color=line.get_color(), **CARRYING,
-                      label=f"shoe {shoe}")
-        close.plot(run.time, height, color=line.get_color(), **OFF_GROUND)
-        level.append(height[on_ground])
-    level = numpy.concatenate(level)
-    margin = max(0.003, 0.6 * float(numpy.ptp(level)))
-    close.set_ylim(level.min() - margin, level.max() + margin)
+        colour = f"C{four.index(shoe)}"
+        for axis in panels:
+            axis.plot(run.time, height, color=colour, **OFF_GROUND)
+            axis.plot(run.time, numpy.where(on_ground, height, numpy.nan), color=colour, **CARRYING, label=f"shoe {shoe}")
     whole.set_ylabel("pad height [m]")
-    whole.set_title(f"Four consecutive shoes of the {side} track")
-    whole.legend(ncol=4, loc="upper left")
-    close.legend(handles=key_of((("on the ground run and carrying", CARRYING), ("off it", OFF_GROUND))), ncol=2,
-                 loc="lower center", bbox_to_anchor=(0.5, 1.0))
-    close.set_ylabel("pad height [m], close-up")
-    close.set_xlabel("time [s]")
+    figure.suptitle(f"Four consecutive shoes of the {side} track", fontsize=11)
+    shown = whole.get_legend_handles_labels()[0] + key_of((("in ground contact", CARRYING), ("off the ground", OFF_GROUND)))
+    whole.legend(handles=shown, ncol=6, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    if has_close:
+        panels[-1].set_ylim(low, high)
+        panels[-1].set_ylabel("pad height [m], close-up")
+    panels[-1].set_xlabel("time [s]")
     return figure
 
 
@@ -111,11 +113,11 @@ def sinkage(run):
             say_empty(axis)
             continue
         shoes = axis.plot(run.time, 1000 * values, color="tab:blue", alpha=0.25, linewidth=0.8)
-        shoes[0].set_label("single shoes on the ground run")
+        shoes[0].set_label("single shoes in ground contact")
         mean = numpy.full(len(run.time), numpy.nan)
         mean[some] = numpy.nanmean(values[some], axis=1)
         axis.plot(run.time, 1000 * mean, color="black", label="their mean")
-        for line in axis.legend(loc="lower right").get_lines():
+        for line in axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, fontsize=8).get_lines():
             line.set_alpha(1)
     axes[0].set_ylabel("sinkage [mm]")
     axes[0].invert_yaxis()

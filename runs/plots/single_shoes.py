@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Single shoes over time: single_shoes.py RESULTS.h5 [CONTROL.h5] SHOES FILE.png   with SHOES such as 10,11,12
+"""Single shoes over time: single_shoes.py RESULTS.h5 [CONTROL.h5] SHOES FILE.png   with SHOES such as 10,11,12, of one
+track left:10,11,12
 
-Heights of their pads, and their sinkage; those of a control run behind them, in grey. Times count from when the
-sprockets begin to turn, so that runs which rest for different times lie upon each other.
+Heights of their pads, and their sinkage, over the time of the run; those of a control run behind them, in grey, moved in
+time so that the sprockets of both begin to turn together.
 """
 import packages
 
@@ -12,6 +13,7 @@ import numpy
 
 import drawing
 import series
+from shoes import say_empty
 
 CARRYING = {"linewidth": 2.0}
 OFF_GROUND = {"linewidth": 0.8, "alpha": 0.5}
@@ -33,7 +35,7 @@ def surface_under(pads, sinkage):
 
 def draw_control(axes, run, control, side, shoes):
     """Its ground may lie at another height: its pads are moved by that."""
-    time = control.time - drive_begin(control)
+    time = control.time - drive_begin(control) + drive_begin(run)
     pads, sinkage = control.shoes("pad_height").get(side), control.shoes("sinkage").get(side)
     if sinkage is None:
         return
@@ -46,12 +48,12 @@ def draw_control(axes, run, control, side, shoes):
 
 def main():
     results, *others, chosen, file = drawing.words(__doc__, lambda given: len(given) in (3, 4))
+    *track, chosen = chosen.split(":")
     shoes = [int(shoe) for shoe in chosen.split(",")]
     with h5py.File(results, "r") as opened:
         run = series.Run(opened)
-        tracks = run.shoes("sinkage")
+        tracks = {side: values for side, values in run.shoes("sinkage").items() if side in track or not track}
         pads = run.shoes("pad_height")
-        begin = drive_begin(run)
         figure = drawing.Figure(figsize=(4.5 + 4.5 * (len(tracks) - 1), 6.5))
         columns = figure.subplots(2, len(tracks), sharex=True, sharey="row", squeeze=False).T
         for axes, (side, sinkage) in zip(columns, tracks.items()):
@@ -61,18 +63,20 @@ def main():
             for shoe in shoes:
                 on_ground = numpy.isfinite(sinkage[:, shoe])
                 height = pads[side][:, shoe]
-                (line,) = axes[0].plot(run.time - begin, height, **OFF_GROUND)
-                axes[0].plot(run.time - begin, numpy.where(on_ground, height, numpy.nan), color=line.get_color(),
+                (line,) = axes[0].plot(run.time, height, **OFF_GROUND)
+                axes[0].plot(run.time, numpy.where(on_ground, height, numpy.nan), color=line.get_color(),
                              **CARRYING)
-                axes[1].plot(run.time - begin, 1000 * sinkage[:, shoe], color=line.get_color(), label=f"shoe {shoe}",
+                axes[1].plot(run.time, 1000 * sinkage[:, shoe], color=line.get_color(), label=f"shoe {shoe}",
                              **CARRYING)
+            if not numpy.isfinite(sinkage[:, shoes]).any():
+                say_empty(axes[1])
             axes[0].set_title(f"{side} track")
-            axes[1].set_xlabel("time since the sprockets turn [s]")
-            axes[1].legend(loc="best", fontsize=8, ncol=2)
+            axes[1].set_xlabel("time [s]")
+            axes[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), fontsize=8, ncol=4)
         columns[0][1].invert_yaxis()
         columns[0][0].set_ylabel("height of the pad [m]")
         columns[0][1].set_ylabel("sinkage [mm]")
-        figure.savefig(file, dpi=150)
+        drawing.save(figure, file, dpi=150)
 
 
 if __name__ == "__main__":

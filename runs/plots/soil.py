@@ -80,7 +80,7 @@ def draw(plates, shear, results):
     if shear_rows:
         draw_shear(*axes[-2:], shear_rows, soil)
     for axis in axes:
-        drawing.legend_once(axis, 6)
+        drawing.legend_above(axis, 2, 6)
     care = " (coarse)" if soil["care"] == "coarse" else ""
     figure.suptitle(f"{soil['soil']}{care}, grains of {2e3 * soil['grain_radius_m']:g} mm", fontsize=9)
     return figure

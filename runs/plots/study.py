@@ -34,9 +34,9 @@ def draw(path):
         axis.tick_params(labelsize=7)
     for axis in panels[len(cases):]:
         axis.set_visible(False)
-    seen = {label: line for axis in panels for line, label in zip(*axis.get_legend_handles_labels())}
-    panels[0].legend(seen.values(), seen.keys(), fontsize=7)
-    figure.supxlabel("CPU time [s]", fontsize=9)
+    drawing.legend_below(figure, panels[:len(cases)])
+    for axis in panels[max(0, len(cases) - columns):len(cases)]:
+        axis.set_xlabel("CPU time [s]", fontsize=8)
     figure.supylabel("error [-]", fontsize=9)
     return figure
 

@@ -22,7 +22,7 @@ def draw(table, folder):
                           linewidth=0.5, color=f"C{cases.index(name)}", label=name)
         axis.set_xlabel("sinkage [mm]")
         axis.set_ylabel("force [N]")
-        drawing.legend_once(axis, 7)
+        drawing.legend_above(axis, 2, 7)
     return figure
 
 

@@ -22,7 +22,7 @@ def draw(table, folder):
                   label=f"rolling friction {rolling:g}, {stress / 1e3:g} kPa")
         right.plot(strain, [row["porosity [-]"] for row in rows], color=colour, linewidth=0.6)
     left.set_ylabel("shear / normal stress [-]")
-    drawing.legend_once(left, 6)
+    drawing.legend_above(left, 2, 6)
     right.set_ylabel("porosity [-]")
     for axis in (left, right):
         axis.set_xlabel("shear strain [-]")

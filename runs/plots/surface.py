@@ -5,6 +5,27 @@ import numpy
 
 import drawing
 
+LEFT, MAP, BAR = 0.9, 6.0, 1.1  # [inch] across
+BELOW, SECTION, GAP, ABOVE = 0.9, 1.7, 0.25, 0.4  # up
+
+
+def layout(wide, high):
+    """A figure with a map of so wide and high a place, true to scale, the section below it on the same x axis, and the
+    bar of its colours."""
+    height = min(9.0, max(0.6, MAP * high / wide))
+    width = min(MAP, height * wide / high)
+    across, up = LEFT + width + BAR, BELOW + SECTION + GAP + height + ABOVE
+    figure = drawing.Figure(figsize=(across, up))
+    figure.set_layout_engine("none")
+
+    def place(left, bottom, right, top, **more):
+        return figure.add_axes((left / across, bottom / up, (right - left) / across, (top - bottom) / up), **more)
+
+    bottom = BELOW + SECTION + GAP
+    plan = place(LEFT, bottom, LEFT + width, bottom + height)
+    section = place(LEFT, BELOW, LEFT + width, BELOW + SECTION, sharex=plan)
+    return figure, plan, section, place(LEFT + width + 0.15, bottom, LEFT + width + 0.3, bottom + height)
+
 
 def plot(run):
     field = run.field("terrain/surface/height")
@@ -13,29 +34,30 @@ def plot(run):
     if field is None or way is None:
         return None
     final = run.field("terrain/surface/final_height")
-    figure = drawing.Figure(figsize=(8.0, 6.0))
-    plan, section = figure.subplots(2, 1, gridspec_kw={"height_ratios": [2, 1]})
+    figure, plan, section, bar = layout(float(x[-1] - x[0]), float(y[-1] - y[0]))
     shown = field if final is None else final - field
+    plan.grid(False)
+    bar.grid(False)
     if final is None:
         mesh = plan.pcolormesh(x, y, 1000 * shown, shading="gouraud", cmap="terrain", rasterized=True)
     else:
         most = 1000 * float(numpy.percentile(numpy.abs(shown), 99.5)) + 1e-3
         mesh = plan.pcolormesh(x, y, 1000 * shown, shading="gouraud", cmap="RdBu", vmin=-most, vmax=most, rasterized=True)
     plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label="middle of the sprockets' axle")
-    plan.set_aspect("equal")
+    plan.tick_params(labelbottom=False)
     plan.set_ylabel("y [m]")
-    plan.grid(False)
-    plan.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0))
-    figure.colorbar(mesh, ax=plan, label="undisturbed surface [mm]" if final is None else "rise of the surface [mm]")
+    drawing.legend_above(plan)
+    figure.colorbar(mesh, cax=bar, label="undisturbed surface [mm]" if final is None else "rise of the surface [mm]")
     row = int(numpy.argmin(numpy.abs(y - way[0, 1])))
     if final is not None:
         # Through the deepest rut.
         row = int(numpy.argmin(shown.mean(axis=1)))
         section.plot(x, 1000 * final[row], color="black", linewidth=1.0, label="at the end")
     section.plot(x, 1000 * field[row], color="tab:brown", label="undisturbed")
-    section.set_xlim(x[0], x[-1])
+    plan.set_xlim(x[0], x[-1])
+    plan.set_ylim(y[0], y[-1])
     section.set_xlabel("x [m]")
     if final is not None:
-        section.legend(fontsize=8)
-    section.set_ylabel(f"height at y = {y[row]:.2f} m [mm]")
+        section.legend(loc="upper center", bbox_to_anchor=(0.5, -0.26), ncol=2, fontsize=8)
+    section.set_ylabel(f"height [mm]\nat y = {y[row]:.2f} m")
     return figure

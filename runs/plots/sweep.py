@@ -6,7 +6,7 @@ with bars, half of the 95 % interval over the seeds to either side.
 """
 import drawing
 
-# (axis label, factor, columns with their line style and name)
+# (axis label, factor, columns with their line style and name, which stand above the panel where there are two)
 PANELS = (
     ("sinkage [mm]", 1000, (("sinkage mean [m]", "-", "mean"), ("sinkage max [m]", "--", "deepest shoe"))),
     ("slip [-]", 1, (("slip [-]", "-", ""),)),
@@ -68,13 +68,12 @@ def draw(path):
                 if not line:
                     continue
                 x, y, half = zip(*line)
-                text = ", ".join(filter(None, (name, part)))
                 axis.errorbar(x, y, yerr=half if intervals else None, capsize=3, marker="o",
                               markersize=4, linestyle=style if numeric else "none", color=f"C{index % 10}",
-                              markerfacecolor=None if style == "-" else "none", label=text or None)
+                              markerfacecolor=None if style == "-" else "none", label=name if style == "-" and name else None)
         axis.set_ylabel(label)
-        if axis.get_legend_handles_labels()[0]:
-            axis.legend(fontsize=8)
+        if len(columns) > 1:
+            axis.set_title(", ".join(f"{'filled' if style == '-' else 'open'}: {part}" for _, style, part in columns), fontsize=8)
         if not numeric:
             axis.set_xticks(range(len(words)), words)
             axis.margins(x=0.15)
@@ -82,6 +81,7 @@ def draw(path):
         axis.set_xlabel(keys[0])
     panels[0].invert_yaxis()
     figure.suptitle(NOTES[intervals], fontsize=9)
+    drawing.legend_below(figure, panels)
     return figure
 
 

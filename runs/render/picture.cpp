@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kAzimuth = -55;      ///< [deg] of the camera
 constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
+constexpr double kWholeBed = 1.5;     ///< of the distance to a vehicle, from which the whole bed is seen
+constexpr double kBackground = 6;     ///< times as large as all else: a floor without an end, no camera shows it whole
 constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
 constexpr double kAspect = 16.0 / 9;
 constexpr int kScaleColours = 256;
@@ -98,6 +100,24 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 
 namespace {
 
+/// With the corners of those surfaces that are no background: from the smallest on.
+std::vector<Ball> withSurfaces(std::vector<Ball> seen, std::vector<std::vector<Vec3d>> surfaces) {
+  const auto radiusOf = [](const std::vector<Vec3d>& corners) {
+    Box box;
+    for (const Vec3d& p : corners) box.take(p);
+    return box.radius();
+  };
+  Box all;
+  for (const Ball& ball : seen)
+    for (const double side : {-ball.radius, ball.radius}) all.take(ball.centre + Vec3d{side, side, side});
+  std::sort(surfaces.begin(), surfaces.end(), [&](const auto& a, const auto& b) { return radiusOf(a) < radiusOf(b); });
+  for (const std::vector<Vec3d>& corners : surfaces) {
+    if (!seen.empty() && radiusOf(corners) > kBackground * all.radius()) break;
+    for (const Vec3d& p : corners) seen.push_back({p, 0}), all.take(p);
+  }
+  return seen;
+}
+
 struct Drawn {
   Image image;
   Camera camera;
@@ -106,7 +126,9 @@ struct Drawn {
 Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& parts, const base::TriangleMesh& ground,
             int width) {
   RenderScene scene;
-  std::vector<base::Vec3f> vehicle, surfaces;
+  std::vector<base::Vec3f> vehicle;
+  std::vector<std::vector<Vec3d>> surfaces;
+  if (!ground.vertices.empty()) surfaces.push_back(ground.vertices);
   if (!frame.positions.empty()) {
     const auto [low, range] = heightScale(frame);
     for (std::size_t i = 0; i < frame.positions.size(); ++i) {
@@ -118,19 +140,28 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
     // A rigid surface is drawn from the side of the grains alone.
     const bool surface = parts[i].kind == output::PartKind::surface;
     scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface});
-    for (const Vec3d& v : parts[i].mesh.vertices)
-      (surface ? surfaces : vehicle).push_back(frame.partPoses[i].toWorld(v).as<float>());
+    std::vector<Vec3d> corners;
+    for (const Vec3d& v : parts[i].mesh.vertices) corners.push_back(frame.partPoses[i].toWorld(v));
+    if (surface)
+      surfaces.push_back(std::move(corners));
+    else
+      for (const Vec3d& v : corners) vehicle.push_back(v.as<float>());
   }
   if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, groundColour()});
   Camera camera;
   std::vector<Ball> seen;
+  if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
   if (!vehicle.empty()) {
-    camera = cameraOnParts(vehicle, kAzimuth, liesFlat(vehicle) ? kFlatElevation : kVehicleElevation, kAspect);
-  } else {
-    if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
-    for (const Vec3d& v : ground.vertices) seen.push_back({v, 0});
-    for (const base::Vec3f& v : surfaces) seen.push_back({v.as<double>(), 0});
-    if (!seen.empty()) camera = cameraAround(seen, kAzimuth, kBedElevation, kAspect);
+    const double elevation = liesFlat(vehicle) ? kFlatElevation : kVehicleElevation;
+    camera = cameraOnParts(vehicle, kAzimuth, elevation, kAspect);
+    // A bed little larger than the vehicle is seen whole; of a larger one no corner comes into view.
+    if (!seen.empty()) {
+      for (const base::Vec3f& v : vehicle) seen.push_back({v.as<double>(), 0});
+      const Camera whole = cameraAround(seen, kAzimuth, elevation, kAspect);
+      if (norm(whole.eye - whole.target) < kWholeBed * norm(camera.eye - camera.target)) camera = whole;
+    }
+  } else if (seen = withSurfaces(std::move(seen), std::move(surfaces)); !seen.empty()) {
+    camera = cameraAround(seen, kAzimuth, kBedElevation, kAspect);
   }
   return {render(scene, camera, width, std::max(1, width * 9 / 16)), camera};
 }

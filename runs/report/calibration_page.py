@@ -5,6 +5,7 @@ import math
 
 import grouser
 import page as pages
+from grouser.series import counted
 import soil_page
 import sweep_page
 from page import esc, facts, folded, number, table, with_bar
@@ -64,7 +65,7 @@ def state(found):
     if found.status == "finished":
         return ""
     missing = found.json.get("missing")
-    why = f"time was up: {missing['tests']} tests of {esc(missing['trial'])} are missing" if missing else \
+    why = f"time was up: {counted(missing['tests'], 'test')} of {esc(missing['trial'])} {'is' if missing['tests'] == 1 else 'are'} missing" if missing else \
         "it is still going on, or was stopped"
     return f'<p class="bad">This search has not ended ({why}). <code>--resume</code> goes on with it.</p>'
 

@@ -5,10 +5,12 @@ import math
 import numpy
 
 import damage
+import definitions
 import grouser
 import page as pages
 import run_page
-from page import esc, facts, folded, number, table, with_bar
+from grouser.series import counted
+from page import esc, facts, figure_with_bar, folded, number, table, term, with_bar
 
 MOST_FIGURES = 24  # headline figures first; more are folded
 
@@ -37,17 +39,19 @@ def figures(check):
     axes = list(dict.fromkeys(axis for figure in check for axis in figure.errors))
     headline = headlines(check)
     rows = [(figure.name in headline, [
-        esc(figure.name), with_bar(figure.bar.value, known(figure.bar.half_width), "", figure.name),
+        term(figure.name), figure_with_bar(figure.bar.value, known(figure.bar.half_width), "", figure.name,
+                                          figure.inconclusive),
         esc(figure.bar.unit), f"\u00b1 {number(known(figure.by_seeds.half_width), '', figure.name + ' seeds', 2)}",
         str(figure.seeds), *(axis_words(figure.errors[a]) if a in figure.errors else "not run" for a in axes)])
         for figure in check]
     headings = ["figure", "value and 95 % bar", "unit", "by seeds", "seeds", *(a.replace("_", " ") for a in axes)]
     words = (f"The bar is of all that was run. Behind it what each axis changes, with half of its 95 % interval, and "
              f"whether that is within {number(check.json.get('bar_percent'))} % of the value.")
+    words += definitions.note({figure.name: [figure.bar.value] for figure in check})
     first = [row for is_headline, row in rows if is_headline][:MOST_FIGURES]
     rest = [row for _, row in rows if row not in first]
     inner = table(headings, first or rest, words, numeric=(1, 3, 4))
-    return inner + (folded(f"{len(rest)} more figures", table(headings, rest, numeric=(1, 3, 4)))
+    return inner + (folded(counted(len(rest), "more figure"), table(headings, rest, numeric=(1, 3, 4)))
                     if first and rest else "")
 
 
@@ -69,7 +73,7 @@ def shares(made, check):
             continue
         name, most = max(parts, key=lambda part: part[1])
         total = percent(figure, figure.bar.half_width)
-        rows.append([esc(figure.name), number(total, digits=3), f"{esc(name.replace('_', ' '))} ({number(most, digits=3)} %)"])
+        rows.append([term(figure.name), number(total, digits=3), f"{esc(name.replace('_', ' '))} ({number(most, digits=3)} %)"])
     return table(["figure", "bar [% of the value]", "largest part of it"], rows, numeric=(1,))
 
 
@@ -126,7 +130,7 @@ def cheapest(check):
         one = row.get(percent)
         if not one:
             return "no setting that was run"
-        seeds = f", {one['seeds']} seeds" if check.json.get("seeds_matter") else ""
+        seeds = f", {counted(one['seeds'], 'seed')}" if check.json.get("seeds_matter") else ""
         name = f"{row['figure']} {percent}"
         return f"{esc(one['case'].replace('_', ' '))}{seeds}: {number(one['wall_s'], 's', name, 3)}"
     rows = [[esc(grouser.series.split_unit(row["figure"])[0]), *(cell(row, percent) for percent in percents)]
@@ -182,6 +186,8 @@ def page(folder, options):
     import sweep_page
     check = grouser.open_check(folder)
     made = pages.Page(f"{check.folder.resolve().name} (check)", "check", folder)
+    if check.json.get("inconclusive"):
+        made.warnings.append(f"<p>WARNING: all figures are inconclusive: {esc(check.json['inconclusive'])}</p>")
     made.section("figures", "Figures and their bars", figures(check))
     made.section("shares", "What makes the bars", shares(made, check))
     made.section("plots", "Series with their bars", bands(made, check))

@@ -55,7 +55,7 @@ def fault_of(folder):
     try:
         with open_whole(folder) as run:
             why = without_frames(run)
-            return why if "though" in why and run.status == "finished" else ""
+            return why if "though" in why and run.status in ("finished", "incomplete") else ""
     except grouser.FileError as error:
         return " ".join(str(error).replace(f"{folder}/", "").replace(f"{folder}: ", "").split())
 

@@ -4,10 +4,11 @@ level."""
 import math
 
 import damage
+import definitions
 import grouser
 import page as pages
 import sweep_page
-from page import esc, facts, number, table, with_bar
+from page import esc, facts, figure_with_bar, number, table, term
 
 
 def level_of(row):
@@ -20,7 +21,7 @@ def known(value):
 
 def causes(row):
     """What each run came to and why, a line a run; of files that do not tell it, of the row as a whole."""
-    more = [f"{row[what]} {what}" for what in ("failed", "pending") if row.get(what)]
+    more = [f"{row[what]} {what}" for what in ("failed", "incomplete", "pending") if row.get(what)]
     if not row.get("each"):
         return esc("; ".join([row["why"], *more] if row["why"] else more))
     if len(row["each"]) == 1:
@@ -76,13 +77,16 @@ def figures(rows):
                 figure = next((f for f in row["figures"] if f["name"] == heading), None)
                 label = f"{row['event']} {'' if row['level'] is None else row['level']} {name}"
                 half = known(figure["half_width"]) if figure else math.nan
-                cells.append(with_bar(figure["mean"], half if math.isfinite(half) else None, "", label) if figure else "")
-            lines.append([esc(name), esc(unit), *cells])
+                cells.append(figure_with_bar(figure["mean"], half if math.isfinite(half) else None, "", label,
+                                             figure.get("inconclusive", False)) if figure else "")
+            lines.append([term(name), esc(unit), *cells])
         across = [f"{row['level']:g}" if row["level"] is not None else "measured" for row in of]
         seeds = sorted({figure["runs"] for row in of for figure in row["figures"]})
         told = f"Levels: {esc(level)}. " if level else ""
         told += f"\u00b1 half of the 95 % interval over {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
             "One run each: no bars."
+        told += definitions.note({grouser.series.split_unit(figure["name"])[0]: [known(figure["mean"])]
+                                  for row in of for figure in row["figures"]})
         inner.append(f"<h3>{esc(title)}</h3>" + table(["figure", "unit", *across], lines, told,
                                                      numeric=range(2, 2 + len(of))))
     return "".join(inner)
@@ -105,9 +109,10 @@ def plots(made, rows):
                 told = "A point for each level; no bars: one run each."
             columns = [levels, means, [half if math.isfinite(half) else math.nan for half in halves]]
             across = level if "[" in level else f"{level} [-]"
-            inner.append(made.plot(f"{title}: {grouser.series.split_unit(name)[0]}", across,
+            plain = grouser.series.split_unit(name)[0]
+            inner.append(made.plot(f"{title}: {definitions.label(plain)}", across,
                                    name if "[" in name else f"{name} [-]", [(name, *columns)],
-                                   told, marks=True))
+                                   told, marks=True, about=definitions.definition(plain)))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
@@ -121,7 +126,7 @@ def page(folder, options):
     events = grouser.open_events(folder).json
     made = pages.Page(f"{folder.resolve().name} (events)", "series of mobility events", folder)
     rows = [row for _, _, of in by_event(events["rows"]) for row in of]
-    if not any(row["runs"] or row.get("failed") for row in rows):
+    if not any(row["runs"] or row.get("failed") or row.get("incomplete") for row in rows):
         raise grouser.FileError(f"{folder}: none of the runs of these events has ended yet; --resume of grouser events "
                                 "goes on with them")
     left_out = "".join(f"<p>Left out: {esc(event)}: {esc(why)}</p>" for event, why in events.get("left_out", {}).items())

@@ -9,6 +9,9 @@ from pathlib import Path
 
 import numpy
 
+import definitions
+import grouser
+
 HERE = Path(__file__).resolve().parent
 DEBIAN = Path("/usr/share/javascript")
 #: Libraries of the page, of Debian: (files, package).
@@ -16,6 +19,7 @@ PLOTS = (("dygraphs/dygraph.min.js",), "libjs-dygraphs")
 STYLE = ("dygraphs/dygraph.min.css", "libjs-dygraphs")
 SPACE = (("three/three.min.js", "three/examples/js/controls/OrbitControls.js"), "libjs-three")
 MOST_ROWS = 2000  # of a curve
+NOTHING = 1e-30  # in SI units: what is smaller stands for 0
 MOST_LINES = 20  # of a table that stands as a whole; longer ones are scrolled in a box
 
 
@@ -38,6 +42,8 @@ def shown(value, digits=5):
         return "none"
     if math.isinf(value):
         return "unknown"
+    if abs(value) < NOTHING:
+        return "0"
     text = f"{value:.{digits}g}"
     if "e" in text and 1e-4 <= abs(value) < 1e6:  # digits that were not asked for are noughts
         text = f"{float(text):.0f}"
@@ -69,17 +75,31 @@ def with_bar(value, half, unit="", name=""):
     """A number with its error bar, to the digits that the bar leaves."""
     if half is None or value is None or not math.isfinite(half) or not math.isfinite(value):
         return number(value, unit, name)
-    places = 1 - math.floor(math.log10(half)) if half > 0 else 6
-    if half == 0 or places > 8 or places < -8 or abs(value) >= 1e6:
-        value_text, half_text = superscript(shown(value)), superscript(shown(half, 2))
-    else:
-        value_text, half_text = (f"{round(v, places) + 0.0:.{max(0, places)}f}".replace("-", "\u2212")
-                                 for v in (value, half))
+    value_text, half_text, power = (str(part).replace("-", "\u2212") for part in grouser.series.estimate_text(value, half))
+    if not half_text:  # the runs agree but for rounding
+        mark = f' data-name="{esc(name)} bar"' if name else ""
+        return f'{number(value, unit, name, 6)} <data value="{exact(half)}"{mark}>(exact)</data>'
+    before, behind = ("", "") if power == "0" else ("(", f") \u00d7 10<sup>{power}</sup>")
     named = f' data-name="{esc(name)}"' if name else ""
     bar = f' data-name="{esc(name)} bar"' if name else ""
     unit_text = f"\u00a0{esc(unit)}" if unit and unit != "-" else ""
-    return (f'<span class="nowrap"><data value="{exact(value)}"{named}>{value_text}</data> \u00b1 '
-            f'<data value="{exact(half)}"{bar}>{half_text}</data>{unit_text}</span>')
+    return (f'<span class="nowrap">{before}<data value="{exact(value)}"{named}>{value_text}</data> \u00b1 '
+            f'<data value="{exact(half)}"{bar}>{half_text}</data>{behind}{unit_text}</span>')
+
+
+def term(name, about=""):
+    """The name of a figure, with what it is where one points at it: by the table of definitions, else `about`."""
+    words = definitions.definition(name) or about
+    text = esc(definitions.label(name))
+    return f'<span class="term" title="{esc(words)}">{text}</span>' if words else text
+
+
+def figure_with_bar(value, half, unit="", name="", inconclusive=False):
+    """The same, marked where it is inconclusive, as where the bar is larger than the value: then not even its sign is
+    sure."""
+    wide = None not in (value, half) and math.isfinite(half) and half > abs(value)
+    mark = ' <span class="bad">inconclusive</span>' if wide or inconclusive and value is not None else ""
+    return with_bar(value, half, unit, name) + mark
 
 
 def table(headings, rows, caption="", numeric=()):
@@ -150,11 +170,14 @@ class Page:
 
     def plot(self, title, x, y, curves, caption="", **more):
         """HTML of an interactive plot. `x`, `y`: what stands at the axes, with units. `curves`: [(label, x, y)], or
-        with half widths of bars [(label, x, y, half)], or with both ends [(label, x, y, low, high)]. `more`: `points`
+        with half widths of bars [(label, x, y, half)], or with both ends [(label, x, y, low, high)]. `more`: `about` (what
+        it shows, where one points at the title), `points`
         (no lines), `marks` (True, or the labels of curves whose points are marked, with upright bars), `whole` (x counts
         something), `log` ("x", "y", "xy")."""
         self.need(PLOTS)
         index = len(self.data["plots"])
+        about = more.pop("about", "")
+        hint = f' class="term" title="{esc(about)}"' if about else ""
         entry = {"title": title, "x": x, "y": y, "curves": [], **more}
         for number_, curve in enumerate(curves):
             label, *columns = curve
@@ -162,7 +185,7 @@ class Page:
                 self.array(f"plot{index}.{number_}.{k}", numpy.asarray(c, dtype=float))
                 for k, c in enumerate(columns)]})
         self.data["plots"].append(entry)
-        return (f'<figure class="plot"><h3 id="plot{index}-title">{esc(title)}</h3>'
+        return (f'<figure class="plot"><h3 id="plot{index}-title"{hint}>{esc(title)}</h3>'
                 f'<div class="canvas" id="plot{index}" tabindex="0" role="group" aria-roledescription="plot" '
                 f'aria-labelledby="plot{index}-title" aria-describedby="plot-keys"></div>'
                 f'<div class="legend" id="plot{index}-legend" aria-live="polite"></div>'

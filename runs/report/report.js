@@ -249,7 +249,9 @@ async function begin() {
   await Promise.all(Object.entries(data.arrays).map(async ([name, packed]) => {
     report.arrays[name] = await report.unpack(packed);
   }));
-  for (const number of document.querySelectorAll("main data")) number.title = number.value;
+  // No digits of rounding: 0.59 for 0.5900000000000001.
+  for (const number of document.querySelectorAll("main data"))
+    number.title = number.value === "" || Number.isNaN(Number(number.value)) ? number.value : String(Number(Number(number.value).toPrecision(15)));
   report.plots = data.plots.map((entry, index) => new Plot(entry, index));
   if (data.explorer) explorer(data.explorer);
   if (data.spaces) report.openSpaces(data.spaces);

@@ -10,10 +10,12 @@ import h5py
 import numpy
 
 import damage
+import definitions
 import grouser
 import page as pages
 import space
-from page import esc, exact, facts, folded, number, run_name, table, with_bar
+from grouser.series import counted
+from page import NOTHING, esc, exact, facts, figure_with_bar, folded, number, run_name, table, term
 
 LARGEST_FILM = 4e6  # bytes that lie in the page; larger ones stay beside it
 MOST_BESIDE = 4  # ledgers that stand beside each other
@@ -25,7 +27,7 @@ BEGINNINGS = ((4, b"ftyp"), (4, b"moov"), (4, b"mdat"), (4, b"wide"), (0, b"\x1a
 CURVES = (
     ("Speed of the hull at each track", "speed [m/s]", ["vehicle.SIDE.speed"]),
     ("Slip", "slip [-]", ["vehicle.SIDE.slip", "vehicle.SIDE.tooth_slip"]),
-    ("Drive torque", "torque [N m]", ["vehicle.SIDE.drive_torque"]),
+    ("Drive torque of each sprocket", "torque of one sprocket [N m]", ["vehicle.SIDE.drive_torque"]),
     ("Traction and resistance", "force [N]",
      ["vehicle.gross_traction", "vehicle.drawbar_pull", "vehicle.motion_resistance"]),
     ("Ground force on the vehicle", "force [N]", ["vehicle.ground_force"]),
@@ -35,7 +37,7 @@ CURVES = (
     ("What is lost, by cause", "energy [J]", ["ledger.dissipated_damping", "ledger.dissipated_friction",
                                                "ledger.dissipated_rolling", "ledger.dissipated_parts",
                                                "ledger.dissipated_joints", "ledger.dissipated_yielding",
-                                               "ledger.dissipated_crushing"]),
+                                               "ledger.dissipated_crushing", "ledger.dissipated_micro_slip"]),
     ("What the length of the steps costs", "energy [J]", ["ledger.integration_error", "ledger.residual"]),
     ("Pairs of grains in touch", "contacts [-]", ["terrain.contacts"]),
     ("Largest overlap", "overlap [grain radii]", ["terrain.max_overlap", "terrain.part_overlap"]),
@@ -43,15 +45,18 @@ CURVES = (
                                           "terrain.squeezed_by_parts"]),
 )
 LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissipated_damping", "dissipated_friction",
-          "dissipated_rolling", "dissipated_yielding", "dissipated_crushing", "dissipated_parts", "dissipated_joints",
+          "dissipated_micro_slip", "dissipated_rolling", "dissipated_yielding", "dissipated_crushing", "dissipated_parts", "dissipated_joints",
           "integration_error", "residual", "turnover")
 ENDINGS = {unit: unit for unit in ("s", "m", "J", "kg")}  # of names in manifest.json, and their units
 #: What is said of a run by its status, unless it is finished.
 ENDED = {"running": "This run is still going on, or was killed: what is told here is what it had written by then.",
-         "failed": "This run has failed.", "stopped": "This run was stopped before its end; --resume goes on with it."}
-SPREADS = (("Sinkage of the shoes on the ground run", "sinkage [m]", "sinkage"),
-           ("Track tension", "tension [N]", "tension"),
-           ("Ground pressure under the shoes", "pressure [Pa]", "ground_pressure"))
+         "incomplete": "WARNING: this run is incomplete:", "failed": "This run has failed.",
+         "stopped": "This run was stopped before its end; --resume goes on with it."}
+#: Of quantities with a number a shoe: title, label of y, name, whether of shoes in ground contact alone.
+SPREADS = (("Sinkage of the shoes in ground contact", "sinkage [m]", "sinkage", True),
+           ("Track tension", "tension [N]", "tension", False),
+           ("Ground pressure of the shoes in ground contact", "pressure [Pa]", "ground_pressure", True))
+IN_CONTACT = "shoe in ground contact: on the ground run, between first and last road wheel, and carrying load"
 
 
 def sides(names):
@@ -90,6 +95,22 @@ def within(columns, low, high):
         f" Drawn from {low:g} to {high:g}; it runs from {values.min():.3g} to {values.max():.3g}."
 
 
+def tracks_of(run, name):
+    """{side: series} of a quantity with a number a shoe, of the tracks that the run has."""
+    return {side: run[f"vehicle.{side}.{name}"] for side in ("left", "right") if f"vehicle.{side}.{name}" in run}
+
+
+def spread(values, of):
+    """Mean, least and largest of each row, over the shoes that have a number and are `of` it [rows, shoes] (None: all);
+    NaN where there is none."""
+    counts = numpy.isfinite(values) if of is None else numpy.isfinite(values) & of
+    there = counts.any(axis=1)
+    mean = numpy.where(counts, values, 0.0).sum(axis=1) / numpy.maximum(1, counts.sum(axis=1))
+    least, largest = (edge(numpy.where(counts, values, far), axis=1) for edge, far in
+                      ((numpy.min, numpy.inf), (numpy.max, -numpy.inf)))
+    return [numpy.where(there, one, numpy.nan) for one in (mean, least, largest)]
+
+
 def curves(made, run):
     """The plots of what the run has."""
     rows, note = pages.thinned(len(run.time))
@@ -98,25 +119,25 @@ def curves(made, run):
     for title, axis, names in CURVES:
         found = [column for name in sides(names) if name in run for column in columns_of(run, name)]
         found = [column for column in found if numpy.isfinite(column[1]).any()]
-        lively = [column for column in found if numpy.nanmax(numpy.abs(column[1])) > 0]
+        lively = [column for column in found if numpy.nanmax(numpy.abs(column[1])) > NOTHING]
         if not lively:
             continue
         drawn = lively
         more, cut = within(drawn, -1.0, 1.0) if title == "Slip" else ({}, "")
         figures.append(made.plot(title, "time [s]", axis,
                                  [(short(name), time, values[rows]) for name, values, _ in drawn],
-                                 f"{meanings(drawn)}.{cut}{note}", **more))
-    for title, axis, name in SPREADS:
+                                 f"{meanings(drawn)}.{cut}{note}", about=meanings(drawn), **more))
+    for title, axis, name, in_contact in SPREADS:
         drawn = []
-        for side, series in (run.by_shoe(name) if f"vehicle.left.{name}" in run else {}).items():
-            there = numpy.isfinite(series.value).any(axis=1)
-            values = numpy.where(there[:, None], series.value, 0.0)[rows]
-            blank = numpy.where(there, 1.0, numpy.nan)[rows]
-            drawn.append((side, time, numpy.nanmean(values, axis=1) * blank,
-                          numpy.nanmin(values, axis=1) * blank, numpy.nanmax(values, axis=1) * blank))
+        for side, series in tracks_of(run, name).items():
+            drawn.append((side, time, *(values[rows] for values in spread(
+                series.value, run[f"vehicle.{side}.on_ground"].value > 0.5 if in_contact else None))))
         if any(numpy.isfinite(curve[2]).any() for curve in drawn):
-            figures.append(made.plot(title, "time [s]", axis, drawn, f"{series.help}; line: mean over the shoes of a "
-                                     f"track that have one, band: from the least to the largest.{note}"))
+            of = "shoes in ground contact" if in_contact else "pins"
+            below = name == "sinkage" and any((curve[2] < 0).any() for curve in drawn)
+            figures.append(made.plot(title, "time [s]", axis, drawn, f"{series.help}; line: mean over the {of} of a "
+                                     f"track, band: their range.{' ' + definitions.ABOVE_SURFACE if below else ''}{note}",
+                                     about=f"{series.help}; {IN_CONTACT}" if in_contact else series.help))
     for group in ("surfaces", "obstacles"):
         for name in run.names(group + "."):
             if name.endswith(".force"):
@@ -137,7 +158,7 @@ def any_series(made, run):
         array = made.array(f"series.{name}", numpy.asarray(values, dtype=float)[rows])
         listed.append({"name": name, "array": array, "axis": f"{short(name)} [{series.unit}]", "help": series.help})
         there = values[numpy.isfinite(values)]
-        changes = len(there) and numpy.ptp(there) > 0
+        changes = len(there) and numpy.ptp(there) > NOTHING
         if changes and (start is None or name.startswith("vehicle.") and not columns[start][0].startswith("vehicle.")):
             start = k
         marks = [values[0], values[-1], *([there.min(), there.mean(), there.max()] if len(there) else [math.nan] * 3)]
@@ -180,7 +201,7 @@ def part_told(run, since):
 
 def why_ended(manifest):
     """What a run that has failed or was stopped says of it, in words."""
-    return str(manifest.get({"failed": "error", "stopped": "stopped"}.get(manifest.get("status")), ""))
+    return str(manifest.get({"failed": "error", "stopped": "stopped", "incomplete": "incomplete"}.get(manifest.get("status")), ""))
 
 
 def figures(run, options):
@@ -188,7 +209,7 @@ def figures(run, options):
     told = options.figures
     check = told.get("check") or {}
     barred = {figure["name"]: figure for figure in check.get("check", {}).get("figures", [])}
-    rows = []
+    rows, values = [], {}
     for figure in told.get("figures", []):
         name, value = figure["name"], figure["value"]
         plain, unit = grouser.series.split_unit(name)
@@ -197,13 +218,17 @@ def figures(run, options):
         checked = barred.get(name)
         bar = "none"
         if checked and checked["bar"] is not None:
-            parts = ", ".join([e["axis"].replace("_", " ") for e in checked["errors"]] + [f"{checked['seeds']} seeds"])
-            bar = f'{with_bar(checked["value"], checked["bar"], "", f"{plain} checked")} ({esc(parts)})'
+            parts = ", ".join([*(e["axis"].replace("_", " ") for e in checked["errors"]), counted(checked["seeds"], "seed")])
+            bar = f'{figure_with_bar(checked["value"], checked["bar"], "", f"{plain} checked")} ({esc(parts)})'
+        if value is not None:
+            values[plain] = [value]
         if value is not None or checked:
-            rows.append([esc(plain), number(value, "", plain), esc(unit), *([bar] if check else [])])
+            rows.append([term(plain), number(value, "", plain), esc(unit), *([bar] if check else [])])
     if not rows:
         return f'<p>{esc(told["note"])}</p>' if told.get("note") else ""
-    words = part_told(run, told.get("steady_from"))
+    words = part_told(run, told.get("steady_from")) + definitions.note(values)
+    if told.get("inconclusive"):
+        words = f'<strong class="bad">Inconclusive: {esc(told["inconclusive"])}.</strong> {words}'
     if check:
         words += (f" Error bars: of the last check of this scene, in <code>{esc(check['folder'])}</code>, commit "
                   f"<code>{esc(check['check']['program']['commit'])}</code>, over its own seeds.")
@@ -248,7 +273,7 @@ def ledger(runs):
                 for run, end in zip(runs, ends)]
         return table(["run", *(f"{short(name)} [{series[name].unit}]" for name in names)], rows, words,
                      numeric=range(1, 1 + len(names)))
-    rows = [[esc(short(name)), *(cell(run, end, name) for run, end in zip(runs, ends)), esc(series[name].unit),
+    rows = [[term(short(name), series[name].help), *(cell(run, end, name) for run, end in zip(runs, ends)), esc(series[name].unit),
              esc(series[name].help)] for name in names]
     headings = [run.folder.name for run in runs] if len(runs) > 1 else ["at the end"]
     return table(["term", *headings, "unit", "what it is"], rows, words, numeric=range(1, 1 + len(runs)))
@@ -339,7 +364,7 @@ def page(folder, options):
     made.section("space", "In space", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([
         films([run.folder], options), pages.picture(run.folder / "picture.png", "The end of the run"),
-        pages.picture(run.folder / "surface.png", "The bed's surface, with the way of the vehicle")]))
+        pages.picture(run.folder / "surface.png", "The ground's surface, with the path of the vehicle")]))
     made.section("plots", "Plots", curves(made, run))
     made.section("ledger", "Energy ledger", ledger([run]))
     made.section("series", "All series", any_series(made, run))

@@ -25,7 +25,7 @@ def constants(soil):
         sources = "<br>".join(f"{number(value)}: {esc(source)}" for value, source in c.published)
         rows.append([f"<em>{esc(name)}</em>", esc(MEANING.get(name, "")),
                      with_bar(c.measured.value, known(c.measured.half_width), "", name), esc(c.measured.unit), span,
-                     esc(c.verdict), sources])
+                     esc(f"inconclusive: {c.inconclusive}" if c.inconclusive else c.verdict), sources])
     return table(["constant", "what it is", "measured", "unit", "published", "verdict", "sources"], rows,
                  "\u00b1 half of the 95 % interval over the tests.", numeric=(2,))
 

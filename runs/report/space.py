@@ -8,6 +8,7 @@ import numpy
 import damage
 import grouser
 import page as pages
+from grouser.series import counted
 
 PLACES = 12e6  # places of grains in all frames of a run together, at most: they are the bulk of a page
 LARGEST = 10e6  # bytes of a page that another run in space may make; 15 MB are what a mail takes
@@ -184,7 +185,7 @@ def frames_of(run):
     """What there is of a run to be seen in space, in how many frames, and what to say of it; (None, 0, "") where there
     is nothing."""
     if run.frames is not None and len(run.frames):
-        return run.frames, len(run.frames), f"of {len(run.frames)} frames"
+        return run.frames, len(run.frames), f"of {counted(len(run.frames), 'frame')}"
     try:
         still = AtEnd(run)
     except (grouser.FileError, OSError, KeyError, ValueError):
@@ -289,7 +290,7 @@ def frame_html(spaces, left, grains, vehicle):
         names = "".join(f"<option>{pages.esc(s['name'])}</option>" for s in spaces)
         more = f" {left} more would make this page too large." if left else ""
         several = (f'<div class="controls"><label>Run <select id="space-run">{names}</select></label>'
-                   f'<span>{len(spaces)} runs can be chosen.{more}</span></div>')
+                   f'<span>{counted(len(spaces), "run")} can be chosen.{more}</span></div>')
     return f"""<figure>{several}<div class="space" id="space"><canvas id="space-canvas" tabindex="0" role="application"
  aria-label="Grains and parts in space" aria-describedby="space-keys"></canvas>
 <div class="label" id="space-time" aria-live="off"></div></div>

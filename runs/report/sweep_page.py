@@ -10,11 +10,13 @@ import subprocess
 import numpy
 
 import damage
+import definitions
 import grouser
 import page as pages
 import run_page
 import space
-from page import esc, facts, folded, number, run_name, table, with_bar
+from grouser.series import counted
+from page import esc, facts, figure_with_bar, folded, number, run_name, table, term
 
 MOST_CURVES = 7
 MOST_SPACES = 16  # runs that can be chosen in space
@@ -126,8 +128,9 @@ def plots(made, sweep, program):
             alone = sum(math.isnan(half) for _, _, _, *halves in drawn for half in (halves[0] if halves else ()))
             more = f" No bar where one seed alone has ended: {alone} of the points." if alone else ""
             more += f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
-            inner.append(made.plot(name[:1].upper() + name[1:], axis, f"{name} [{sweep.units[name]}]", drawn,
-                                   told + words + more, marks=True, whole=bool(words)))
+            label = definitions.label(name)
+            inner.append(made.plot(label[:1].upper() + label[1:], axis, f"{label} [{sweep.units[name]}]", drawn,
+                                   told + words + more, marks=True, whole=bool(words), about=definitions.definition(name)))
     return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
@@ -141,16 +144,19 @@ def means_table(sweep):
     def half(estimate):
         return estimate.half_width if math.isfinite(estimate.half_width) else None
     words = "Means over the seeds, \u00b1 half of the 95 % interval."
+    words += definitions.note({name: [m.mean.value for m in sweep.means[name]] for name in names})
     if max(m.seeds for m in sweep.means[names[0]]) == 2:
         words += " Of two seeds that is 12.7 standard errors: three or more tell more."
     if len(combinations) <= 6:
-        rows = [[esc(n), esc(sweep.units[n]), *(with_bar(m.mean.value, half(m.mean), "", f"{n} {text_of(m.keys)}")
+        rows = [[term(n), esc(sweep.units[n]), *(figure_with_bar(m.mean.value, half(m.mean), "", f"{n} {text_of(m.keys)}",
+                                                                         bool(m.inconclusive))
                                                 for m in sweep.means[n])] for n in names]
         return table(["figure", "unit", *map(text_of, combinations)], rows,
                      f"{words} Seeds: {', '.join(str(m.seeds) for m in sweep.means[names[0]])}.",
                      numeric=range(2, 2 + len(combinations)))
     rows = [[esc(text_of(keys)), str(sweep.means[names[0]][k].seeds),
-             *(with_bar(sweep.means[n][k].mean.value, half(sweep.means[n][k].mean), "", f"{n} {text_of(keys)}")
+             *(figure_with_bar(sweep.means[n][k].mean.value, half(sweep.means[n][k].mean), "", f"{n} {text_of(keys)}",
+                               bool(sweep.means[n][k].inconclusive))
                for n in names)] for k, keys in enumerate(combinations)]
     return table(["", "seeds", *(f"{n} [{sweep.units[n]}]" for n in names)], rows, words,
                  numeric=range(1, 2 + len(names)))
@@ -160,10 +166,11 @@ def runs_table(sweep, faults):
     """`faults`: {run: what is wrong with its files}."""
     def message(run):
         fault = faults.get(run.name)
-        return esc(run.message) + (f' <strong class="fault">Files: {esc(fault)}</strong>' if fault else "")
+        doubt = f"Inconclusive: {run.inconclusive}" if run.inconclusive and run.inconclusive != run.message else ""
+        return esc(" ".join(filter(None, (run.message, doubt)))) + (f' <strong class="fault">Files: {esc(fault)}</strong>' if fault else "")
 
     names = [n for n in sweep.units if numpy.isfinite(sweep[n].value).any()]
-    has_words = faults or any(run.message for run in sweep.runs)
+    has_words = faults or any(run.message or run.inconclusive for run in sweep.runs)
     rows = [[run_name(run.name), *(esc(v) for v in run.keys.values()), esc(run.status),
              *([message(run)] if has_words else []),
              *(number(run.figures[n], "", f"{run.name} {n}") for n in names), f"<code>{esc(run.state_hash)}</code>"]
@@ -171,7 +178,8 @@ def runs_table(sweep, faults):
     first = (3 if has_words else 2) + len(sweep.keys)
     headings = ["run", *sweep.keys, "status", *(["message"] if has_words else []),
                 *(f"{n} [{sweep.units[n]}]" for n in names), "state hash"]
-    return table(headings, rows, "Every run, as summary.csv has it.", numeric=range(first, first + len(names)))
+    note = definitions.note({name: [run.figures[name] for run in sweep.runs] for name in names})
+    return table(headings, rows, f"Every run, as summary.csv has it.{note}", numeric=range(first, first + len(names)))
 
 
 def opened(folders):
@@ -224,7 +232,7 @@ def first_seeds(sweep, faults):
     """Folders of the runs that have finished and are whole, of each combination the first one."""
     found = {}
     for run in sweep.runs:
-        if run.status == "finished":
+        if run.status in ("finished", "incomplete"):
             keys = tuple((k, v) for k, v in run.keys.items() if k != "run.seed")
             if found.setdefault(keys, run).name in faults and run.name not in faults:
                 found[keys] = run
@@ -236,15 +244,15 @@ def page(folder, options):
     made = pages.Page(f"{sweep.folder.resolve().name} (sweep)", "sweep", folder)
     ended = [run.status for run in sweep.runs]
     if all(status in ("pending", "running") for status in ended):
-        raise grouser.FileError(f"{folder}: none of the {len(ended)} runs of this sweep has ended yet; the same call of "
+        raise grouser.FileError(f"{folder}: none of the {counted(len(ended), 'run')} of this sweep has ended yet; the same call of "
                                 "grouser sweep goes on with it")
     bad = [run for run in sweep.runs if run.status not in ("finished", "pending")]
     told = facts([("varied", ", ".join(f"<code>{esc(k)}</code>: {esc(', '.join(dict.fromkeys(r.keys[k] for r in sweep.runs)))}"
                                        for k in sweep.keys)),
-                  ("runs", f"{len(ended)}, of which {ended.count('finished')} have finished")])
+                  ("runs", f"{len(ended)}, of which {ended.count('finished')} finished")])
     if bad:
         told += "".join(f'<p class="bad">{esc(run.name)}: {esc(run.status)}. {esc(run.message)}</p>' for run in bad)
-    faults = faults_of([run.folder for run in sweep.runs if run.status == "finished"])
+    faults = faults_of([run.folder for run in sweep.runs if run.status in ("finished", "incomplete")])
     damage.warn(made, faults, " Their figures are those that summary.csv has kept; what cannot be read is not in the view "
                 "in space and the ledgers.")
     made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep, faults),

@@ -124,6 +124,10 @@ template <> struct EnumWords<terrain::FloorShape> {
   using E = terrain::FloorShape;
   static constexpr EnumWord<E> list[] = {{E::follow, "follow"}, {E::flat, "flat"}};
 };
+template <> struct EnumWords<terrain::Interpolation> {
+  using E = terrain::Interpolation;
+  static constexpr EnumWord<E> list[] = {{E::monotone, "monotone"}, {E::smooth, "smooth"}, {E::bilinear, "bilinear"}};
+};
 template <> struct EnumWords<terrain::RadiusLaw> {
   using E = terrain::RadiusLaw;
   static constexpr EnumWord<E> list[] = {

@@ -1,60 +1,217 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains from a text file.
+// Grains from a text file: a grain a line, between blanks, tabs, commas or semicolons.
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <sstream>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string_view>
 
 namespace grouser::scene {
 
 namespace {
 
-constexpr double kFastest = 1e4, kFastestSpin = 1e6; // [m/s], [rad/s]: as of [[grain]]
+/// Name, unit and range of a column, as in [[grain]].
+struct Column {
+  const char *name, *unit;
+  double least, most;
+};
+constexpr double kFar = std::numeric_limits<double>::max(); // places have limits of their own, by the grains' radii
+constexpr std::array<Column, 10> kColumns{{{"x", "m", -kFar, kFar},
+                                           {"y", "m", -kFar, kFar},
+                                           {"z", "m", -kFar, kFar},
+                                           {"r", "m", 0, 1e3},
+                                           {"vx", "m/s", -1e4, 1e4},
+                                           {"vy", "m/s", -1e4, 1e4},
+                                           {"vz", "m/s", -1e4, 1e4},
+                                           {"wx", "rad/s", -1e6, 1e6},
+                                           {"wy", "rad/s", -1e6, 1e6},
+                                           {"wz", "rad/s", -1e6, 1e6}}};
+constexpr std::size_t kRadius = 3;
+constexpr const char* kLines = "x, y, z, r [m], alone, with vx, vy, vz [m/s], or with these and wx, wy, wz [rad/s]";
+
+bool isComplete(std::size_t columns) { return columns == 4 || columns == 7 || columns == 10; }
+
+struct TextField {
+  std::string_view text;
+  std::size_t at; ///< of its first character, from 0
+};
+
+/// One line of the file; throws its faults with their place.
+struct TextLine {
+  const std::string& file;
+  int number;
+  std::string_view text; ///< without its comment
+
+  [[noreturn]] void fail(std::size_t at, const std::string& message) const {
+    throw base::InputError(fmt::format("{}:{}:{}: {}", file, number, at + 1, message));
+  }
+};
+
+constexpr std::string_view kBlank = " \t\v\f";
+
+TextField trimmed(std::string_view line, std::size_t from, std::size_t to) {
+  while (from < to && kBlank.find(line[from]) != std::string_view::npos) ++from;
+  while (to > from && kBlank.find(line[to - 1]) != std::string_view::npos) --to;
+  return {line.substr(from, to - from), from};
+}
+
+/// The fields between commas or semicolons, each with one before and behind it; or else between blanks and tabs, where
+/// two tabs in a row are an empty field of a table.
+std::vector<TextField> fieldsOf(const TextLine& line) {
+  const std::string_view text = line.text;
+  std::vector<TextField> fields;
+  const std::size_t comma = text.find(','), semicolon = text.find(';');
+  const auto empty = [&](std::size_t at) {
+    line.fail(at, fmt::format("column {} is empty; write its number, e.g. 0, or leave out this separator",
+                              fields.size() + 1));
+  };
+  if (comma != std::string_view::npos && semicolon != std::string_view::npos)
+    line.fail(std::max(comma, semicolon), "commas and semicolons in one line; separate numbers by one of them, and "
+                                          "write decimals with a point, as 1.5");
+  const std::size_t first = std::min(comma, semicolon);
+  if (first != std::string_view::npos) {
+    const char separator = text[first];
+    for (std::size_t from = 0; from <= text.size();) {
+      const std::size_t to = std::min(text.find(separator, from), text.size());
+      fields.push_back(trimmed(text, from, to));
+      if (fields.back().text.empty()) fields.pop_back(), empty(from);
+      from = to + 1;
+    }
+    return fields;
+  }
+  for (std::size_t from = 0; from < text.size();) {
+    std::size_t at = from, tabs = 0;
+    for (; at < text.size() && kBlank.find(text[at]) != std::string_view::npos; ++at)
+      if (text[at] == '\t' && ++tabs == 2) empty(at);
+    if (at == text.size()) break;
+    from = std::min(text.find_first_of(kBlank, at), text.size());
+    fields.push_back({text.substr(at, from - at), at});
+  }
+  return fields;
+}
+
+/// Whether a first line is names of columns: no number begins like them.
+bool isHeader(const std::vector<TextField>& fields) {
+  const auto isWord = [](const TextField& f) {
+    const char c = f.text[0];
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '"';
+  };
+  double ignored = 0; // "nan" and "inf" are no names
+  const std::string_view word = fields[0].text;
+  return isWord(fields[0]) && std::from_chars(word.data(), word.data() + word.size(), ignored).ec != std::errc();
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return lower;
+}
+
+/// Number of columns that the header names. Between blanks a unit may be a field of its own: "x [m]".
+std::size_t readHeader(const TextLine& line, const std::vector<TextField>& fields) {
+  std::size_t column = 0;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    std::string text(fields[k].text);
+    while (k + 1 < fields.size() && (fields[k + 1].text[0] == '[' || fields[k + 1].text[0] == '('))
+      text += fields[++k].text;
+    text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == '"' || c == ' '; }), text.end());
+    if (column == kColumns.size())
+      line.fail(fields[k].at, fmt::format("column 11 of the header is \"{}\", but lines have at most {} numbers: {}",
+                                          text, kColumns.size(), kLines));
+    const Column& wanted = kColumns[column++];
+    const std::size_t open = text.find_first_of("[(");
+    const std::string name = lowerCase(text.substr(0, open));
+    if (name != wanted.name && !(column == kRadius + 1 && name == "radius"))
+      line.fail(fields[k].at, fmt::format("column {} of the header is \"{}\", expected \"{} [{}]\"; the columns are {}",
+                                          column, text, wanted.name, wanted.unit, kLines));
+    if (open == std::string::npos) continue;
+    const std::string unit = text.substr(open + 1, text.find_first_of("])", open) - open - 1);
+    if (unit != wanted.unit)
+      line.fail(fields[k].at,
+                fmt::format("column {} of the header is in [{}], expected [{}]; convert its numbers, they "
+                            "are read as {} in {}",
+                            column, unit, wanted.unit, wanted.name, wanted.unit));
+  }
+  if (!isComplete(column)) line.fail(0, fmt::format("the header names {} columns; give {}", column, kLines));
+  return column;
+}
+
+double readNumber(const TextLine& line, const TextField& field, std::size_t column) {
+  const std::string_view text = field.text;
+  const bool plus = text[0] == '+' && text.size() > 1 && text[1] != '-';
+  const char *from = text.data() + plus, *to = text.data() + text.size();
+  double value = 0;
+  const auto [end, error] = std::from_chars(from, to, value);
+  const Column& c = kColumns[column];
+  const auto fail = [&](const std::string& message) {
+    line.fail(field.at, fmt::format("column {}, {} = {} [{}] {}", column + 1, c.name, text, c.unit, message));
+  };
+  if (error == std::errc::result_out_of_range) fail("is outside the range of double precision; correct it");
+  if (error != std::errc() || end != to)
+    fail("is not a number; write decimals with a point, as 1.5e-3, and separate numbers by commas or blanks");
+  if (!std::isfinite(value)) fail("is not finite; correct it");
+  if (column == kRadius ? !(value > c.least && value <= c.most) : !(value >= c.least && value <= c.most))
+    fail(fmt::format("is outside {}{:g}, {:g}]; correct it", column == kRadius ? '(' : '[', c.least, c.most));
+  return value;
+}
+
+std::string textOf(const std::string& file) {
+  std::error_code error;
+  // A device may have no end, and a pipe nobody who writes into it.
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw base::InputError(fmt::format("{}: is not a regular file; name a text file with a grain a line", file));
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3); // UTF-8's byte order mark, as in TOML files
+  if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
+    throw base::InputError(
+        fmt::format("{}: is not plain text (UTF-16, compressed or binary); save it as UTF-8 or ASCII text", file));
+  return text;
+}
 
 } // namespace
 
 std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill) {
-  std::ifstream in(file);
-  if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
+  const std::string all = textOf(file);
   std::vector<Grain> grains;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    line = line.substr(0, line.find('#'));
-    for (char& c : line)
-      if (c == ',' || c == ';' || c == '\t' || c == '\r') c = ' ';
-    if (line.find_first_not_of(' ') == std::string::npos) continue;
-    std::istringstream words(line);
-    std::vector<double> values;
-    bool allRead = true;
-    for (std::string word; words >> word;) {
-      const char *from = word.data() + (word[0] == '+'), *to = word.data() + word.size();
-      double value = 0;
-      const auto [end, error] = std::from_chars(from, to, value);
-      allRead = allRead && error == std::errc() && end == to;
-      values.push_back(value);
+  std::optional<std::size_t> header; // number of columns that it names
+  int number = 0;
+  for (std::size_t from = 0; from < all.size();) {
+    const std::size_t end = std::min(all.find_first_of("\r\n", from), all.size());
+    std::string_view text = std::string_view(all).substr(from, end - from);
+    from = end + (all.compare(end, 2, "\r\n") == 0 ? 2 : 1);
+    const TextLine line{file, ++number, text.substr(0, text.find('#'))};
+    if (line.text.find_first_not_of(kBlank) == std::string_view::npos) continue;
+    const std::vector<TextField> fields = fieldsOf(line);
+    if (grains.empty() && !header && isHeader(fields)) {
+      header = readHeader(line, fields);
+      continue;
     }
-    const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-    const std::size_t n = values.size();
-    if (!allRead || !finite || (n != 4 && n != 7 && n != 10) || !(values[3] > 0))
-      throw base::InputError(fmt::format("{}:{}: \"{}\" is not x, y, z, r [m] of a grain with r > 0, alone, with its "
-                                         "velocity vx, vy, vz [m/s], or with that and its spin wx, wy, wz [rad/s]; "
-                                         "correct the line",
-                                         file, number, line));
+    if (fields.size() != header.value_or(fields.size()))
+      line.fail(0,
+                fmt::format("{} numbers, but the header names {} columns; correct the line", fields.size(), *header));
+    std::array<double, kColumns.size()> values{};
+    for (std::size_t k = 0; k < std::min(fields.size(), values.size()); ++k) values[k] = readNumber(line, fields[k], k);
+    if (!isComplete(fields.size())) line.fail(0, fmt::format("{} numbers; a line has {}", fields.size(), kLines));
     const auto vectorAt = [&](std::size_t at) { return base::Vec3d{values[at], values[at + 1], values[at + 2]}; };
-    const base::Vec3d velocity = n >= 7 ? vectorAt(4) : fill.velocity, spin = n >= 10 ? vectorAt(7) : fill.spin;
-    for (int a = 0; a < 3; ++a)
-      if (std::fabs(velocity[a]) > kFastest || std::fabs(spin[a]) > kFastestSpin)
-        throw base::InputError(fmt::format("{}:{}: \"{}\" moves a grain faster than {:g} m/s, or turns it faster than "
-                                           "{:g} rad/s; correct the line",
-                                           file, number, line, kFastest, kFastestSpin));
-    grains.push_back({vectorAt(0), velocity, spin, values[3], fill.material, {}});
+    grains.push_back({vectorAt(0),
+                      fields.size() >= 7 ? vectorAt(4) : fill.velocity,
+                      fields.size() >= 10 ? vectorAt(7) : fill.spin,
+                      values[kRadius],
+                      fill.material,
+                      {}});
   }
-  if (grains.empty()) throw base::InputError(fmt::format("{}: holds no grain; give lines of x, y, z, r [m]", file));
+  if (grains.empty()) throw base::InputError(fmt::format("{}: holds no grain; give lines of {}", file, kLines));
   return grains;
 }
 

@@ -44,7 +44,8 @@ Table<GrainFill> fillTable() {
   t.add("number", &S::number, "-", "of grains of a random fill").atLeast(1).atMost(1e8);
   t.add("file", &S::file, "",
         "text with a grain a line: x, y, z, r [m], which vx, vy, vz [m/s], and wx, wy, wz [rad/s] behind those, may "
-        "follow; looked for in the scene's folder, the working folder, the assets folder");
+        "follow, and a header with these names above; looked for in the scene's folder, the working folder, the assets "
+        "folder");
   t.add("velocity", &S::velocity, "m/s", "at the start, where a file's line gives none").atLeast(-1e4).atMost(1e4);
   t.add("spin", &S::spin, "rad/s", "at the start, where a file's line gives none").atLeast(-1e6).atMost(1e6);
   t.add("material", &S::material, "", "name of their material").required();

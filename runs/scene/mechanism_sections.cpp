@@ -57,7 +57,9 @@ Table<JointSection> jointTable() {
   t.add("slide_damping", &S::slideDamping, "N s/m", "of a cylindrical joint on its slide").atLeast(0);
   t.add("limits", &S::limits, "rad or m", "end stops on the free axis, lower and upper, from its position 0");
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
-  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
+  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m",
+        "of the end stops, which never pull: on the way out it takes at most what their springs give")
+      .atLeast(0);
   return t;
 }
 
@@ -79,7 +81,9 @@ Table<SpringSection> springTable() {
         "length, or position of the axis, where only the preload acts; as at the start where not given");
   t.add("limits", &S::limits, "rad or m", "end stops on the axis of a joint, lower and upper");
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "of the end stops; required with limits").atLeast(0);
-  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m", "of the end stops").atLeast(0);
+  t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m",
+        "of the end stops, which never pull: on the way out it takes at most what their springs give")
+      .atLeast(0);
   return t;
 }
 

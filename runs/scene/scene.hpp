@@ -165,6 +165,7 @@ struct Terrain {
   std::string heightmap;               ///< absolute path after loading
   std::array<double, 2> size{};        ///< [m] x, y
   std::array<double, 2> heightRange{}; ///< [m] of black, of white
+  terrain::Interpolation interpolation = terrain::Interpolation::monotone;
   TerrainKind kind = TerrainKind::granular;
   std::string material;
   std::string groundMaterial; ///< of floor and walls; the bed's where not given
@@ -206,7 +207,8 @@ struct Vehicle {
   std::optional<std::array<double, 2>> position; ///< [m] x, y of the point between the sprockets; empty: on the terrain
   double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
   double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
-  double sphereRadius = 0.02;                    ///< [m] of the parts' sphere sets
+  static constexpr double kSphereRadius = 0.02;  ///< [m], by default
+  std::optional<double> sphereRadius;            ///< [m] of the parts' sphere sets; empty: kSphereRadius or finer
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   double adhesion = 0;  ///< [-] of parts without a material: share of the pull of a wall of the grains' own material
   ChassisMount chassis = ChassisMount::free;

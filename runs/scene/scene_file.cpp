@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/scene/scene_file.hpp"
 
+#include "base/nearest_key.hpp"
 #include "base/table.hpp"
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/scene/detail/section_lists.hpp"
 #include "runs/scene/detail/soil_materials.hpp"
 #include "runs/scene/soil.hpp"
+#include "runs/scene/soil_calibration.hpp"
+#include "runs/support/locations.hpp"
 #include "runs/support/tell.hpp"
 
 #include <fmt/format.h>
@@ -42,8 +45,14 @@ Scene sceneOf(base::Document read, const std::filesystem::path& file, const std:
   scene.file = file, scene.overrides = overrides;
   scene.document = std::make_shared<const base::Document>(std::move(read));
   const base::Section root = scene.document->root();
-  allowOnlyKnown(root, sections);
-  for (const SectionEntry& entry : sections) entry.read(root, scene);
+  try {
+    allowOnlyKnown(root, sections);
+    for (const SectionEntry& entry : sections) entry.read(root, scene);
+  } catch (const base::UnknownKey& unknown) {
+    std::vector<std::string> all;
+    for (const SectionEntry& entry : sections) all.insert(all.end(), entry.keys.begin(), entry.keys.end());
+    throw base::amongAllKeys(unknown, all);
+  }
   detail::scaleSoils(scene);
   detail::checkTogether(scene);
   return scene;
@@ -52,6 +61,12 @@ Scene sceneOf(base::Document read, const std::filesystem::path& file, const std:
 } // namespace
 
 Scene readScene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    if (const std::string hint = support::nearestFileHint(file, {support::shareFolder() / "runs" / "scenes"});
+        !hint.empty())
+      throw base::InputError(
+          fmt::format("{}: cannot be read, since there is no such file; {}Check the path", file.string(), hint));
   return sceneOf(base::Document::load(file, overrides), file, overrides);
 }
 
@@ -73,10 +88,10 @@ std::string unsettledWarning(const Scene& scene) {
 
 void printNotes(const Scene& scene) {
   if (!scene.document) return;
+  for (const std::string& warning : soilWarnings(scene)) support::tell("WARNING: {}\n", warning);
+  if (const std::string warning = unsettledWarning(scene); !warning.empty()) support::tell("WARNING: {}\n", warning);
   for (const std::string& note : scene.document->notes()) support::tell("grouser: note: {}\n", note);
   for (const std::string& note : soilNotes(scene)) support::tell("grouser: note: {}\n", note);
-  if (const std::string warning = unsettledWarning(scene); !warning.empty())
-    support::tell("grouser: warning: {}\n", warning);
 }
 
 std::string resolvedToml(const Scene& scene) {

@@ -45,7 +45,10 @@ void resolveFile(const Scene& scene, const Section& section, const std::string& 
         section.fail(key, fmt::format("is a folder, {}; give the path of a file", p.string()));
       places += (places.empty() ? "" : ", ") + p.string();
     }
-    section.fail(key, fmt::format("does not exist; correct the path (looked for {})", places));
+    std::vector<std::filesystem::path> folders;
+    for (const auto& p : tried) folders.push_back(p.parent_path());
+    const std::string hint = tried.empty() ? "" : support::nearestFileHint(tried.front(), folders);
+    section.fail(key, fmt::format("does not exist; {}correct the path (looked for {})", hint, places));
   }
   name = found.string();
 }

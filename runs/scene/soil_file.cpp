@@ -2,6 +2,7 @@
 // Reads the files of soils, and finds them by name.
 #include "runs/scene/soil.hpp"
 
+#include "base/nearest_key.hpp"
 #include "base/table.hpp"
 #include "runs/scene/detail/soil_materials.hpp"
 #include "runs/support/file_hash.hpp"
@@ -103,6 +104,15 @@ Material readMaterial(const Section& section) {
   return m;
 }
 
+std::vector<std::string> soilKeys() {
+  std::vector<std::string> all;
+  const auto add = [&](const std::string& section, const auto& table) {
+    for (const base::Field& field : table.fields()) all.push_back(section + "." + field.key);
+  };
+  add("soil", headTable()), add("material", detail::materialTable()), add("bed", grainsTable());
+  return all;
+}
+
 } // namespace
 
 std::string unitOf(SoilQuantity quantity) {
@@ -136,11 +146,15 @@ Soil readSoil(const fs::path& file) {
   soil.document = std::make_shared<const base::Document>(base::Document::load(file));
   soil.hash = support::hashOfFile(file);
   const Section root = soil.document->root();
-  root.allowOnly({"version", "soil", "material", "bed", "published", "reached"});
-  soil.head = root.section("soil").read(headTable());
-  soil.material = readMaterial(root.section("material"));
+  try {
+    root.allowOnly({"version", "soil", "material", "bed", "published", "reached"});
+    soil.head = root.section("soil").read(headTable());
+    soil.material = readMaterial(root.section("material"));
+    soil.grains = root.section("bed").read(grainsTable());
+  } catch (const base::UnknownKey& unknown) {
+    throw base::amongAllKeys(unknown, soilKeys());
+  }
   const Section bed = root.section("bed");
-  soil.grains = bed.read(grainsTable());
   if (!bed.has("calibrated_radii")) soil.grains.calibratedRadii = {soil.grains.radius, soil.grains.radius};
   const auto [least, greatest] = soil.grains.calibratedRadii;
   if (least > greatest) bed.fail("calibrated_radii", "[m] descends; give the least first");

@@ -2,8 +2,10 @@
 // What a scene has of soils, for results and messages.
 #include "runs/scene/soil.hpp"
 
+#include "base/math.hpp"
 #include "base/table.hpp"
 #include "runs/scene/detail/soil_materials.hpp"
+#include "runs/scene/soil_calibration.hpp"
 
 #include <fmt/format.h>
 
@@ -15,14 +17,35 @@ namespace {
 
 std::string millimetres(double radius) { return fmt::format("{:.4g} mm", 1000 * radius); }
 
-/// Of the material's own grains.
-void noteGrains(const Scene& scene, const Material& m, const Soil& soil, std::vector<std::string>& notes) {
+/// "7 mm", "7 mm to 14 mm"
+std::string calibratedSizes(const Soil& soil) {
   const auto [least, greatest] = soil.grains.calibratedRadii;
+  return least < greatest ? fmt::format("{} to {}", millimetres(least), millimetres(greatest)) : millimetres(least);
+}
+
+/// Whether a material has other values than its soil, scaled to its grains.
+bool isChanged(const Material& m, const Soil& soil) {
+  constexpr double kRounding = 1e-9;
+  const base::Table<Material> table = detail::materialTable();
+  const double scale = *m.grainRadius / soil.grains.radius;
+  for (const base::Field& field : table.fields()) {
+    if (field.key == "soil" || field.key == "soil_hash" || field.key == "grain_radius") continue;
+    const base::FieldValue is = table.value(m, field.key), was = table.value(soil.material, field.key);
+    const auto *a = std::get_if<double>(&is), *b = std::get_if<double>(&was);
+    const double wanted = b ? *b * base::pow(scale, radiusPowerOf(field.key)) : 0;
+    if (a && b ? std::fabs(*a - wanted) > kRounding * std::fabs(wanted) : is != was) return true;
+  }
+  return false;
+}
+
+/// Whether what the scene has of a soil is what has been measured: at its size, with its values.
+bool isCalibrated(const Material& m, const Soil& soil) {
+  return soil.head.calibrated && isCalibratedSize(soil.grains.calibratedRadii, *m.grainRadius) && !isChanged(m, soil);
+}
+
+/// Notes on the grains of the material's own radius.
+void noteGrains(const Scene& scene, const Material& m, std::vector<std::string>& notes) {
   const double radius = *m.grainRadius;
-  if (soil.head.calibrated && (radius < (1 - 1e-9) * least || radius > (1 + 1e-9) * greatest))
-    notes.push_back(fmt::format("material.{}: the soil {} is calibrated for grains of {} to {}, not of {}: measure it "
-                                "at that radius before you trust it",
-                                m.name, soil.name, millimetres(least), millimetres(greatest), millimetres(radius)));
   const auto& t = scene.terrain;
   if (t && t->granular() && t->material == m.name && std::fabs(*t->grainRadius - radius) > 1e-9 * radius)
     notes.push_back(
@@ -58,12 +81,17 @@ void notePorosity(const Scene& scene, std::vector<std::string>& notes) {
 
 } // namespace
 
+bool isCalibratedSize(const std::array<double, 2>& calibratedRadii, double radius) {
+  return radius >= (1 - kCalibratedWithin) * calibratedRadii[0] &&
+         radius <= (1 + kCalibratedWithin) * calibratedRadii[1];
+}
+
 std::vector<SoilUse> soilUses(const Scene& scene) {
   std::vector<SoilUse> uses;
   for (const Material& m : scene.materials) {
     if (m.soil.empty()) continue;
     const Soil& soil = *scene.soils.at(m.name);
-    SoilUse use{m.name, soil.name, m.soil, m.soilHash, soil.head.calibrated, *m.grainRadius, 1, {}};
+    SoilUse use{m.name, soil.name, m.soil, m.soilHash, isCalibrated(m, soil), *m.grainRadius, 1, {}};
     use.scale = use.grainRadius / soil.grains.radius;
     detail::forEachScaled(m, [&](const char* key, const char* unit, const auto& value, int) {
       if (detail::isGiven(value)) use.scaled[fmt::format("{} [{}]", key, unit)] = detail::numberOf(value);
@@ -78,7 +106,26 @@ std::string soilLine(const SoilUse& use) {
   for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);
   return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} times its own{}; {}", use.material,
                      use.material == use.soil ? "" : fmt::format(" is {}", use.soil), use.file, use.hash,
-                     millimetres(use.grainRadius), use.scale, values, use.calibrated ? "calibrated" : "uncalibrated");
+                     millimetres(use.grainRadius), use.scale, values,
+                     use.calibrated                                 ? "calibrated"
+                     : std::fabs(use.scale - 1) > kCalibratedWithin ? "scaled, not calibrated at this size"
+                                                                    : "uncalibrated");
+}
+
+std::vector<std::string> soilWarnings(const Scene& scene) {
+  std::vector<std::string> warnings;
+  for (const Material& m : scene.materials) {
+    if (m.soil.empty()) continue;
+    const Soil& soil = *scene.soils.at(m.name);
+    if (!soil.head.calibrated || isCalibratedSize(soil.grains.calibratedRadii, *m.grainRadius)) continue;
+    warnings.push_back(
+        fmt::format("material.{}: the soil {} is calibrated for grains of {}, not of {}, {:.3g} times its own: its "
+                    "parameters are scaled, not calibrated at this size; measure what they give by grouser soil {} "
+                    "--grain-radius {:g}",
+                    m.name, soil.name, calibratedSizes(soil), millimetres(*m.grainRadius),
+                    *m.grainRadius / soil.grains.radius, soil.name, *m.grainRadius));
+  }
+  return warnings;
 }
 
 std::vector<std::string> soilNotes(const Scene& scene) {
@@ -98,7 +145,7 @@ std::vector<std::string> soilNotes(const Scene& scene) {
           fmt::format("material.{}: the soil {} is uncalibrated: nobody has measured yet which constants its "
                       "contact parameters give ({})",
                       m.name, soil.name, m.soil));
-    noteGrains(scene, m, soil, notes);
+    noteGrains(scene, m, notes);
     noteChange(scene, m, soil, notes);
   }
   notePorosity(scene, notes);

@@ -112,8 +112,11 @@ Table<MeshSection> meshTable() {
   t.add("position", &S::position, "m", "of the file's origin, about which loads are taken");
   addTurn(t, "file's");
   t.add("sphere_radius", &S::sphereRadius, "m",
-        fmt::format("of the spheres it is cut into, which round its edges; {} of its diagonal where not given",
-                    S::kShareOfDiagonal))
+        fmt::format(
+            "of the spheres it is cut into, which round its edges; where not given {} of its diagonal, or finer where "
+            "these would stand out of it by more than a fiftieth of the smallest grain's radius, or of a quarter "
+            "of a vehicle's pitch",
+            S::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   addSurface(t);
@@ -183,7 +186,7 @@ template <class S> void checkOrientation(const Section& section, const S& s) {
 void loadMesh(const Section& section, MeshSection& mesh) {
   base::TriangleMesh triangles;
   try {
-    triangles = spheredecomp::importMesh(mesh.file);
+    triangles = spheredecomp::importMesh(mesh.file, &mesh.loaded.note);
   } catch (const base::InputError& error) {
     section.fail("file", fmt::format("is of no use: {}", error.what()));
   }
@@ -196,12 +199,12 @@ void loadMesh(const Section& section, MeshSection& mesh) {
                  fmt::format("[m] makes the mesh {:.4g} m long, and its spheres {:.3g} m, outside [{:g}, {:g}];"
                              " correct it: it is the length of one unit of the file",
                              longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
-  if (!mesh.sphereRadius) mesh.sphereRadius = byDefault;
-  if (*mesh.sphereRadius > 0.5 * longest)
+  mesh.loaded.sphereRadius = mesh.sphereRadius.value_or(byDefault);
+  if (mesh.loaded.sphereRadius > 0.5 * longest)
     section.fail("sphere_radius",
                  fmt::format("[m] is above {} m, half of the mesh's longest side; lower it, or correct scale",
                              base::roundedDown(0.5 * longest, 4)));
-  if (const double points = spheredecomp::latticePoints(triangles, *mesh.sphereRadius);
+  if (const double points = spheredecomp::latticePoints(triangles, mesh.loaded.sphereRadius);
       !(points <= spheredecomp::kMostLatticePoints))
     section.fail("sphere_radius",
                  fmt::format("[m] cuts the mesh of {:.4g} x {:.4g} x {:.4g} m by {:.2g} lattice points, "

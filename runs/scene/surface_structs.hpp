@@ -62,6 +62,8 @@ struct CylinderSection : SurfaceSection {
 /// What a file held when the scene was loaded, in metres.
 struct LoadedMesh {
   std::shared_ptr<const spheredecomp::MeshQuery> query;
+  double sphereRadius{};                                    ///< as given, or by default [m]
+  std::string note;                                         ///< on how it was read; empty: nothing
   bool operator==(const LoadedMesh&) const { return true; } // the file's name says it
 };
 
@@ -77,7 +79,7 @@ struct MeshSection : SurfaceSection {
   std::optional<base::Vec3d> axis;
   std::optional<double> angle;                    ///< [deg]
   std::optional<std::vector<double>> orientation; ///< w, x, y, z
-  std::optional<double> sphereRadius;             ///< [m]; has a value after loading
+  std::optional<double> sphereRadius;             ///< [m]; empty: chosen for what touches the mesh
   LoadedMesh loaded;
   bool operator==(const MeshSection&) const = default;
 };

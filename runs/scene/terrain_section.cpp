@@ -84,6 +84,9 @@ Table<Terrain> terrainTable() {
       .required();
   t.add("size", &S::size, "m", "extent in x, from 0, and in y, to both sides of 0").above(0).atMost(1e5).required();
   t.add("height_range", &S::heightRange, "m", "height of black and of white").atLeast(-1e4).atMost(1e4).required();
+  t.add("interpolation", &S::interpolation, "",
+        "surface between the pixels: monotone never rises above or falls below the pixels around it, smooth swings "
+        "beyond steps by up to 7 % of them, bilinear has edges along the lines of pixels");
   t.add("kind", &S::kind, "", "a bed of grains or rigid ground");
   t.add("material", &S::material, "", "of the grains, or of the rigid ground").required();
   t.add("ground_material", &S::groundMaterial, "", "of floor and walls; the bed's own where not given");

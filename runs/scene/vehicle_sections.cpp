@@ -34,7 +34,12 @@ Table<Vehicle> vehicleTable() {
   t.add("clearance", &S::clearance, "m", "between lowest grouser and highest ground below at the start")
       .atLeast(0)
       .atMost(10);
-  t.add("sphere_radius", &S::sphereRadius, "m", "of the parts' sphere sets").above(0).atMost(1);
+  t.add("sphere_radius", &S::sphereRadius, "m",
+        "of the parts' sphere sets; \"auto\": 0.02, or finer for parts of which these would stand out by more than a "
+        "twentieth of the smallest grain's radius or of a quarter of the pitch")
+      .above(0)
+      .atMost(1)
+      .orWord("auto");
   t.add("material", &S::material, "",
         "of the parts against grains and, for friction, obstacles; where not given they are of the other's own "
         "material, but with friction_ground of the vehicle file and the pull that adhesion says; on rigid ground all "
@@ -333,13 +338,16 @@ std::string writeSpecKeys(const Scene& scene) {
 }
 
 SectionEntry specEntry() {
-  return {"spec", readSpecKeys, writeSpecKeys,
+  return {"spec",
+          readSpecKeys,
+          writeSpecKeys,
           [] {
             return std::string(
                 "### `[spec.SECTION]`\n\nKeys of the vehicle file with other values than there, by its own sections "
                 "(below): `[spec.shoe]` with\n`pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`.\n");
           },
-          [](base::Document&) {}};
+          [](base::Document&) {},
+          vehicle::specKeys("spec.")};
 }
 
 bool hasVehicle(const Scene& scene) { return scene.vehicle.has_value(); }

@@ -4,6 +4,7 @@
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_setup.hpp"
 
 #include <algorithm>
 
@@ -26,7 +27,7 @@ scene::Scene sceneOfBed(scene::Scene scene) {
   removeLater(SurfaceKind::plane, scene.planes), removeLater(SurfaceKind::box, scene.boxes);
   removeLater(SurfaceKind::cylinder, scene.cylinders), removeLater(SurfaceKind::mesh, scene.meshes);
   scene.grains.clear(), scene.fills.clear(), scene.sources.clear();
-  scene.vehicle.reset(), scene.driver = {}, scene.mechanism = {};
+  removeVehicle(scene), scene.mechanism = {};
   return scene;
 }
 

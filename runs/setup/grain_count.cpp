@@ -7,20 +7,18 @@
 
 namespace grouser::setup {
 
-namespace {
-
-std::int64_t bedGrains(const scene::Scene& scene) {
+BedGrains bedGrains(const scene::Scene& scene) {
   const terrain::BedOptions options = bedOptions(scene);
   const terrain::BedPlan plan = terrain::planBed(readSurface(scene), options);
-  return plan.grains + terrain::fixedGrains(plan, options);
+  return {plan.grains, terrain::fixedGrains(plan, options)};
 }
-
-} // namespace
 
 std::int64_t plannedGrains(const scene::Scene& scene) {
   std::int64_t grains = placedCount(scene);
   for (const scene::Source& s : scene.sources) grains += s.total;
-  return grains + (scene.terrain && scene.terrain->granular() ? bedGrains(scene) : 0);
+  if (!scene.terrain || !scene.terrain->granular()) return grains;
+  const BedGrains bed = bedGrains(scene);
+  return grains + bed.loose + bed.fixed;
 }
 
 } // namespace grouser::setup

@@ -11,4 +11,10 @@ namespace grouser::setup {
 /// mille. Reads the height-map, for hills may need more.
 std::int64_t plannedGrains(const scene::Scene& scene);
 
+/// Grains of the bed of a scene that has one.
+struct BedGrains {
+  std::int64_t loose = 0, fixed = 0; ///< on its floor
+};
+BedGrains bedGrains(const scene::Scene& scene);
+
 } // namespace grouser::setup

@@ -24,7 +24,8 @@ Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds) {
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, 0, surroundingsOf(scene, floor, area), boundaries);
   const unsigned features = terrain::featuresOf(model, boundaries, kinds.many());
-  return {features, terrain::layoutOf(features, boundaries.count(), model.materials.count()), model.precision};
+  return {features, terrain::layoutOf(features, boundaries.count(model.radius), model.materials.count()),
+          model.precision};
 }
 
 double fieldBytes(const terrain::GrainLayout& layout) {

@@ -15,6 +15,7 @@
 #include "runs/setup/size_checks.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_setup.hpp"
 #include "runs/setup/vehicle_surface.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 
@@ -67,7 +68,7 @@ scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, con
   piece.run.gravity = {0, 0, -norm(scene.run.gravity)}; // where it leans, nothing would hold the piece back
   piece.grains.clear(), piece.fills.clear(), piece.sources.clear();
   piece.planes.clear(), piece.boxes.clear(), piece.cylinders.clear(), piece.meshes.clear();
-  piece.vehicle.reset(), piece.mechanism = {}, piece.parallel = {};
+  removeVehicle(piece), piece.mechanism = {}, piece.parallel = {};
   scene::Terrain& t = *piece.terrain;
   t.tile.reset();
   t.size = size;

@@ -32,12 +32,17 @@ void setLinear(const scene::Scene& scene, const scene::Material& a, const scene:
   law.stiffness = stiffness, law.tangentialStiffness = stiffness * ratio;
   const bool given = pair && (pair->restitution || pair->damping);
   if (effectiveMass) {
-    const double omega0 = std::sqrt(stiffness / *effectiveMass);
-    // The smaller restitution is the larger damping.
-    law.damping = given ? dampingOf(pair->restitution, pair->damping, law.attraction, omega0)
-                        : std::max(dampingOf(a.restitution, a.damping, law.attraction, omega0),
-                                   dampingOf(b.restitution, b.damping, law.attraction, omega0));
+    const auto dampingAt = [&](double mass) {
+      const double omega0 = std::sqrt(stiffness / mass);
+      // The smaller restitution is the larger damping.
+      return given ? dampingOf(pair->restitution, pair->damping, law.attraction, omega0)
+                   : std::max(dampingOf(a.restitution, a.damping, law.attraction, omega0),
+                              dampingOf(b.restitution, b.damping, law.attraction, omega0));
+    };
+    law.damping = dampingAt(*effectiveMass);
     law.tangentialDamping = law.damping * dampingRatio;
+    // Against a fixed grain the other's whole mass moves, twice that of two free ones.
+    if (law.damping > 0) law.fixedShare = dampingAt(2 * *effectiveMass) / law.damping;
     return;
   }
   if (!given && a.damping.has_value() != b.damping.has_value())

@@ -7,6 +7,7 @@
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "vehicle/assembly.hpp"
+#include "vehicle/ground_plane.hpp"
 #include "vehicle/hull_clearance.hpp"
 #include "vehicle/part_masses.hpp"
 #include "vehicle/part_meshes.hpp"
@@ -96,7 +97,7 @@ void checkParts(const scene::Scene& scene) {
         "run", "gravity",
         "[m/s2] does not pull the vehicle to the ground; give it a z below 0, or set vehicle.chassis = \"fixed\"");
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
-  const double radius = scene.vehicle->sphereRadius;
+  const double radius = scene.vehicle->sphereRadius.value_or(0); // an automatic one fits each part
   const auto read = [&](const char* section, const std::string& name) {
     try {
       return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
@@ -117,6 +118,7 @@ void checkParts(const scene::Scene& scene) {
         Named{"idler", spec.idler.mesh, meshes.idler}}) {
     if (&mesh == &meshes.roller && spec.roller.x.empty()) continue;
     mesh = read(section, name);
+    if (radius == 0) continue;
     const auto [low, high] = spheredecomp::bounds(mesh);
     const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (radius > 0.5 * longest)
@@ -148,43 +150,13 @@ void checkParts(const scene::Scene& scene) {
 
 base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,
                    const std::function<double(double, double)>& surfaceHeight) {
-  // A grid of points under both tracks, from a little behind the first road wheel to a little ahead of the last. It is
-  // symmetric about its middle, so that both slopes follow by themselves. Heights count from the first: level ground
-  // has no slope at all, not one of rounding.
-  constexpr int kAlong = 40, kAcross = 2;
-  constexpr double kLevel = 1e-9; // [-]
   const double c = base::cos(place.heading), s = base::sin(place.heading);
-  const double first = spec.roadWheel.firstX - 0.2;
-  const double last = spec.roadWheel.firstX + spec.roadWheel.spacing * (spec.roadWheel.count - 1) + 0.2;
-  const double middle = 0.5 * (first + last);
-  struct Point {
-    double ahead, left, height;
-  };
-  std::vector<Point> points;
-  for (const double side : {-1.0, 1.0})
-    for (int i = 0; i <= kAlong; ++i)
-      for (int j = -kAcross; j <= kAcross; ++j) {
-        const double px = first + (last - first) * i / kAlong;
-        const double py = side * spec.trackOffset + 0.5 * j * spec.shoe.padHalfWidth;
-        points.push_back({px - middle, py, surfaceHeight(place.x + c * px - s * py, place.y + s * px + c * py)});
-      }
-  const double zero = points.front().height;
-  double mean = 0, ahead = 0, left = 0, aheads = 0, lefts = 0;
-  for (const Point& p : points) {
-    const double h = p.height - zero;
-    mean += h, ahead += p.ahead * h, left += p.left * h, aheads += p.ahead * p.ahead, lefts += p.left * p.left;
-  }
-  mean /= static_cast<double>(points.size()), ahead /= aheads, left /= lefts;
-  if (std::fabs(ahead) < kLevel && std::fabs(left) < kLevel) ahead = left = 0;
-  if (ahead == 0 && left == 0) {
-    double top = -1e300;
-    for (const Point& p : points) top = std::max(top, p.height);
-    return vehicle::placeOnGround(spec, place.x, place.y, top + clearance, 0, place.heading);
-  }
-  double highest = -1e300; // over the plane
-  for (const Point& p : points) highest = std::max(highest, p.height - zero - (mean + ahead * p.ahead + left * p.left));
-  const double under = zero + mean - ahead * middle + highest; // the plane through the highest point, at the origin
-  return vehicle::placeOnSlope(spec, place.x, place.y, under, clearance, place.heading, ahead, left);
+  const vehicle::GroundPlane ground = vehicle::groundPlane(spec, place.x, place.y, c, s, surfaceHeight);
+  if (ground.ahead == 0 && ground.left == 0)
+    return vehicle::placeOnGround(spec, place.x, place.y, ground.top + clearance, 0, place.heading);
+  // The plane through the highest point, at the origin.
+  return vehicle::placeOnSlope(spec, place.x, place.y, ground.height + ground.highest, clearance, place.heading,
+                               ground.ahead, ground.left);
 }
 
 } // namespace grouser::setup

@@ -5,6 +5,7 @@
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/vehicle_setup.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/file_hash.hpp"
 #include "vehicle/spec_file.hpp"
@@ -41,21 +42,43 @@ void bringToRest(scene::SurfaceSection& s, bool named) {
   if (named) s.name = "surface";
 }
 
+/// The settings of a run that a bed depends on. All others are those of a fresh scene: how long the run is, what it
+/// writes, the machine (one answer on all), the list's skin (which changes no bit), what belongs to mechanisms, and
+/// what the time step follows from, since the step itself is named.
+scene::RunSettings settingsOfBed(const scene::RunSettings& run) {
+  scene::RunSettings bed;
+  bed.gravity = run.gravity, bed.seed = run.seed, bed.precision = run.precision;
+  bed.maxOverlap = run.maxOverlap; // a bed that another limit let pass would be refused
+  bed.periodic = run.periodic, bed.domainX = run.domainX, bed.domainY = run.domainY;
+  return bed;
+}
+
+/// Grains that enter later have a say in the layout by size and material, not by when and where they enter.
+std::vector<scene::Source> sourcesOfBed(const std::vector<scene::Source>& sources) {
+  std::vector<scene::Source> bed;
+  for (const scene::Source& s : sources) {
+    scene::Source kind;
+    kind.radius = s.radius, kind.material = s.material, kind.every = 1;
+    if (std::find(bed.begin(), bed.end(), kind) == bed.end()) bed.push_back(kind);
+  }
+  return bed;
+}
+
 /// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make
-/// two beds of one, but never one of two.
+/// two beds of one, but never one of two (but for those of [run], see above).
 scene::Scene bedAlone(scene::Scene scene) {
-  const scene::RunSettings fresh;
-  scene.run.duration = fresh.duration, scene.run.outputInterval = fresh.outputInterval;
-  scene.run.frameInterval = fresh.frameInterval, scene.run.checkpointInterval = fresh.checkpointInterval;
-  scene.run.device = fresh.device, scene.run.threads = fresh.threads; // one answer on all
-  scene.run.skin = fresh.skin;                                        // of lists, which change no bit
-  scene.run.timeStep.reset();                                         // the step itself is named
+  scene.run = settingsOfBed(scene.run);
   std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(scene, m.name); });
-  for (scene::Material& m : scene.materials) m.soil.clear(), m.soilHash.clear(), m.grainRadius.reset(); // values count
+  for (scene::Material& m : scene.materials) {
+    m.soil.clear(), m.soilHash.clear(), m.grainRadius.reset(); // values count
+    m.crushingStrength.reset();                                // of grains against parts
+  }
   std::erase_if(scene.contacts,
                 [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
-  scene.mechanism = {}, scene.vehicle.reset(), scene.driver = {}, scene.output = {}, scene.parallel = {};
+  removeVehicle(scene);
+  scene.mechanism = {}, scene.output = {}, scene.parallel = {};
   scene.terrain->cache = true;
+  scene.sources = sourcesOfBed(scene.sources);
   for (scene::Plane& p : scene.planes) bringToRest(p, !p.isWall());
   for (scene::BoxSection& b : scene.boxes) bringToRest(b, false);
   for (scene::CylinderSection& c : scene.cylinders) bringToRest(c, false);
@@ -73,6 +96,8 @@ std::string inputsOf(const scene::Scene& scene) {
   for (const scene::Material& m : scene.materials)
     if (!m.soil.empty()) text += fmt::format("material.{}.soil {}\n", m.name, m.soilHash);
   if (scene.terrain) text += fmt::format("terrain.heightmap {}\n", hashOfFile(scene.terrain->heightmap));
+  for (const scene::GrainFill& fill : scene.fills)
+    if (fill.file) text += fmt::format("grains.file:{} {}\n", *fill.file, hashOfFile(*fill.file));
   for (const scene::MeshSection& mesh : scene.meshes)
     text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));
   if (!scene.vehicle) return text;

@@ -79,7 +79,9 @@ std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
     const auto [low, high] = spheredecomp::bounds(m.loaded.query->mesh());
     add(SurfaceKind::mesh, k, m, SurfaceShape::box, 0.5 * (high - low),
         {m.position, support::orientationOf(m.axis, m.angle, m.orientation.value_or(std::vector<double>{}))});
-    all.back().mesh = m.loaded.query, all.back().sphereRadius = *m.sphereRadius;
+    all.back().mesh = m.loaded.query;
+    all.back().sphereRadius = m.loaded.sphereRadius;
+    all.back().sphereRadiusGiven = m.sphereRadius.has_value();
   }
   return all;
 }

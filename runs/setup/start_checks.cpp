@@ -5,6 +5,8 @@
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/sources.hpp"
+#include "terrain/feet_search.hpp"
+#include "terrain/searched_height_field.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +62,9 @@ public:
       : scene_(scene), around_(around), periodic_(periodicBoundaries(scene)),
         largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, periodic_[0]),
                                                     CellsAlong(2 * largest_, periodic_[1]),
-                                                    CellsAlong(2 * largest_, {})} {}
+                                                    CellsAlong(2 * largest_, {})} {
+    if (around.floor) floor_ = terrain::SearchedHeightField(base::Exec{}, *around.floor, largest_);
+  }
 
   /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
   void place(const Ball& ball) {
@@ -68,9 +72,9 @@ public:
       if (const double depth = ball.radius - dot(wall.normal, ball.position) + wall.offset;
           !ball.fixed && isTooDeep(depth, ball.radius))
         refuse(ball, depth, wall.name);
-    if (!ball.fixed && around_.floor && !around_.floor->view().clearOf(ball.position, ball.radius))
-      if (const double depth = ball.radius - around_.floor->closestPoint(ball.position).distance;
-          isTooDeep(depth, ball.radius))
+    if (terrain::FootPoint foot; !ball.fixed && around_.floor && !floor_.view().clearOf(ball.position, ball.radius) &&
+                                 terrain::deepestFoot(floor_.view(), ball.position, ball.radius, foot))
+      if (const double depth = ball.radius - foot.distance; isTooDeep(depth, ball.radius))
         refuse(ball, depth, "the terrain's floor");
     for (std::size_t i = 0; i < around_.surfaces.size(); ++i) {
       const SceneSurface& s = around_.surfaces[i];
@@ -135,6 +139,7 @@ private:
 
   const scene::Scene& scene_;
   const Surroundings& around_;
+  terrain::SearchedHeightField floor_;
   terrain::PeriodicBoundaries periodic_;
   double largest_;
   std::array<CellsAlong, 3> along_;

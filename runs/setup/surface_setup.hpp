@@ -42,6 +42,7 @@ struct SurfaceSetup {
   bool hasPivot{};                                       ///< about which its torque is told too
   std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
   double sphereRadius{};                                 ///< of the spheres that a mesh is cut into [m]
+  bool sphereRadiusGiven{};                              ///< by the scene; else it may become finer
   bool placedLater{};               ///< put on a bed that has settled without it; else the bed is laid around it
   std::optional<double> aboveBed{}; ///< then: height of its lowest point over the highest grain under it [m]
 

@@ -174,7 +174,7 @@ void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
 
 /// The swing of the hull on its hitch, which is explicit.
 void addHitch(std::vector<TimeScale>& scales, const scene::Scene& scene) {
-  if (!scene.hitch) return;
+  if (!scene.vehicle || !scene.hitch) return;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   const scene::Hitch& h = *scene.hitch;
   if (scene.driver.driveBegins() + h.start < scene.run.duration && h.kind != vehicle::HitchKind::ramp)

@@ -67,6 +67,11 @@ double hitchStiffness(const scene::Hitch& hitch, const vehicle::VehicleSpec& spe
   return hitch.stiffness.value_or(hitchedMass(hitch, spec) * kRate * kRate);
 }
 
+void removeVehicle(scene::Scene& scene) {
+  scene.vehicle.reset(), scene.driver = {}, scene.hitch.reset(), scene.stop = {};
+  scene.output.shoeForces = scene.output.gearContacts = false;
+}
+
 VehicleSetup vehicleSetup(const scene::Scene& scene) {
   const scene::Vehicle& v = *scene.vehicle;
   VehicleSetup setup;
@@ -82,10 +87,12 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   if (v.chassis == scene::ChassisMount::guided) setup.guide = vehicle::HullGuide::pitching;
   if (v.chassis == scene::ChassisMount::level) setup.guide = vehicle::HullGuide::level;
   setup.single = v.tracks == scene::Tracks::single;
-  setup.sphereRadius = v.sphereRadius;
+  setup.sphereRadius = v.sphereRadius.value_or(scene::Vehicle::kSphereRadius);
+  setup.sphereRadiusGiven = v.sphereRadius.has_value();
   setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
   setup.hullTouches = hullTouches(scene);
-  setup.hullSphereRadius = v.hullSphereRadius.value_or(std::max(kHullSphereRadius, v.sphereRadius));
+  setup.hullSphereRadius = v.hullSphereRadius.value_or(std::max(kHullSphereRadius, setup.sphereRadius));
+  setup.hullSphereRadiusGiven = v.hullSphereRadius.has_value();
   setup.stop = {scene.stop.distance, scene.stop.edge, scene.stop.immobile};
   setup.driver = driverOptions(scene.driver, setup.spec);
   if (scene.hitch) setup.hitch = hitchOptions(*scene.hitch, setup.spec);

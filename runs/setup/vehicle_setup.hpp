@@ -31,9 +31,11 @@ struct VehicleSetup {
   vehicle::HullGuide guide = vehicle::HullGuide::none;
   bool single = false;        ///< track, of two
   double sphereRadius{};      ///< of the parts' sphere sets [m]
+  bool sphereRadiusGiven{};   ///< by the scene; else it may become finer
   bool soilMeetsShoesAlone{}; ///< and no other part
   bool hullTouches{};         ///< ground, grains and obstacles
   double hullSphereRadius{};  ///< of its set then [m]
+  bool hullSphereRadiusGiven{};
   vehicle::DriverOptions driver;
   std::optional<vehicle::HitchOptions> hitch;
   StopSetup stop;
@@ -48,5 +50,9 @@ double hitchedMass(const scene::Hitch& hitch, const vehicle::VehicleSpec& spec);
 
 /// Reads the spec. Throws InputError where that, or where the vehicle stands, is not possible.
 VehicleSetup vehicleSetup(const scene::Scene& scene);
+
+/// Takes the vehicle out of the scene, with all that only a vehicle has: driver, hitch, stop, its columns of the
+/// output.
+void removeVehicle(scene::Scene& scene);
 
 } // namespace grouser::setup

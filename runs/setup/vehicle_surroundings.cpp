@@ -5,10 +5,13 @@
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "spheredecomp/mesh.hpp"
+#include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace grouser::setup {
@@ -245,6 +248,25 @@ std::vector<std::string> vehicleWarnings(const scene::Scene& scene) {
                                    "through without a force",
                                    s.list(), s.name));
   return warnings;
+}
+
+std::vector<std::string> meshNotes(const scene::Scene& scene) {
+  std::vector<std::string> notes;
+  const auto add = [&](const std::string& note) {
+    if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  };
+  for (const scene::MeshSection& mesh : scene.meshes) add(mesh.loaded.note);
+  if (!scene.vehicle) return notes;
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+  for (const std::string& mesh : {spec.chassis.mesh, spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh,
+                                  spec.roller.mesh, spec.idler.mesh}) {
+    const std::filesystem::path file = std::filesystem::path(spec.meshFolder) / mesh;
+    if (!std::filesystem::is_regular_file(file)) continue; // rollers that there are none of
+    std::string note;
+    spheredecomp::importMesh(file.string(), &note);
+    add(note);
+  }
+  return notes;
 }
 
 } // namespace grouser::setup

@@ -18,4 +18,7 @@ void checkVehicleSurroundings(const scene::Scene& scene);
 /// pass through, an end of the terrain that it comes to before the run's, speeds that begin with a jump.
 std::vector<std::string> vehicleWarnings(const scene::Scene& scene);
 
+/// Meshes of the scene and of its vehicle that were not read as they stand in their files.
+std::vector<std::string> meshNotes(const scene::Scene& scene);
+
 } // namespace grouser::setup

@@ -4,6 +4,7 @@
 #include "runs/simulation/checkpoint.hpp"
 #include "runs/simulation/energy_guard.hpp"
 #include "runs/simulation/ledger.hpp"
+#include "runs/simulation/placed_on_bed.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/shared_folder.hpp"
 #include "runs/support/tell.hpp"
@@ -54,52 +55,53 @@ std::optional<SettleReport> BedCache::find(const std::string& origin) const {
   }
 }
 
-SettleReport BedCache::settle(const setup::BedSetup& bed, const Ground& ground, const SettleProgress& progress,
-                              const base::Comm& comm) {
-  terrain::Grains& grains = *ground.grains;
+SettledGround BedCache::settle(const setup::GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
+                               const base::Comm& comm) {
   const Clock::time_point start = Clock::now();
   const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  const std::string& made = bed.origin;
+  const std::string& made = setup.grains->bed->origin;
   const fs::path file = comm.broadcast(files_.fileOf(kKind, made).string());
 
-  SettleReport report;
   const auto taken = [&] {
-    if (!reuse(file, made, grains, report, comm)) return false;
-    summary_ = fmt::format("taken from {}, in {:.2f} s", file.string(), seconds());
-    return true;
+    std::optional<SettledGround> kept = reuse(file, setup, exec, comm);
+    if (kept) summary_ = fmt::format("taken from {}, in {:.2f} s", file.string(), seconds());
+    return kept;
   };
-  if (taken()) return report;
+  if (std::optional<SettledGround> kept = taken()) return std::move(*kept);
 
   const fs::path& folder = files_.folder();
-  const bool fits = files_.fits(kBytesPerGrain * static_cast<double>(grains.count()));
   const bool usable =
       agreed(comm, comm.first() && files_.writable()) && !support::rankNotSeeing(folder, comm).has_value();
   if (!usable) warn(comm, fmt::format("{}: settled beds cannot be kept in this folder", folder.string()));
-  // Of several runs that want one bed the first settles it.
+  // When several runs need one bed, the first settles it, with its tile and all trials of the preparation.
   support::FileLock lock;
-  if (usable && fits) {
+  if (usable) {
     const fs::path name = support::KeptFiles::lockOf(file);
     for (bool told = false; !agreed(comm, comm.first() && lock.take(name)); told = true) {
       if (!told && comm.first()) support::tell("waiting for another run that settles the same bed\n");
       progress(0, 0);
       std::this_thread::sleep_for(kLook);
     }
-    if (taken()) return report;
+    if (std::optional<SettledGround> kept = taken()) return std::move(*kept);
   }
-  report = simulation::settle(bed, ground, progress);
+  SettledGround settled{buildGround(setup, exec, comm), {}};
+  const terrain::Grains& grains = *settled.ground.grains;
+  const bool fits = files_.fits(kBytesPerGrain * static_cast<double>(grains.count()));
+  if (!fits) lock.release(); // others would wait for nothing
+  settled.report = simulation::settle(*setup.grains->bed, settled.ground, progress);
   const double settledIn = seconds();
-  const bool kept = usable && fits && keep(file, made, grains, report, comm);
+  const bool kept = usable && fits && keep(file, made, grains, settled.report, comm);
   summary_ = fmt::format("settled in {:.2f} s; {}", settledIn,
                          kept    ? "kept in " + file.string()
                          : !fits ? "not kept, since it is larger than what GROUSER_CACHE_GIB allows"
                                  : "not kept");
-  return report;
+  return settled;
 }
 
-bool BedCache::reuse(const fs::path& file, const std::string& origin, terrain::Grains& grains, SettleReport& report,
-                     const base::Comm& comm) const {
+std::optional<SettledGround> BedCache::reuse(const fs::path& file, const setup::GroundSetup& setup,
+                                             const base::Exec& exec, const base::Comm& comm) const {
   std::error_code error;
-  if (!allOf(comm, fs::is_regular_file(file, error))) return false;
+  if (!allOf(comm, fs::is_regular_file(file, error))) return {};
   std::string damage;
   try {
     checkStateFile(file, kBedFile); // of each rank's own copy, where the folder is not shared
@@ -118,20 +120,19 @@ bool BedCache::reuse(const fs::path& file, const std::string& origin, terrain::G
     } catch (const std::exception&) {
       good = false;
     }
-    if (!allOf(comm, good)) return false;
+    if (!allOf(comm, good)) return {};
     bed = readState(*open, comm);
-    if (bed.scene != origin || !bed.state.grains ||
-        bed.state.grains->total != static_cast<std::int64_t>(grains.count()))
+    if (bed.scene != setup.grains->bed->origin || !bed.state.grains)
       damage = fmt::format("{}: holds another bed than its name says", file.string());
   }
   if (!damage.empty()) {
     warn(comm, damage);
-    return false;
+    return {};
   }
-  grains.restore(*bed.state.grains);
-  report = bed.state.settled;
+  SettledGround kept{groundAt(setup, *bed.state.grains, exec, comm), bed.state.settled};
+  kept.ground.grains->restore(*bed.state.grains);
   if (comm.first()) support::KeptFiles::noteUse(file);
-  return true;
+  return kept;
 }
 
 bool BedCache::keep(const fs::path& file, const std::string& origin, const terrain::Grains& grains,

@@ -26,12 +26,13 @@ public:
   /// Where the user keeps such files; see KeptFiles::ofUser().
   static std::optional<BedCache> ofUser(const base::Comm& comm = {});
 
-  /// Puts the kept bed of this scene in the place of the loose one; where there is none, settles as runs/bed does and
-  /// keeps the result. While another run settles the same bed it is waited for. What is wrong with the folder or with a
-  /// file in it is a warning, never the end of the run. On several ranks all of them call it; the folder must be seen
-  /// by all, or nothing is reused. Throws what `progress` throws, and SimulationError as settle() does.
-  SettleReport settle(const setup::BedSetup& bed, const Ground& ground, const SettleProgress& progress,
-                      const base::Comm& comm);
+  /// The ground with its bed at rest: the kept bed of this scene, for which nothing is laid, tried or settled; where
+  /// there is none, lets it settle as settledGround() does and keeps the result. While another run settles the same bed
+  /// it is waited for. What is wrong with the folder or with a file in it is a warning, never the end of the run. On
+  /// several ranks all of them call it; the folder must be seen by all, or nothing is reused. Throws what `progress`
+  /// throws, and SimulationError as simulation::settle() does.
+  SettledGround settle(const setup::GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
+                       const base::Comm& comm);
 
   /// How the bed of this origin (setup::BedSetup) settled, where it is kept; empty where it is not, or is damaged.
   std::optional<SettleReport> find(const std::string& origin) const;
@@ -40,8 +41,8 @@ public:
   const std::string& summary() const { return summary_; }
 
 private:
-  bool reuse(const std::filesystem::path& file, const std::string& origin, terrain::Grains& grains,
-             SettleReport& report, const base::Comm& comm) const;
+  std::optional<SettledGround> reuse(const std::filesystem::path& file, const setup::GroundSetup& setup,
+                                     const base::Exec& exec, const base::Comm& comm) const;
   bool keep(const std::filesystem::path& file, const std::string& origin, const terrain::Grains& grains,
             const SettleReport& report, const base::Comm& comm) const;
 

@@ -57,7 +57,9 @@ constexpr Meaning kMeanings[] = {
     {"grains/total", "-", "grains that are there"},
     {"grains/gone", "-", "ids of those that were taken out, ascending; all others stand in rows by ascending id"},
     {"grains/layout", "-",
-     "1 or how many: ledger, planes and floor, friction, rolling, radii, materials, periodic, fixed, plastic"},
+     "1 or how many: ledger, planes and floor, friction, rolling, radii, materials, periodic, fixed, plastic, places "
+     "of "
+     "the floor where a grain may touch it in several"},
     {"grains/position", "unit",
      "x, y, z, as 42-bit integers: low 32 bits of each, then three times their 10 high bits; times the attribute "
      "`unit` "
@@ -76,6 +78,7 @@ constexpr Meaning kMeanings[] = {
      "the same of the overlap at which first loading ended; no rows without plastic contacts"},
     {"grains/wall_origin", "N",
      "the same of the elastic force at the plastic overlap; no rows without plastic contacts"},
+    {"grains/floor_normal", "-", "of the places where a grain touches the floor; no rows where it has one"},
     {"grains/contacts", "-", "other grains in touch with each"},
     {"grains/travelled", "unit", "since the neighbour list was built"},
     {"grains/neighbour", "-", "ids of the grains in touch, ascending for each grain, grain by grain"},
@@ -97,10 +100,10 @@ constexpr Meaning kMeanings[] = {
     {"surfaces/patches/deepest", "-", "of each part the grain that it has pressed most since the last row"},
     {"vehicle/lift", "m", "with which it was set down"},
     {"vehicle/bodies", "m, -, m/s, rad/s", "places, velocities, springs and books of all bodies"},
-    {"vehicle/observers", "-, m, N m, W",
+    {"vehicle/observers", "-, m, N m, W, rad/s, m/s, rad",
      "travel of each track in teeth, pitches and metres; then sums since the last row of torque and power of each, and "
-     "of how many "
-     "steps"},
+     "of how many steps; sums of the speeds of each sprocket and of the hull at it; heading and roll with their whole "
+     "turns"},
     {"vehicle/driver", "s, m/s, rad/s, m",
      "when the drive began, and since when it had rested, -1: not yet; of a course the integrals of the errors of "
      "speed "

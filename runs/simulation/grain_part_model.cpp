@@ -21,7 +21,7 @@ contact::GrainPartModel grainPartModel(const setup::GrainsSetup& setup, const te
     pressed = std::max(pressed, contact::strongestForce(law, bed.radius, contact::kForcePress));
   // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
   model.force = base::fixedPointFor(pressed, 36);
-  model.torque = base::fixedPointFor(pressed, 36);
+  model.torque = base::fixedPointFor(pressed * contact::leverScale(bed.radius), 36);
   model.energy = base::fixedPointFor(pressed * bed.radius, 36);
   return model;
 }

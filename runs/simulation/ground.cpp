@@ -40,4 +40,12 @@ Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, cons
   return ground;
 }
 
+SettledGround settledGround(const setup::GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
+                            const base::Comm& comm) {
+  SettledGround settled{buildGround(setup, exec, comm), {}};
+  const setup::BedSetup& bed = *setup.grains->bed;
+  if (bed.settle.timeLimit > 0) settled.report = settle(bed, settled.ground, progress);
+  return settled;
+}
+
 } // namespace grouser::simulation

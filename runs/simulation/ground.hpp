@@ -10,4 +10,13 @@ namespace grouser::simulation {
 /// On several ranks each takes the grains of its subdomain.
 Ground buildGround(const setup::GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {});
 
+/// A ground whose bed has come to rest.
+struct SettledGround {
+  Ground ground;
+  SettleReport report;
+};
+/// Builds it, and lets its bed settle where the scene gives that time.
+SettledGround settledGround(const setup::GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
+                            const base::Comm& comm = {});
+
 } // namespace grouser::simulation

@@ -11,8 +11,8 @@ namespace {
 template <class Self, class Visit> void forCounted(Self& l, const Visit& visit) {
   visit(l.driveWork), visit(l.kinetic), visit(l.potential), visit(l.elastic), visit(l.grainElastic);
   auto& d = l.dissipated;
-  visit(d.damping), visit(d.friction), visit(d.rolling), visit(d.yielding), visit(d.crushing);
-  visit(d.parts), visit(d.joints);
+  visit(d.damping), visit(d.friction), visit(d.microSlip), visit(d.rolling);
+  visit(d.yielding), visit(d.crushing), visit(d.parts), visit(d.joints);
   visit(l.work), visit(l.turnover);
   for (auto* v : {&l.momentumResidual, &l.angularResidual}) visit(v->x), visit(v->y), visit(v->z);
 }

@@ -10,15 +10,16 @@ namespace grouser::simulation {
 
 /// What has become heat since the start, by its cause [J].
 struct Dissipated {
-  double damping{};  ///< dashpots of grains' contacts, with whatever they touch
-  double friction{}; ///< sliding of grains
-  double rolling{};  ///< rolling resistance of grains
-  double yielding{}; ///< plastic work of grains' contacts
-  double crushing{}; ///< grains that crush against parts
-  double parts{};    ///< contacts of rigid parts with each other and with rigid ground
-  double joints{};   ///< dampers and end stops of joints and springs
+  double damping{};   ///< dashpots of grains' contacts, with whatever they touch
+  double friction{};  ///< sliding of grains
+  double microSlip{}; ///< tangential springs of Hertz' law as they stiffen and soften
+  double rolling{};   ///< rolling resistance of grains
+  double yielding{};  ///< plastic work of grains' contacts
+  double crushing{};  ///< grains that crush against parts
+  double parts{};     ///< contacts of rigid parts with each other and with rigid ground
+  double joints{};    ///< dampers and end stops of joints and springs
 
-  double ofGrains() const { return damping + friction + rolling + yielding + crushing; }
+  double ofGrains() const { return damping + friction + microSlip + rolling + yielding + crushing; }
   double total() const { return ofGrains() + parts + joints; }
 };
 

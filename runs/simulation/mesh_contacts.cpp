@@ -5,10 +5,21 @@
 #include "runs/simulation/ground.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace grouser::simulation {
 
 using base::Vec3d;
+
+PartCut meshCut(const setup::SurfaceSetup& surface, double contactSize) {
+  constexpr double kPermitted = 0.02; // protrusion and dip [contact size]
+  PartCut cut{
+      &surface.mesh->mesh(),           surface.name, {}, {}, fmt::format("mesh.{}.sphere_radius", surface.number),
+      surface.place + ".sphere_radius"};
+  cut.options.radius = surface.sphereRadius, cut.options.interior = false;
+  cut.limit = {kPermitted * contactSize, contactSize, kPermitted * contactSize, !surface.sphereRadiusGiven};
+  return cut;
+}
 
 MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains,
                            SphereCache* kept)
@@ -18,10 +29,9 @@ MeshContacts::MeshContacts(const setup::GroundSetup& setup, const base::Exec& ex
   for (const setup::SurfaceSetup& surface : setup.surfaces) {
     if (!surface.mesh) continue;
     parts.push_back({static_cast<int>(cuts.size()), {}, {}});
-    cuts.push_back({&surface.mesh->mesh(), surface.name, {}});
-    cuts.back().options.radius = surface.sphereRadius, cuts.back().options.interior = false;
+    cuts.push_back(meshCut(surface, grains.system().constants.smallestRadius));
   }
-  sets_ = cutParts(cuts, kept, comm_);
+  sets_ = cutParts(cuts, kept, comm_, &cutReports_);
   std::vector<const base::SphereSet*> sets;
   for (const base::SphereSet& set : sets_) {
     sets.push_back(&set);

@@ -12,6 +12,9 @@
 
 namespace grouser::simulation {
 
+/// How a mesh is cut for contact with bodies of `contactSize` [m] and larger.
+PartCut meshCut(const setup::SurfaceSetup& surface, double contactSize);
+
 /// Grains against the [[mesh]]es of a scene, each cut into spheres as the parts of a vehicle are. All have one
 /// material.
 class MeshContacts {
@@ -32,6 +35,7 @@ public:
 
   contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }
   std::size_t spheres() const;
+  const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; }
   /// The meshes that press a grain; all ranks call it.
   std::vector<contact::GrainPartContacts::Press> pressing(std::uint32_t grain) const {
     return contacts_->pressing(grain);
@@ -52,7 +56,8 @@ private:
   base::Exec exec_;
   base::Comm comm_;
   std::vector<base::SphereSet> sets_;
-  std::vector<double> reach_; ///< of each about its frame's origin [m]
+  std::vector<spheredecomp::CutReport> cutReports_; ///< one a mesh
+  std::vector<double> reach_;                       ///< of each about its frame's origin [m]
   std::unique_ptr<contact::GrainPartContacts> contacts_;
   base::Mirrored<contact::PartMotion> motion_;
   base::Mirrored<contact::PartLoad> sums_;

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "contact/part_surface.hpp"
+#include "runs/simulation/mesh_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +24,9 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const vehicle::Assembly
   std::vector<PartCut> cuts;
   for (const setup::Obstacle& o : obstacles) {
     if (!o.surface.mesh) continue;
-    cuts.push_back({&o.surface.mesh->mesh(), o.surface.name, {}});
-    cuts.back().options.radius = o.surface.sphereRadius, cuts.back().options.interior = false;
+    cuts.push_back(meshCut(o.surface, VehicleParts::contactSize(assembly.spec)));
   }
-  made->sets_ = cutParts(cuts, kept, comm);
+  made->sets_ = cutParts(cuts, kept, comm, &made->cutReports_);
   std::vector<const base::SphereSet*> sets = parts.sets();
   const std::vector<int> setOfPart = parts.setOfContactPart();
   const int count = static_cast<int>(setOfPart.size());

@@ -41,6 +41,7 @@ public:
     contacts_->compute(motion, travelled, loads);
   }
 
+  const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; } ///< of the meshes
   std::size_t samplesListed() const { return contacts_->samplesListed(); }
   contact::PatchBuffers::Ledger ledger() const { return contacts_->ledger(); }
   contact::SavedPatches save() const { return contacts_->save(); }
@@ -50,6 +51,7 @@ private:
   ObstacleContacts() = default;
 
   std::vector<base::SphereSet> sets_; ///< of the meshes among them
+  std::vector<spheredecomp::CutReport> cutReports_;
   std::vector<contact::PartMotion> motions_;
   std::unique_ptr<terrain::SurfaceContacts> contacts_;
 };

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 namespace grouser::simulation {
 
@@ -136,14 +137,15 @@ void requireRoomFor(const setup::PlacedGrains& section, const setup::GroundSetup
 }
 
 /// Where the grains of a state lie, all of them on every rank.
-std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const base::PositionScale& scale,
-                                        const std::vector<int>& materials, const base::Comm& comm) {
+std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const terrain::GrainModel& model,
+                                        const base::PositionScale& scale, const std::vector<int>& materials,
+                                        const base::Comm& comm) {
   std::vector<terrain::GrainSpec> mine;
   for (std::size_t k = 0; k < rows.rows(); ++k)
     mine.push_back({scale.toMetres(rows.position[k]),
                     {},
                     {},
-                    rows.radius.empty() ? 0.0 : double{rows.radius[k]},
+                    rows.radius.empty() ? model.radius : double{rows.radius[k]},
                     materials[rows.material.empty() ? 0 : rows.material[k]],
                     !rows.fixed.empty() && rows.fixed[k] != 0});
   if (comm.alone()) return mine;
@@ -162,12 +164,17 @@ void makeGrains(Ground& ground, const setup::GroundSetup& scene, const std::vect
   guardInsertion(*ground.grains, g.sources, namesOfShapes(scene));
 }
 
-/// The place of each of the bed's boundaries among those of the scene: walls, the floor, then surfaces.
-std::vector<std::size_t> boundariesInScene(const setup::GroundSetup& scene) {
-  const terrain::Boundaries& all = scene.grains->boundaries;
-  std::vector<std::size_t> places;
-  std::size_t next = 0;
-  while (next < all.walls.size() + (all.floor ? 1 : 0)) places.push_back(next++);
+/// The place of each of the bed's boundaries among those of the scene: walls, places of the floor, then surfaces.
+/// Beside larger grains a floor may have more places than alone.
+std::vector<std::size_t> boundariesInScene(const setup::GroundSetup& scene, const terrain::GrainLayout& alone,
+                                           const terrain::GrainLayout& layout) {
+  std::size_t surfaces = 0, later = 0;
+  for (const setup::SurfaceSetup& s : scene.surfaces)
+    if (!s.mesh) ++surfaces, later += s.placedLater ? 1 : 0;
+  const std::size_t fixed = static_cast<std::size_t>(alone.boundaries) - (surfaces - later);
+  std::size_t next = static_cast<std::size_t>(layout.boundaries) - surfaces;
+  std::vector<std::size_t> places(fixed);
+  std::iota(places.begin(), places.end(), std::size_t{0});
   for (const setup::SurfaceSetup& s : scene.surfaces) {
     if (s.mesh) continue;
     if (!s.placedLater) places.push_back(next);
@@ -208,6 +215,18 @@ void takeBoundaries(const GrainState& bed, const std::vector<std::size_t>& place
         scene.wallOrigin[k * to + place] = bed.wallOrigin[k * from + b];
       }
     }
+}
+
+/// The normals by which a floor of several places knows its contacts again.
+void takeFloorNormals(const GrainState& bed, const terrain::Boundaries& boundaries, const base::PositionScale& scale,
+                      GrainState& scene) {
+  const auto places = static_cast<std::size_t>(scene.layout.places);
+  if (bed.layout.places > 0) scene.floorNormal = bed.floorNormal;
+  if (places == 0 || bed.layout.places > 0) return;
+  for (std::size_t k = 0; k < scene.rows(); ++k)
+    if (scene.wallBits[k] >> boundaries.walls.size() & 1u)
+      scene.floorNormal[k * places] =
+          boundaries.floor->closestPoint(scale.toMetres(scene.position[k])).normal.as<float>();
 }
 
 } // namespace
@@ -256,14 +275,13 @@ void takeIntoScene(Ground& ground, const setup::GroundSetup& scene, const base::
   for (std::size_t k = 0; k < alone.materials.size(); ++k)
     materials[k] = static_cast<int>(std::find(all.materials.begin(), all.materials.end(), alone.materials[k]) -
                                     all.materials.begin());
-  std::vector<terrain::GrainSpec> start = specsOf(bed, scale, materials, comm);
-  for (terrain::GrainSpec& g : start)
-    if (g.radius == 0) g.radius = alone.model.radius;
+  const std::vector<terrain::GrainSpec> start = specsOf(bed, alone.model, scale, materials, comm);
   ground.grains.reset(); // memory for one of them
   makeGrains(ground, scene, start, exec, comm);
   GrainState rows = ground.grains->state();
   takeMotion(bed, scale.unit == ground.grains->scale().unit, rows);
-  takeBoundaries(bed, boundariesInScene(scene), rows);
+  takeBoundaries(bed, boundariesInScene(scene, bed.layout, rows.layout), rows);
+  takeFloorNormals(bed, all.boundaries, ground.grains->scale(), rows);
   ground.grains->restore(rows);
 }
 
@@ -274,8 +292,8 @@ Ground groundAt(const setup::GroundSetup& scene, const GrainState& rows, const b
   ground.walls = scene.grains->bed->walls;
   std::vector<int> materials(std::max<std::size_t>(1, scene.grains->materials.size()));
   for (std::size_t k = 0; k < materials.size(); ++k) materials[k] = static_cast<int>(k);
-  makeGrains(ground, scene, specsOf(rows, base::positionScale(2 * scene.grains->model.radius), materials, comm), exec,
-             comm);
+  const terrain::GrainModel& model = scene.grains->model;
+  makeGrains(ground, scene, specsOf(rows, model, base::positionScale(2 * model.radius), materials, comm), exec, comm);
   return ground;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/simulation/pressed_grain.hpp"
 
+#include "terrain/feet_search.hpp"
+#include "terrain/searched_height_field.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,7 +81,12 @@ void addRigid(std::vector<PressedGrain::Presser>& by, const setup::GroundSetup& 
   for (std::size_t w = 0; w < around.walls.size(); ++w)
     add(setup.grains->wallNames[w], own.radius - dot(around.walls[w].normal, own.position) + around.walls[w].offset,
         around.walls[w].normal);
-  if (around.floor) add("the terrain's floor", own.radius - around.floor->closestPoint(own.position).distance, {});
+  if (around.floor) {
+    const terrain::SearchedHeightField floor(base::Exec{}, *around.floor, own.radius);
+    terrain::FootPoint foot;
+    if (terrain::deepestFoot(floor.view(), own.position, own.radius, foot))
+      add("the terrain's floor", own.radius - foot.distance, {});
+  }
   for (std::size_t i = 0; i < setup.surfaces.size(); ++i) {
     const setup::SurfaceSetup& s = setup.surfaces[i];
     if (s.mesh) continue;

@@ -24,11 +24,13 @@ const char* const kSlidingGives = "their springs take over the force of tangenti
 
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, BedCache* beds, SphereCache* spheres)
-    : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(buildGround(setup_.ground, exec, comm)) {
+    : setup_(std::move(setup)), exec_(exec), comm_(comm) {
   if (hasBed()) {
     const setup::BedSetup& bed = *bedGround().grains->bed;
-    if (bed.settle.timeLimit > 0)
-      settled_ = beds ? beds->settle(bed, ground_, progress, comm) : settle(bed, ground_, progress);
+    const bool kept = beds && bed.settle.timeLimit > 0;
+    SettledGround settled =
+        kept ? beds->settle(bedGround(), exec, progress, comm) : settledGround(bedGround(), exec, progress, comm);
+    ground_ = std::move(settled.ground), settled_ = settled.report;
     keepSurface(ground_, exec);
     if (bed.settle.timeLimit > 0) {
       ground_.structure = structureOf(ground_);
@@ -40,6 +42,8 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
       requireRoom(*ground_.grains, setup_.ground, comm);
       takeIntoScene(ground_, setup_.ground, exec, comm);
     }
+  } else {
+    ground_ = buildGround(setup_.ground, exec, comm);
   }
   surface_ = setup::withObstacles(surfaceHeight(ground_), setup_.ground.obstacles);
   if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, spheres);
@@ -213,7 +217,7 @@ Ledger Simulation::wholeLedger() {
   if (ground_.grains) {
     const terrain::GrainLedger g = ground_.grains->ledger();
     l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = l.grainElastic = g.elastic;
-    l.dissipated = {g.damped, g.rubbed, g.rolled, g.yielded, 0, 0, 0};
+    l.dissipated = {g.damped, g.rubbed, g.slipped, g.rolled, g.yielded, 0, 0, 0};
     l.work = g.work, l.turnover = g.turnover;
     l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;
     l.momentumResidual = g.momentum - g.impulse, l.angularResidual = g.angularMomentum - g.angularImpulse;
@@ -335,6 +339,17 @@ void Simulation::checkEnergy(const Ledger& now) {
   if (vehicle_ && now.dissipated.parts > now.dissipated.ofGrains())
     remedy += "; most has been dissipated where shoes touch " + mostDissipating(vehicle_->assembly(), vehicle_->save());
   throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
+}
+
+std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation) {
+  std::vector<spheredecomp::CutReport> all;
+  const auto add = [&](const std::vector<spheredecomp::CutReport>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (const VehicleRig* vehicle = simulation.vehicle())
+    add(vehicle->parts().cutReports()), add(obstacleReports(vehicle->contacts()));
+  if (simulation.surfaces()) add(simulation.surfaces()->cutReports());
+  return all;
 }
 
 } // namespace grouser::simulation

@@ -121,4 +121,7 @@ private:
   Ledger start_; ///< before the first step; the ledger counts from here
 };
 
+/// How the meshes of vehicle and scene were cut; those of parts that touch nothing have no entry.
+std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation);
+
 } // namespace grouser::simulation

@@ -40,12 +40,16 @@ SimulationState Simulation::save() const {
 
 namespace {
 
-/// Where something has been put on a settled bed: with all grains of the state.
+/// With all grains of the state where something has been put on a settled bed, or where a tile was copied: it need not
+/// settle again.
+bool isMadeOfState(const setup::GroundSetup& setup) {
+  return setup.grains && setup.grains->bed && (setup.grains->bed->alone || setup.grains->bed->tile);
+}
+
 Ground groundOf(setup::GroundSetup& setup, const SimulationState& state, const base::Exec& exec,
                 const base::Comm& comm) {
-  if (!setup.grains || !setup.grains->bed || !setup.grains->bed->alone || !state.grains)
-    return buildGround(setup, exec, comm);
-  lift(setup, state.lifts);
+  if (!isMadeOfState(setup) || !state.grains) return buildGround(setup, exec, comm);
+  if (setup.grains->bed->alone) lift(setup, state.lifts);
   return groundAt(setup, *state.grains, exec, comm);
 }
 
@@ -65,7 +69,7 @@ Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, con
   surface_ = setup::withObstacles(surfaceHeight(ground_), setup_.ground.obstacles);
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_.grains) {
-    ground_.grains->restore(*state.grains, isPutOnBed() || !setup_.ground.grains->sources.empty());
+    ground_.grains->restore(*state.grains, isMadeOfState(setup_.ground) || !setup_.ground.grains->sources.empty());
     ground_.grains->setSteps(steps_);
     if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains, spheres);
   }

@@ -22,7 +22,7 @@ namespace {
 
 constexpr auto kSpheres = support::KeptFiles::Kind::spheres;
 constexpr const char* kSetFile = "kept sphere set";
-constexpr int kSetFileVersion = 1;
+constexpr int kSetFileVersion = 2;
 constexpr auto kSpheresLook = std::chrono::milliseconds(20); // between two looks at another program's lock
 constexpr double kPatience = 120;                            // [s], after which one cuts beside the other
 
@@ -45,7 +45,19 @@ void setFigures(base::SphereSet& set, const Figures& f) {
 static_assert(std::is_trivially_copyable_v<base::SetSphere> && sizeof(base::SetSphere) == 10 * sizeof(double),
               "a sphere has another shape: raise kSetFileVersion");
 
-void write(const fs::path& path, const std::string& origin, const base::SphereSet& set) {
+/// With a limit the cut that keeps it.
+base::SphereSet freshCut(const PartCut& part, spheredecomp::Protrusion& protrusion) {
+  if (!part.limit) return spheredecomp::decompose(*part.mesh, part.name, part.options);
+  base::SphereSet set = spheredecomp::decomposeWithin(*part.mesh, part.place.empty() ? part.name : part.place,
+                                                      part.options, *part.limit, protrusion);
+  set.name = part.name;
+  return set;
+}
+
+} // namespace
+
+void SphereCache::write(const fs::path& path, const std::string& origin, const Found& found) {
+  const base::SphereSet& set = found.set;
   std::ofstream out(path, std::ios::binary);
   const std::string seal(support::kSealBytes, '\0');
   const std::uint64_t length = origin.size();
@@ -54,6 +66,7 @@ void write(const fs::path& path, const std::string& origin, const base::SphereSe
   out.write(reinterpret_cast<const char*>(&length), sizeof length);
   out.write(origin.data(), static_cast<std::streamsize>(length));
   out.write(reinterpret_cast<const char*>(&figures), sizeof figures);
+  out.write(reinterpret_cast<const char*>(&found.protrusion), sizeof found.protrusion);
   out.write(reinterpret_cast<const char*>(set.spheres.data()),
             static_cast<std::streamsize>(set.spheres.size() * sizeof(base::SetSphere)));
   out.close();
@@ -61,7 +74,7 @@ void write(const fs::path& path, const std::string& origin, const base::SphereSe
 }
 
 /// Throws where the bytes are of another origin.
-base::SphereSet parsed(const std::string& bytes, const std::string& origin) {
+SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::string& origin) {
   const char *at = bytes.data(), *end = at + bytes.size();
   const auto take = [&](void* to, std::size_t count) {
     if (static_cast<std::size_t>(end - at) < count) throw std::runtime_error("is cut short");
@@ -76,14 +89,18 @@ base::SphereSet parsed(const std::string& bytes, const std::string& origin) {
   at += length;
   Figures figures{};
   take(&figures, sizeof figures);
+  Found found;
+  take(&found.protrusion, sizeof found.protrusion);
   if (static_cast<std::size_t>(end - at) != figures.spheres * sizeof(base::SetSphere))
     throw std::runtime_error("is cut short");
-  base::SphereSet set;
+  base::SphereSet& set = found.set;
   set.spheres.resize(figures.spheres);
   take(set.spheres.data(), figures.spheres * sizeof(base::SetSphere));
   setFigures(set, figures);
-  return set;
+  return found;
 }
+
+namespace {
 
 /// The set that rank `root` has, on all ranks.
 base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
@@ -102,38 +119,53 @@ std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
   return files ? std::optional(SphereCache(*files)) : std::nullopt;
 }
 
-base::SphereSet SphereCache::cut(const PartCut& part) {
+base::SphereSet SphereCache::cut(const PartCut& part, spheredecomp::Protrusion* protrusion) {
+  // The plain cut, where that is good enough, is one and the same for whatever touches the part.
+  if (part.limit && part.limit->automatic) {
+    PartCut plain = part;
+    plain.limit->automatic = false;
+    spheredecomp::Protrusion measured;
+    base::SphereSet set = cut(plain, &measured);
+    if (spheredecomp::meets(*part.limit, set, part.options, measured)) {
+      if (protrusion) *protrusion = measured;
+      return set;
+    }
+  }
   support::Stopwatch clock;
-  const std::string origin = spheredecomp::cutOrigin(*part.mesh, part.options);
+  const std::string origin =
+      spheredecomp::cutOrigin(*part.mesh, part.options) + (part.limit ? spheredecomp::limitOrigin(*part.limit) : "");
   const fs::path file = files_.fileOf(kSpheres, origin);
-  std::optional<base::SphereSet> set = find(file, origin);
+  std::optional<Found> found = find(file, origin);
   support::FileLock lock;
-  const bool usable = set || files_.writable();
-  if (!set && usable) {
+  const bool usable = found || files_.writable();
+  if (!found && usable) {
     // Of several programs that want one set the first cuts it.
     while (!lock.take(support::KeptFiles::lockOf(file)) && clock.seconds() < kPatience)
       std::this_thread::sleep_for(kSpheresLook);
-    set = find(file, origin);
+    found = find(file, origin);
   }
-  if (set) {
-    set->name = part.name;
+  if (found) {
+    found->set.name = part.name;
     ++taken_, taking_ += clock.seconds();
-    return std::move(*set);
+    if (protrusion) *protrusion = found->protrusion;
+    return std::move(found->set);
   }
   clock = {};
-  base::SphereSet fresh = spheredecomp::decompose(*part.mesh, part.name, part.options);
+  Found fresh;
+  fresh.set = freshCut(part, fresh.protrusion);
   ++cut_, cutting_ += clock.seconds();
   if (usable && keep(file, origin, fresh)) ++kept_;
-  return fresh;
+  if (protrusion) *protrusion = fresh.protrusion;
+  return std::move(fresh.set);
 }
 
-std::optional<base::SphereSet> SphereCache::find(const fs::path& file, const std::string& origin) const {
+std::optional<SphereCache::Found> SphereCache::find(const fs::path& file, const std::string& origin) const {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return {};
   try {
-    base::SphereSet set = parsed(support::readSealed(file, kSetFile, kSetFileVersion), origin);
+    Found found = parsed(support::readSealed(file, kSetFile, kSetFileVersion), origin);
     support::KeptFiles::noteUse(file);
-    return set;
+    return found;
   } catch (const std::exception& e) {
     if (!fs::is_regular_file(file, error)) return {}; // deleted just now, by a program that makes room
     const std::string what = e.what();                // of a sealed file it begins with its name
@@ -144,12 +176,12 @@ std::optional<base::SphereSet> SphereCache::find(const fs::path& file, const std
   }
 }
 
-bool SphereCache::keep(const fs::path& file, const std::string& origin, const base::SphereSet& set) const {
-  const double bytes = static_cast<double>(set.spheres.size() * sizeof(base::SetSphere)) + 4096;
+bool SphereCache::keep(const fs::path& file, const std::string& origin, const Found& found) const {
+  const double bytes = static_cast<double>(found.set.spheres.size() * sizeof(base::SetSphere)) + 4096;
   if (!files_.fits(bytes)) return false;
   const fs::path fresh = support::KeptFiles::freshName(file);
   try {
-    support::writeSealed(fresh, kSetFile, kSetFileVersion, [&](const fs::path& part) { write(part, origin, set); });
+    support::writeSealed(fresh, kSetFile, kSetFileVersion, [&](const fs::path& part) { write(part, origin, found); });
   } catch (const std::exception&) {
     return false;
   }
@@ -170,15 +202,26 @@ std::string SphereCache::summary(const base::Comm& comm) const {
   return text + (kept < cut ? fmt::format("{} ", kept) : "") + "kept in " + folder;
 }
 
-std::vector<base::SphereSet> cutParts(const std::vector<PartCut>& parts, SphereCache* cache, const base::Comm& comm) {
+std::vector<base::SphereSet> cutParts(const std::vector<PartCut>& parts, SphereCache* cache, const base::Comm& comm,
+                                      std::vector<spheredecomp::CutReport>* reports) {
   const auto cutterOf = [&](std::size_t i) { return static_cast<int>(i % static_cast<std::size_t>(comm.size())); };
   std::vector<base::SphereSet> sets(parts.size());
+  std::vector<spheredecomp::Protrusion> protrusions(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const PartCut& p = parts[i];
-    if (cutterOf(i) == comm.rank())
-      sets[i] = cache ? cache->cut(p) : spheredecomp::decompose(*p.mesh, p.name, p.options);
+    if (cutterOf(i) == comm.rank()) sets[i] = cache ? cache->cut(p, &protrusions[i]) : freshCut(p, protrusions[i]);
   }
   for (std::size_t i = 0; i < sets.size(); ++i) sets[i] = shared(comm, std::move(sets[i]), cutterOf(i));
+  if (!reports) return sets;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (!parts[i].limit) continue;
+    const base::Bytes mine = base::Comm::bytesOf(std::vector{protrusions[i]});
+    const auto protrusion =
+        comm.alone() ? protrusions[i]
+                     : base::Comm::valuesOf<spheredecomp::Protrusion>(comm.broadcast(mine, cutterOf(i))).front();
+    reports->push_back(
+        {parts[i].name, parts[i].key, sets[i].radius, sets[i].spheres.size(), protrusion, *parts[i].limit});
+  }
   return sets;
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/comm.hpp"
 #include "runs/support/kept_files.hpp"
-#include "spheredecomp/decompose.hpp"
+#include "spheredecomp/protrusion.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -18,6 +18,9 @@ struct PartCut {
   const base::TriangleMesh* mesh;
   std::string name; ///< of the set, and in errors
   spheredecomp::DecompositionOptions options;
+  std::optional<spheredecomp::ProtrusionLimit> limit{}; ///< empty: the set is not measured
+  std::string key{};                                    ///< of the scene that says the radius
+  std::string place{};                                  ///< of that key, in errors; empty: the name
 };
 
 /// The user's folder as far as sphere sets lie in it, and where those of this run came from.
@@ -30,8 +33,9 @@ public:
 
   /// The set that decompose() gives, bit for bit: a kept one where there is one; otherwise it is cut and kept. While
   /// another program cuts the same it is waited for. What is wrong with the folder or with a file in it never ends a
-  /// run: a damaged file is a warning. Throws as decompose() does.
-  base::SphereSet cut(const PartCut& part);
+  /// run: a damaged file is a warning. Throws as decompose() does. With a limit as decomposeWithin(), and `protrusion`
+  /// receives what that measures.
+  base::SphereSet cut(const PartCut& part, spheredecomp::Protrusion* protrusion = nullptr);
 
   /// One line: where the sets of all ranks came from, and how long that took. Empty where there were none. All ranks
   /// call it.
@@ -40,8 +44,14 @@ public:
   double cutting() const { return cutting_; }
 
 private:
-  std::optional<base::SphereSet> find(const std::filesystem::path& file, const std::string& origin) const;
-  bool keep(const std::filesystem::path& file, const std::string& origin, const base::SphereSet& set) const;
+  struct Found {
+    base::SphereSet set;
+    spheredecomp::Protrusion protrusion;
+  };
+  std::optional<Found> find(const std::filesystem::path& file, const std::string& origin) const;
+  bool keep(const std::filesystem::path& file, const std::string& origin, const Found& found) const;
+  static void write(const std::filesystem::path& path, const std::string& origin, const Found& found);
+  static Found parsed(const std::string& bytes, const std::string& origin);
 
   support::KeptFiles files_;
   /// Of this rank, since the start.
@@ -50,7 +60,8 @@ private:
 };
 
 /// The sets of all parts, on all ranks, which share the work. `cache` may be null: then all are cut. Throws as
-/// decompose() does.
-std::vector<base::SphereSet> cutParts(const std::vector<PartCut>& parts, SphereCache* cache, const base::Comm& comm);
+/// decompose() does, or with a limit decomposeWithin(); `reports` receives an entry for each part.
+std::vector<base::SphereSet> cutParts(const std::vector<PartCut>& parts, SphereCache* cache, const base::Comm& comm,
+                                      std::vector<spheredecomp::CutReport>* reports = nullptr);
 
 } // namespace grouser::simulation

@@ -144,7 +144,7 @@ void Surfaces::addTo(Ledger& ledger) const {
     const contact::GrainPartContacts::Ledger m = meshes_->ledger();
     ledger.elastic += m.elastic, ledger.partContacts += m.contacts, ledger.squeezedByParts += m.squeezed;
     ledger.dissipated.damping += m.damped, ledger.dissipated.friction += m.rubbed,
-        ledger.dissipated.rolling += m.rolled;
+        ledger.dissipated.rolling += m.rolled, ledger.dissipated.microSlip += m.slipped;
     ledger.dissipated.crushing += m.crushed, ledger.cappedNow += m.capped, ledger.cutImpulse += m.cutImpulse;
   }
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {

@@ -57,6 +57,9 @@ public:
   std::vector<std::uint32_t> endedGrains() const {
     return meshes_ ? meshes_->endedGrains() : std::vector<std::uint32_t>{};
   }
+  std::vector<spheredecomp::CutReport> cutReports() const {
+    return meshes_ ? meshes_->cutReports() : std::vector<spheredecomp::CutReport>{};
+  }
   void takeOut(const std::vector<std::uint32_t>& grains) { meshes_->takeOut(grains); }
   std::optional<PressedMost> pressedMost() const; ///< by a mesh since restartMeans(); empty without meshes
 

@@ -15,7 +15,8 @@ namespace grouser::simulation {
 /// What a row says of a hitch. Means are since restartMeans(), and 0 before the first step behind it.
 struct HitchObservation {
   base::Vec3d force;   ///< on the vehicle, mean [N]: forward along the heading, left, up
-  double pull{};       ///< of the vehicle on it, mean [N]: the drawbar pull, backwards on the hull positive
+  double pull{};       ///< of the vehicle on it, mean, forward along the heading [N]; Observation::drawbarPull is along
+                       ///< the direction of motion
   double speed{};      ///< of the hitch point along the heading, mean [m/s]
   double power{};      ///< that it takes from the vehicle, mean [W]
   double work{};       ///< done on the vehicle since the start [J]; negative where it holds it back

@@ -292,6 +292,7 @@ VehicleContacts::Ledger VehicleContacts::ledger() const {
     const contact::GrainPartContacts::Ledger bed = bed_->ledger();
     ledger.elastic += bed.elastic;
     ledger.damped = bed.damped, ledger.rubbed = bed.rubbed, ledger.rolled = bed.rolled;
+    ledger.slipped = bed.slipped;
     ledger.crushed = bed.crushed, ledger.cutImpulse = bed.cutImpulse, ledger.capped = bed.capped;
     ledger.angularOnParts = angularOnParts_;
     ledger.grainContacts = bed.contacts, ledger.squeezed = bed.squeezed;
@@ -350,6 +351,10 @@ void VehicleContacts::restore(const VehicleState& s) {
   impulseOnParts_ = s.impulseOnParts;
   angularOnParts_ = s.angularOnParts;
   relativeTravel_ = absoluteTravel_ = kNeverListed;
+}
+
+std::vector<spheredecomp::CutReport> obstacleReports(const VehicleContacts& contacts) {
+  return contacts.obstacles_ ? contacts.obstacles_->cutReports() : std::vector<spheredecomp::CutReport>{};
 }
 
 } // namespace grouser::simulation

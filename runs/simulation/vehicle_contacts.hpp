@@ -73,6 +73,7 @@ public:
     double elastic{};                         ///< held now
     double dissipated{};                      ///< since the start, of parts with each other and with what is rigid
     double damped{}, rubbed{}, rolled{};      ///< since the start, of parts with grains
+    double slipped{};                         ///< the same by springs of Hertz' law as they stiffen and soften
     double crushed{}, cutImpulse{};           ///< the same where grains crush, the latter [N s]
     std::int64_t capped{};                    ///< contacts at the force at which their grain crushes
     std::int64_t patches{};                   ///< of parts on parts and on ground
@@ -107,6 +108,8 @@ public:
   void restore(const VehicleState& state);
 
 private:
+  friend std::vector<spheredecomp::CutReport> obstacleReports(const VehicleContacts& contacts);
+
   void makeTrack();
   void makeGround(const setup::GroundSetup& setup, const Ground& ground, bool shoesAlone);
   void makeObstacles(const setup::GroundSetup& setup, const Ground& ground, SphereCache* kept);
@@ -153,5 +156,8 @@ private:
   base::Vec3l impulseOnParts_{};
   base::Vec3d angularOnParts_; ///< from grains and rigid ground [N m s]
 };
+
+/// How meshes that the vehicle meets as obstacles were cut.
+std::vector<spheredecomp::CutReport> obstacleReports(const VehicleContacts& contacts);
 
 } // namespace grouser::simulation

@@ -4,13 +4,18 @@
 #include "contact/part_surface.hpp"
 #include "spheredecomp/mesh.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
 namespace grouser::simulation {
 
+using base::Vec3d;
+
 VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const setup::VehicleSetup& setup, const base::Comm& comm,
-                           SphereCache* kept)
+                           SphereCache* kept, double smallestGrain)
     : contactIndex_(assembly.parts.size(), -1) {
   std::map<std::string, std::size_t> indexOf;
   std::vector<std::size_t> touching; // meshes that are to be cut
@@ -35,7 +40,8 @@ VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const setup::Vehic
   // Behind the others, so that these have the same places with and without it.
   if (setup.hullTouches)
     for (const std::size_t hull : hulls) addContactPart(hull);
-  cut(touching, hulls.empty() ? meshes_.size() : meshOfPart_[hulls.front()], setup, kept, comm);
+  cut(touching, hulls.empty() ? meshes_.size() : meshOfPart_[hulls.front()], setup,
+      std::min(contactSize(assembly.spec), smallestGrain), kept, comm);
   for (std::size_t c = 0; c < contactParts_.size(); ++c)
     reach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[partOf(c)]]) +
                      norm(assembly.parts[partOf(c)].pose_B.position));
@@ -47,14 +53,26 @@ void VehicleParts::addContactPart(std::size_t part) {
 }
 
 void VehicleParts::cut(const std::vector<std::size_t>& meshes, std::size_t hull, const setup::VehicleSetup& setup,
-                       SphereCache* kept, const base::Comm& comm) {
+                       double contactSize, SphereCache* kept, const base::Comm& comm) {
+  constexpr double kPermitted = 0.05;      // protrusion [contact size]
+  constexpr double kHullPermitted = 0.005; // of the hull, which seldom touches [its diagonal]
   std::vector<PartCut> parts;
   for (const std::size_t m : meshes) {
     parts.push_back({&meshes_[m], setFigures_[m].mesh, {}});
-    parts.back().options.radius = m == hull ? setup.hullSphereRadius : setup.sphereRadius;
-    parts.back().options.interior = m != hull;
+    const bool isHull = m == hull, given = isHull ? setup.hullSphereRadiusGiven : setup.sphereRadiusGiven;
+    const auto [low, high] = spheredecomp::bounds(meshes_[m]);
+    const Vec3d size = high - low;
+    double& radius = parts.back().options.radius;
+    radius = isHull ? setup.hullSphereRadius : setup.sphereRadius;
+    if (!given) radius = std::min(radius, 0.5 * std::max({size.x, size.y, size.z}));
+    parts.back().options.interior = !isHull;
+    parts.back().key = isHull ? "vehicle.hull_sphere_radius" : "vehicle.sphere_radius";
+    parts.back().place = fmt::format("{} ({})", setFigures_[m].mesh, parts.back().key);
+    const double permitted = isHull ? kHullPermitted * norm(size) : kPermitted * contactSize;
+    parts.back().limit = {
+        .permitted = permitted, .contactSize = isHull ? 10 * permitted : contactSize, .automatic = !given};
   }
-  std::vector<base::SphereSet> sets = cutParts(parts, kept, comm);
+  std::vector<base::SphereSet> sets = cutParts(parts, kept, comm, &cutReports_);
   sets_.resize(meshes_.size());
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     sets_[meshes[i]] = std::move(sets[i]);

@@ -18,9 +18,13 @@ namespace grouser::simulation {
 class VehicleParts {
 public:
   /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets are kept; null: all are cut.
-  /// Throws InputError where a mesh is of no use.
+  /// `smallestGrain`: radius of the smallest grain that touches them [m]; infinity without. Throws InputError where a
+  /// mesh is of no use.
   VehicleParts(const vehicle::Assembly& assembly, const setup::VehicleSetup& setup, const base::Comm& comm,
-               SphereCache* kept);
+               SphereCache* kept, double smallestGrain);
+
+  /// Smallest feature at which a vehicle's parts, ground and obstacles meet each other [m]: a quarter of a pitch.
+  static double contactSize(const vehicle::VehicleSpec& spec) { return 0.25 * spec.shoe.pitch; }
 
   const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a kind of part
   std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
@@ -32,6 +36,7 @@ public:
   };
   const std::vector<SetFigures>& setFigures() const { return setFigures_; }
   std::size_t totalSpheres() const;
+  const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; } ///< of those that touch
 
   std::size_t contactParts() const { return contactParts_.size(); }
   /// Its place among the assembly's parts.
@@ -48,12 +53,13 @@ private:
   void addContactPart(std::size_t part);
   /// `hull`: its mesh, of which contacts need the surface only.
   void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const setup::VehicleSetup& setup,
-           SphereCache* kept, const base::Comm& comm);
+           double contactSize, SphereCache* kept, const base::Comm& comm);
 
   std::vector<base::TriangleMesh> meshes_;
   std::vector<std::size_t> meshOfPart_;
   std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for a hull that touches nothing
   std::vector<SetFigures> setFigures_;
+  std::vector<spheredecomp::CutReport> cutReports_;
   std::vector<int> contactParts_, contactIndex_;
   std::vector<double> reach_;
 };

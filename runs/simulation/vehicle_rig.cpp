@@ -99,14 +99,16 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
     : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), stop_(setup.vehicle->stop),
       gravity_(setup.gravity), area_(setup.ground.area), surfaceHeight_(surfaceHeight),
       replicated_(ground.grains.get()),
-      parts_(std::make_unique<VehicleParts>(assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle, commOf(ground),
-                                            kept)),
+      parts_(std::make_unique<VehicleParts>(
+          assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle, commOf(ground), kept,
+          ground.grains ? ground.grains->system().constants.smallestRadius : base::kInfinity)),
       lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
-      observer_(std::make_unique<vehicle::Observer>(assembly_,
-                                                    vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone})),
+      observer_(std::make_unique<vehicle::Observer>(
+          assembly_,
+          vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone, .heading = setup.vehicle->place.heading})),
       blows_(assembly_.mass * norm(gravity_)) {
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
                                                 setup.vehicle->soilMeetsShoesAlone, kept);
@@ -156,7 +158,14 @@ vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
 
 vehicle::Observation VehicleRig::observe() const {
   vehicle::Observation seen = observer_->observe(state_, groundLoads(rowMeans_), surfaceHeight_);
-  if (towing_) seen.drawbarPull = towing_->observe().pull;
+  if (towing_) {
+    seen.drawbarPull = 0.0 - seen.along.of(towing_->observe().force);
+  } else {
+    // The ground's force less the share that holds the weight on a slope.
+    const double c = base::cos(seen.heading), s = base::sin(seen.heading);
+    const Vec3d weight = gravity_ * (assembly_.mass * driver_.at(state_.time).weight);
+    seen.drawbarPull += seen.along.of({weight.x * c + weight.y * s, 0, weight.z});
+  }
   seen.blows = blows_;
   return seen;
 }
@@ -272,7 +281,8 @@ void VehicleRig::addTo(Ledger& ledger) const {
   ledger.driveWork += b.driveWork + (towing_ ? towing_->work() : 0);
   ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;
   ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
-  ledger.dissipated.crushing += c.crushed, ledger.cappedNow += c.capped, ledger.cutImpulse += c.cutImpulse;
+  ledger.dissipated.microSlip += c.slipped, ledger.dissipated.crushing += c.crushed;
+  ledger.cappedNow += c.capped, ledger.cutImpulse += c.cutImpulse;
   ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += b.dissipated();
   ledger.momentum += b.now.linearMomentum, ledger.angularMomentum += b.now.angularMomentum;
   // The grains' own residual still lacks what the parts gave them.

@@ -58,8 +58,7 @@ double medianOf(std::vector<double> values) {
 
 void stopStudyIfAsked() {
   if (const int signal = support::StopSignals::received())
-    throw support::Stopped(signal, fmt::format("stopped by {}; tests that are whole stay in the folder",
-                                               support::StopSignals::name(signal)));
+    throw support::Stopped(signal, fmt::format("stopped by {}", support::StopSignals::name(signal)));
 }
 
 } // namespace grouser::studies

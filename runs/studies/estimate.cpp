@@ -83,21 +83,35 @@ std::string verdictText(Verdict verdict) {
   }
 }
 
+namespace {
+
+/// Whether all seeds agree but for rounding: such an interval is none.
+bool isExact(const support::Estimate& e) { return e.halfWidth <= 1e-9 * std::fabs(e.value); }
+
+} // namespace
+
 std::string plusMinus(const support::Estimate& estimate, int digits) {
+  if (isExact(estimate)) return fmt::format("{:.{}f}", estimate.value, digits);
   if (!std::isfinite(estimate.halfWidth)) return fmt::format("{:.{}f} +- ?", estimate.value, digits);
   return fmt::format("{:.{}f} +- {:.{}f}", estimate.value, digits, estimate.halfWidth, digits);
 }
 
-std::string valueText(const support::Estimate& e) {
-  if (!std::isfinite(e.value)) return "-";
+bool isInconclusive(const support::Estimate& e) {
+  return std::isfinite(e.halfWidth) && e.halfWidth > std::fabs(e.value);
+}
+
+std::string valueText(const support::Estimate& estimate) {
+  if (!std::isfinite(estimate.value)) return "-";
+  const support::Estimate e{estimate.value, isExact(estimate) ? 0 : estimate.halfWidth};
   const bool hasWidth = std::isfinite(e.halfWidth) && e.halfWidth > 0;
   const double scale = hasWidth ? e.halfWidth : 0.001 * std::fabs(e.value);
   const double size = std::max(std::fabs(e.value), scale);
   const int last = scale > 0 ? static_cast<int>(std::floor(std::log10(scale))) - 1 : -3; // of the digits shown
-  if (size >= 1e6 || (size > 0 && size < 1e-3)) {                                        // one power of ten for both
+  constexpr int kMostDigits = 9;
+  if (size >= 1e6 || (size > 0 && size < 1e-3) || -last > kMostDigits) { // one power of ten for both
     const int power = static_cast<int>(std::floor(std::log10(size)));
     const double unit = std::pow(10.0, power);
-    const int digits = std::clamp(power - last, 0, 9);
+    const int digits = std::clamp(power - last, 0, 11);
     const std::string text = fmt::format("{:.{}f}", e.value / unit, digits);
     return e.halfWidth == 0
                ? fmt::format("{}e{}", text, power)
@@ -105,8 +119,6 @@ std::string valueText(const support::Estimate& e) {
                              std::isfinite(e.halfWidth) ? fmt::format("{:.{}f}", e.halfWidth / unit, digits) : "?",
                              power);
   }
-  constexpr int kMostDigits = 9;
-  if (hasWidth && -last > kMostDigits) return fmt::format("{:.10g} +- {:.1e}", e.value, e.halfWidth);
   const int digits = std::clamp(-last, 0, kMostDigits);
   if (e.halfWidth == 0) return fmt::format("{:.{}f}", e.value, digits);
   return plusMinus(e, digits);

@@ -33,10 +33,16 @@ enum class Verdict {
 Verdict judge(const support::Estimate& difference, double bar);
 std::string verdictText(Verdict verdict); ///< "equal", "differs", "not shown"
 
-/// "12.3 +- 0.4" with so many digits after the point.
+/// Whether the interval is wider than the value is large, so that not even its sign is sure. One value alone has no
+/// interval, and no such doubt.
+bool isInconclusive(const support::Estimate& estimate);
+
+/// "12.3 +- 0.4" with so many digits after the point; "12.3" where the interval is below 1e-9 of the value, so that the
+/// seeds agree but for rounding.
 std::string plusMinus(const support::Estimate& estimate, int digits);
 /// "0.0729 +- 0.0090": so many digits that the half width has two, or the value three where it has none; one power of
-/// ten for both where they are very large or small; "-" where the value is no number.
+/// ten for both where they are very large or small, or the interval is; no interval where the seeds agree but for
+/// rounding; "-" where the value is no number.
 std::string valueText(const support::Estimate& estimate);
 /// "12.3 +- 0.4 %".
 std::string percent(const support::Estimate& estimate, int digits = 1);

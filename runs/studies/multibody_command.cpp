@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/multibody_command.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/table.hpp"
 #include "runs/output/plots.hpp"
@@ -66,7 +67,7 @@ void studyMultibodyCommand(const StudyCommand& command) {
     progress.note(caseTable(result));
     results.push_back(std::move(result));
   }
-  progress.finish(fmt::format("{} cases", cases.size()));
+  progress.finish(base::counted(cases.size(), "case"));
 
   std::vector<ReactionResult> reactions;
   for (const ReactionCase& r : reactionCases()) {

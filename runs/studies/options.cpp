@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/studies/option_parts.hpp"
 #include "runs/support/option_checks.hpp"
+#include "runs/support/stop_signals.hpp"
 
 namespace grouser::studies {
 
@@ -96,7 +97,11 @@ void addStability(CLI::App& study, GrainStudies& studies) {
     else if (random.scenes > 0)
       studyRandomStability(random, c.place);
     else
-      studyGrainStabilityCommand(c);
+      try {
+        studyGrainStabilityCommand(c);
+      } catch (const support::Stopped& stopped) {
+        throw support::Stopped(stopped.signal(), stopped.what(), support::Stopped::Left::nothing);
+      }
   });
 }
 

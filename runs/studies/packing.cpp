@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/packing.hpp"
 
+#include "base/counted.hpp"
 #include "base/math.hpp"
 #include "base/sphere.hpp"
 #include "runs/output/plots.hpp"
@@ -138,7 +139,7 @@ void studyPackingCommand(const PackingCommand& command) {
     table += fmt::format("  {:>8g} {:>18} {:>16} {:>18} {:>9.3f} {:>10.2g}\n", friction, both(fraction, 4),
                          both(all, 2), both(held, 2), meanOf(rattlers).mean, meanOf(overlap).mean);
   }
-  progress.finish(fmt::format("{} samples", done));
+  progress.finish(base::counted(done, "sample"));
   fmt::print(
       "{}\n  known: without friction 0.634 to 0.64 (random close packing) and 6 contacts (isostatic), poured with\n"
       "  friction 0.58 to 0.62, loosest about 0.55 and towards 4 contacts for friction without bound\n",

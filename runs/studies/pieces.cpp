@@ -43,7 +43,9 @@ std::string contentsOf(const fs::path& file) {
 } // namespace
 
 void addPieceOptions(CLI::App& app, PieceOptions& o) {
-  app.add_flag("--resume", o.resume, "goes on with the runs that earlier calls have left in the folder");
+  app.add_flag(
+      "--resume", o.resume,
+      "go on with the runs that earlier calls have left in the folder; a call with the same options does so anyway");
   app.add_option("--part", o.part,
                  "e.g. 2/8: every eighth run only, from the second on, to share a study among calls "
                  "at the same time; a last call without it writes the tables")
@@ -95,17 +97,21 @@ Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOpt
     : seconds_(options.seconds) {
   if (!options.part.empty()) std::tie(part_, parts_) = partOf(options.part);
   StudyPlace where = place;
-  const bool goesOn = options.resume || !options.part.empty();
+  if (where.folder.empty()) where.folder = (fs::path("out") / ("study_" + study)).string();
+  const fs::path file = fs::path(where.folder) / "recipe.json";
+  const std::string text = support::jsonText(recipe, 2) + "\n";
+  std::error_code missing;
+  const bool isAsked = options.resume || !options.part.empty();
+  const bool hasRuns = (isAsked || !place.force) && fs::exists(file, missing);
+  const bool isSame = hasRuns && contentsOf(file) == text;
+  if (hasRuns && !isSame)
+    throw base::InputError(fmt::format("{}: the runs in this folder were made with other options; call with those, "
+                                       "take another --out, or overwrite it with --force",
+                                       file.string()));
+  const bool goesOn = isAsked || isSame;
   where.force = place.force || goesOn;
   folder_ = beginStudy(study, where);
-  const fs::path file = folder_ / "recipe.json";
-  const std::string text = support::jsonText(recipe, 2) + "\n";
-  if (goesOn && fs::exists(file)) {
-    if (contentsOf(file) != text)
-      throw base::InputError(fmt::format(
-          "{}: the runs in this folder were made with other options; call with those, or take another --out",
-          file.string()));
-  } else {
+  if (!isSame) {
     if (!goesOn) fs::remove_all(folder_ / "runs");
     try {
       support::replaceTextFile(file, text);

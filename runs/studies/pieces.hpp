@@ -37,8 +37,8 @@ struct Table {
 
 class Pieces {
 public:
-  /// Makes the folder. `recipe`: all that the runs depend on; kept as recipe.json. Throws InputError where the folder
-  /// holds runs of another recipe, or results and neither --resume, --part nor --force.
+  /// Makes the folder. `recipe`: all that the runs depend on; kept as recipe.json. Runs of the same recipe are kept,
+  /// unless --force is given. Throws InputError where the folder holds those of another, or other files.
   Pieces(const std::string& study, const StudyPlace& place, const PieceOptions& options,
          const nlohmann::ordered_json& recipe);
 

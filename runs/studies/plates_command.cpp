@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study plates`: which plates on which beds, tables and files.
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/studies/plates_report.hpp"
@@ -141,7 +142,8 @@ void studyPlatesCommand(const PlatesCommand& command) {
   fmt::print("{}", differenceTable(all, slices, differences));
   fmt::print("{}", bearingTable(command, soil, all, slices, bearing));
   fmt::print("{}", costTable(all, costs));
-  if (pieces.left() > 0) fmt::print("{} runs are missing: call again with --resume\n", pieces.left());
+  if (pieces.left() > 0)
+    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "plates.csv", pressures, "--out");
   support::writeTextFile(pieces.folder() / "differences.csv", differences, "--out");
   support::writeTextFile(pieces.folder() / "bearing.csv", bearing, "--out");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/precision_command.hpp"
 
+#include "base/counted.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -43,7 +44,7 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
   const std::vector<MacroRow> macro =
       studyMacroscopic(drift, [&many](double fraction, const std::string& what) { many.update(fraction, what); });
   many.note(macroTable(macro, drift.runs));
-  many.finish(fmt::format("{} beds", 2 * drift.runs));
+  many.finish(base::counted(2 * drift.runs, "bed"));
 
   support::writeTextFile(folder / "touch.csv", touchCsv(touches), "--out");
   support::writeTextFile(folder / "drift.csv", driftCsv(drifts), "--out");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study preparation`: beds of [terrain] that ask for a porosity, and what they have got.
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -116,7 +117,8 @@ void studyPreparationCommand(const PreparationCommand& c) {
                        meanOf(order).mean, verdict);
   }
   fmt::print("  friction: with which the bed comes to rest; it then gets its own back\n");
-  if (pieces.left() > 0) fmt::print("{} runs are missing: call again with --resume\n", pieces.left());
+  if (pieces.left() > 0)
+    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "preparation.csv", csv, "--out");
   nlohmann::ordered_json more = recipeOf(c);
   more["seeds"] = c.seeds;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/studies/shear.hpp"
+#include "base/counted.hpp"
 #include "base/sphere.hpp"
 #include "runs/setup/load_scene.hpp"
 
@@ -177,7 +178,7 @@ void studyShearCommand(const ShearCommand& command) {
     table += fmt::format("  {:>10g} {:>18} {:>18} {:>22} {:>20}\n", stress, both(peak, 3), both(residual, 3),
                          both(angle, 1), both(rise, 2));
   }
-  progress.finish(fmt::format("{} samples", done));
+  progress.finish(base::counted(done, "sample"));
   fmt::print("{}\n  friction angle of the bed: {} deg\n", table, both(angles, 1));
   if (const support::LineFit line = support::fitLine(sigma, tau); line.hasError() && stresses.size() > 1)
     fmt::print("  straight line through all: slope {} (95 %), {:.1f} deg; cohesion {:.0f} +- {:.0f} Pa (95 %)\n",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study shear-angle`: which samples, tables and files.
+#include "base/counted.hpp"
 #include "base/math.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/studies/shear_angle.hpp"
@@ -173,7 +174,8 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
       "  tau, sigma: on both plates; residual: second half of the strain; core angle: sine = (s1 - s3)/(s1 + s3) "
       "of the stress in the plane of shear,\n  from the contacts farther than two grains from the plates: the "
       "angle of Mohr and Coulomb, to be used in theories of bearing\n");
-  if (pieces.left() > 0) fmt::print("{} runs are missing: call again with --resume\n", pieces.left());
+  if (pieces.left() > 0)
+    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "shear_angle.csv", csv, "--out");
   support::writeTextFile(pieces.folder() / "angles.csv", angles, "--out");
   nlohmann::ordered_json more = recipeOf(s);

@@ -2,6 +2,7 @@
 // `grouser study stability --scene vehicle`: pieces, tables and files of the maps.
 #include "runs/studies/vehicle_stability.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/studies/trial_files.hpp"
@@ -75,7 +76,7 @@ void runAll(const std::vector<VehicleMap>& maps, Pieces& pieces, const PieceOpti
         if (const std::string beside = nameBeside(name, k); pieces.dueBeside(beside))
           runPoint(p.what, kNeighbourShares[k] * p.step, beside, kept, pieces);
     }
-  progress.finish(fmt::format("of {} points {} runs are missing", all, pieces.left()));
+  progress.finish(fmt::format("{} missing of {} points", base::counted(pieces.left(), "run is", "runs are"), all));
 }
 
 std::vector<JudgedPoint> judged(const std::vector<VehicleMap>& maps, const Pieces& pieces) {
@@ -126,7 +127,8 @@ void studyVehicleStability(const VehicleStability& command, const StudyPlace& pl
     return;
   }
   fmt::print("{}{}{}", vehicleMapsTable(points), seedScatterTable(points), neighboursTable(points));
-  if (pieces.left() > 0) fmt::print("{} runs are missing: call again with --resume\n", pieces.left());
+  if (pieces.left() > 0)
+    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   nlohmann::ordered_json counts;
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v)
     counts[kVerdictWords[v]] = pointsOf(points, "", static_cast<MapVerdict>(v));

@@ -8,8 +8,11 @@
 
 namespace grouser::support {
 
-FileLock::~FileLock() {
+FileLock::~FileLock() { release(); }
+
+void FileLock::release() {
   if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
 }
 
 bool FileLock::take(const std::filesystem::path& path) {

@@ -16,6 +16,8 @@ public:
   /// True when the lock of this file or folder is now held, or where it cannot be locked at all: some file systems
   /// cannot. False while another holds it. A file is made where it is missing.
   bool take(const std::filesystem::path& path);
+  /// Gives it back before the end of this object.
+  void release();
 
 private:
   int descriptor_ = -1;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/locations.hpp"
 
+#include "base/table.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <system_error>
@@ -41,6 +45,25 @@ fs::path findInput(const std::string& name, const fs::path& scene, std::vector<f
   for (const fs::path& candidate : tried)
     if (fs::is_regular_file(candidate, error)) return fs::weakly_canonical(candidate);
   return {};
+}
+
+std::string nearestFileHint(const fs::path& wanted, const std::vector<fs::path>& folders) {
+  const std::string stem = wanted.stem().string();
+  const bool isBare = !wanted.has_extension();
+  std::error_code error;
+  std::vector<fs::path> all = {fs::absolute(wanted, error).parent_path()};
+  all.insert(all.end(), folders.begin(), folders.end());
+  fs::path best;
+  int least = 1 + static_cast<int>(stem.size() / 3); // above which it is another word
+  for (const fs::path& folder : all)
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      if (!isBare && entry.path().extension() != wanted.extension()) continue;
+      const int edits = base::editDistance(stem, entry.path().stem().string());
+      if (edits < least && entry.is_regular_file(error)) least = edits, best = entry.path();
+    }
+  if (best.empty()) return "";
+  const fs::path near = best.lexically_proximate(fs::current_path(error));
+  return fmt::format("did you mean {}? ", near.string().size() < best.string().size() ? near.string() : best.string());
 }
 
 } // namespace grouser::support

@@ -21,4 +21,8 @@ std::vector<std::filesystem::path> inputFolders(const std::filesystem::path& sce
 std::filesystem::path findInput(const std::string& name, const std::filesystem::path& scene,
                                 std::vector<std::filesystem::path>& tried);
 
+/// Where `wanted` does not exist: "did you mean FILE? ", the file of the same name, or of the most similar one, in its
+/// own folder or in one of `folders`. Empty where none is similar.
+std::string nearestFileHint(const std::filesystem::path& wanted, const std::vector<std::filesystem::path>& folders);
+
 } // namespace grouser::support

@@ -2,6 +2,7 @@
 #include "runs/support/option_checks.hpp"
 
 #include "base/table.hpp"
+#include "runs/support/output_place.hpp"
 
 #include <fmt/format.h>
 
@@ -49,6 +50,18 @@ CLI::Validator orItsFolder(const std::string& file) {
   return {[=](std::string& text) {
             std::error_code error;
             if (std::filesystem::is_directory(text, error)) text = (std::filesystem::path(text) / file).string();
+            return std::string();
+          },
+          ""};
+}
+
+CLI::Validator writableFile(const std::string& option) {
+  return {[option](const std::string& text) {
+            try {
+              requireFile(text, option);
+            } catch (const base::InputError& error) {
+              return std::string(error.what());
+            }
             return std::string();
           },
           ""};
@@ -109,6 +122,28 @@ std::string unknownCommand(const CLI::App& app, int argc, const char* const* arg
                          base::nearestWord(word, names), path.empty() ? "" : " " + path.substr(0, path.size() - 1));
     path += word + " ";
     level = next;
+  }
+  return "";
+}
+
+std::string nearestOptionHint(const CLI::App& app, int argc, const char* const* argv) {
+  const CLI::App* level = &app;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i], option = word.substr(0, word.find('='));
+    if (!word.starts_with("--")) {
+      if (level->get_require_subcommand_min() > 0)
+        for (const CLI::App* sub : level->get_subcommands([](const CLI::App*) { return true; }))
+          if (sub->get_name() == word) level = sub;
+      continue;
+    }
+    if (level->get_option_no_throw(option)) continue;
+    std::vector<std::string> names;
+    for (const CLI::Option* o : level->get_options())
+      for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+    const std::string nearest = base::nearestWord(option, names);
+    const bool isNear = base::editDistance(option, nearest) <= 1 + static_cast<int>(option.size()) / 4;
+    const bool isCut = nearest.starts_with(option) || option.starts_with(nearest);
+    return !nearest.empty() && (isNear || isCut) ? fmt::format("; did you mean {}?", nearest) : "";
   }
   return "";
 }

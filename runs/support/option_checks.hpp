@@ -27,6 +27,9 @@ CLI::Validator between(double low, double high);
 /// Of an option that names a file of a run, for transform(): in the place of a folder the file of this name in it.
 CLI::Validator orItsFolder(const std::string& file);
 
+/// Checks that the file named by an option can be written, before any work.
+CLI::Validator writableFile(const std::string& option);
+
 /// An option that takes one of the words of an enum; help shows its default.
 template <base::HasWords E>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const std::string& help) {
@@ -42,6 +45,10 @@ CLI::Option* addOut(CLI::App& app, std::string& place, const std::string& help);
 /// The message for a first word, or one after a command of commands, that is no command: it names the nearest. Empty
 /// where there is none such.
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);
+
+/// Hint for the first word that begins with "--" and is no option of its command: "; did you mean --threads?". Empty
+/// without such a word or a similar option.
+std::string nearestOptionHint(const CLI::App& app, int argc, const char* const* argv);
 
 /// Has every option of the commands below `app` refuse the name of another option as its value: that value was
 /// forgotten.

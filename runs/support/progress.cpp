@@ -19,8 +19,9 @@ constexpr auto kPlainPause = 5s;
 
 } // namespace
 
-Progress::Progress(std::string what, bool shown)
-    : what_(std::move(what)), shown_(shown), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()),
+Progress::Progress(std::string what, bool shown, double from, End end)
+    : what_(std::move(what)), shown_(shown), terminal_(isatty(STDERR_FILENO) == 1), end_(end), left_(from),
+      start_(Clock::now()),
       next_(start_ + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause))) {}
 
 Progress::~Progress() {
@@ -31,9 +32,12 @@ bool Progress::due() const { return shown_ && Clock::now() >= next_; }
 
 void Progress::update(double fraction, const std::string& detail) {
   const Clock::time_point now = Clock::now();
-  if (!shown_ || now < next_) return;
+  if (!shown_) return;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  left_.add(elapsed, fraction);
+  if (now < next_) return;
   next_ = now + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause));
-  const std::string text = line(what_, fraction, std::chrono::duration<double>(now - start_).count(), detail);
+  const std::string text = line(what_, fraction, left_.at(elapsed), detail, end_);
   if (terminal_) {
     clearLine();
     tell("{}", text);
@@ -72,10 +76,11 @@ std::string Progress::duration(double seconds) {
   return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
 }
 
-std::string Progress::line(const std::string& what, double fraction, double elapsed, const std::string& detail) {
-  const std::string left =
-      fraction > 0 ? duration(elapsed * (1 - fraction) / fraction) + " left" : "time left unknown yet";
-  return fmt::format("{}: {:5.1f} %, {}, {}", what, 100 * fraction, detail, left);
+std::string Progress::line(const std::string& what, double fraction, std::optional<double> left,
+                           const std::string& detail, End end) {
+  const std::string text =
+      left ? fmt::format("{} {} left", end == End::limit ? "at most" : "about", duration(*left)) : "time left unknown";
+  return fmt::format("{}: {:5.1f} %, {}, {}", what, 100 * fraction, detail, text);
 }
 
 } // namespace grouser::support

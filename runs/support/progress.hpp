@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/support/time_left.hpp"
+
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace grouser::support {
@@ -10,8 +13,11 @@ namespace grouser::support {
 /// elsewhere.
 class Progress {
 public:
-  /// `shown`: false keeps it silent, on ranks whose work another one reports.
-  explicit Progress(std::string what, bool shown = true);
+  /// Kind of the work's end: its expected place, or a limit that it may not reach.
+  enum class End { expected, limit };
+
+  /// `shown`: false keeps it silent, on ranks whose work another one reports. `from`: done before, 0 to 1.
+  explicit Progress(std::string what, bool shown = true, double from = 0, End end = End::expected);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -27,8 +33,9 @@ public:
 
   /// "42 s", "3 min 05 s", "2 h 10 min".
   static std::string duration(double seconds);
-  /// The text of one line.
-  static std::string line(const std::string& what, double fraction, double elapsed, const std::string& detail);
+  /// The text of one line. `left` [s]; empty: unknown.
+  static std::string line(const std::string& what, double fraction, std::optional<double> left,
+                          const std::string& detail, End end = End::expected);
 
 private:
   using Clock = std::chrono::steady_clock;
@@ -36,6 +43,8 @@ private:
 
   std::string what_;
   bool shown_, terminal_;
+  End end_;
+  TimeLeft left_;
   bool open_ = false; ///< a line without its end stands on the terminal
   Clock::time_point start_, next_;
 };

@@ -30,7 +30,7 @@ constexpr char kDone = '.', kInput = 'i', kOther = 'o';
 constexpr int kPause = 100; ///< between looks at the signals [ms]
 
 [[noreturn]] void stopped(int signal) {
-  throw Stopped(signal, fmt::format("stopped by {}; what was ready stays", StopSignals::name(signal)));
+  throw Stopped(signal, fmt::format("stopped by {}", StopSignals::name(signal)));
 }
 
 void say(int pipe, const std::string& text) {

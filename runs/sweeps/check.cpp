@@ -8,6 +8,7 @@
 #include "runs/support/file_hash.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/json_text.hpp"
+#include "runs/support/output_place.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stopwatch.hpp"
 #include "runs/support/text_file.hpp"
@@ -129,8 +130,9 @@ private:
     make("check, first run");
     const fs::path folder = record_.folder / record_.runs.plan.runs[0].name;
     const RunManifest manifest(folder);
-    const double wall = manifest.number("wall_time_s");
-    if (record_.outcomes[0].status != RunStatus::finished || !std::isfinite(wall)) throwBaseFailed();
+    const double whole = manifest.stepsOverTimed();
+    const double wall = (std::isfinite(whole) ? whole : 1) * manifest.number("wall_time_s");
+    if (!output::hasEnded(record_.outcomes[0].status) || !std::isfinite(wall)) throwBaseFailed();
     made_.push_back(record_.runs.plan.runs[0].name);
     record_.runs = {{record_.runs.plan.scene, record_.runs.plan.keys, {}}, {}, {}, {}};
 
@@ -174,7 +176,7 @@ private:
     record_.outcomes = runMissing(record_.runs.plan, sweep, what, [](const std::vector<SweepOutcome>&) {});
     record_.runs.series.assign(record_.outcomes.size(), {});
     for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
-      if (record_.outcomes[r].status == RunStatus::finished) read(r);
+      if (output::hasEnded(record_.outcomes[r].status)) read(r);
   }
 
   /// What a run wrote over time. One whose files are damaged has failed, and is made again by a call that finds it so.
@@ -197,7 +199,7 @@ private:
   /// True where the base has a run that ended.
   bool hasBase() const {
     for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
-      if (record_.runs.caseOf[r] == 0 && record_.outcomes[r].status == RunStatus::finished) return true;
+      if (record_.runs.caseOf[r] == 0 && output::hasEnded(record_.outcomes[r].status)) return true;
     return false;
   }
 
@@ -221,6 +223,7 @@ private:
     const auto write = [&](const char* name, const std::string& text) {
       support::replaceTextFile(record_.folder / name, text);
     };
+    if (!results.doubt.empty()) fmt::print("WARNING: all figures are inconclusive: {}\n", results.doubt);
     const std::string json = checkJson(record_, results);
     write(kCheckFile, json), write(kCheckCosts, costsJson(record_, results));
     write(kCheckSeries, seriesCsv(checkSeries(record_.cases, record_.runs, record_.outcomes)));
@@ -232,7 +235,7 @@ private:
       fmt::print("{:<9} {}\n", "check", (record_.folder / name).string());
     fmt::print("{:<9} `grouser report {}` makes one page of it\n", "report", record_.folder.string());
     const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
-                                        [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
+                                        [](const SweepOutcome& o) { return output::hasEnded(o.status); });
     keepCheck(origin_, json, static_cast<int>(finished), record_.folder);
     if (results.skin == SameBits::no)
       throw base::SimulationError(
@@ -252,6 +255,7 @@ private:
 
 void runCheck(const fs::path& scene, const CheckOptions& options) {
   if (!options.budget.empty()) budgetSeconds(options.budget);
+  support::requireFolder(options.sweep.folder);
   if (!options.sweep.force) checkFolderOfCheck(options.sweep.folder);
   Check(scene, options).run();
 }

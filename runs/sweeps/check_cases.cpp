@@ -193,10 +193,11 @@ private:
 
   void addSpheres() {
     Overrides overrides;
-    if (scene_.vehicle) overrides.push_back(set("vehicle.sphere_radius", 0.5 * scene_.vehicle->sphereRadius));
+    if (scene_.vehicle)
+      overrides.push_back(
+          set("vehicle.sphere_radius", 0.5 * scene_.vehicle->sphereRadius.value_or(scene::Vehicle::kSphereRadius)));
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m)
-      if (scene_.meshes[m].sphereRadius)
-        overrides.push_back(set(fmt::format("mesh.{}.sphere_radius", m), 0.5 * *scene_.meshes[m].sphereRadius));
+      overrides.push_back(set(fmt::format("mesh.{}.sphere_radius", m), 0.5 * scene_.meshes[m].loaded.sphereRadius));
     if (overrides.empty()) return omit(CheckAxis::spheres, "no vehicle and no mesh");
     add(CheckAxis::spheres, "half_spheres", "spheres of parts at half their radius", overrides, kCostOfSpheres);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/check_report.hpp"
 
+#include "base/counted.hpp"
 #include "base/math.hpp"
 #include "runs/studies/common.hpp"
 #include "runs/support/build_info.hpp"
@@ -53,12 +54,14 @@ Json errorJson(const AxisError& e, const CheckFigure& f) {
   return json;
 }
 
+bool isInconclusive(const CheckResults& results, const CheckFigure& f) {
+  return !results.doubt.empty() || studies::isInconclusive({f.value.value, f.bar});
+}
+
 Json figureJson(const CheckFigure& f, const CheckResults& results) {
-  Json json{{"name", f.name},
-            {"value", numberOf(f.value.value)},
-            {"bar", numberOf(f.bar)},
-            {"seeds", f.seeds},
-            {"seeds_half_width", numberOf(f.value.halfWidth)}};
+  Json json{{"name", f.name},         {"value", numberOf(f.value.value)},
+            {"bar", numberOf(f.bar)}, {"inconclusive", isInconclusive(results, f)},
+            {"seeds", f.seeds},       {"seeds_half_width", numberOf(f.value.halfWidth)}};
   if (results.seeded) {
     const double wanted = 0.01 * results.percent * std::fabs(f.value.value);
     json["seeds_for_the_bar"] = seedsFor(wanted, f.value.halfWidth, f.seeds);
@@ -122,7 +125,7 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
   std::vector<std::string> parts;
   for (const double percent : kPercents) {
     const Cheapest c = cheapest(record, results, f, percent);
-    const std::string seeds = results.seeded ? fmt::format(", {} seeds", c.seeds) : "";
+    const std::string seeds = results.seeded ? ", " + base::counted(c.seeds, "seed") : "";
     parts.push_back(fmt::format("{:g} %: {}", percent,
                                 c.name.empty()
                                     ? "no setting run"
@@ -133,9 +136,10 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
 
 /// All axes of a figure that scatters.
 std::string linesOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
-  std::string text = fmt::format("{}  {}\n", f.name, studies::valueText({f.value.value, f.bar}));
-  text += fmt::format("  {:<12} {:>26}  {:>18}  {} seeds\n", "seeds", studies::valueText(f.value),
-                      shareText(f, {0, f.value.halfWidth}), f.seeds);
+  std::string text = fmt::format("{}  {}{}\n", f.name, studies::valueText({f.value.value, f.bar}),
+                                 isInconclusive(results, f) ? "  inconclusive" : "");
+  text += fmt::format("  {:<12} {:>26}  {:>18}  {}\n", "seeds", studies::valueText(f.value),
+                      shareText(f, {0, f.value.halfWidth}), base::counted(f.seeds, "seed"));
   for (const AxisError& e : f.errors)
     text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", base::wordOf(e.axis), changeText(e.change),
                         shareText(f, e.change), studies::verdictText(e.verdict), remark(results, f, e));
@@ -151,7 +155,9 @@ std::string lineOf(const CheckRecord& record, const CheckResults& results, const
   const double share = f.value.value != 0 ? 100 * f.bar / std::fabs(f.value.value) : base::kNaN;
   return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, studies::valueText({f.value.value, f.bar}),
                      std::isfinite(share) ? fmt::format("{:.2g} %", share) : "", order,
-                     c.name.empty() ? "" : "1 %: " + c.name);
+                     isInconclusive(results, f) ? "inconclusive"
+                     : c.name.empty()           ? ""
+                                                : "1 %: " + c.name);
 }
 
 } // namespace
@@ -162,10 +168,12 @@ std::vector<CaseCost> costsOf(const CheckRecord& record) {
   };
   std::vector<Taken> taken(record.cases.cases.size());
   for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
-    if (record.outcomes[r].status != RunStatus::finished) continue;
+    if (!output::hasEnded(record.outcomes[r].status)) continue;
     const RunManifest manifest(record.folder / record.runs.plan.runs[r].name);
     Taken& of = taken[record.runs.caseOf[r]];
-    of.wall.push_back(manifest.number("wall_time_s")), of.cpu.push_back(manifest.figure("cpu_steps_s"));
+    const double whole = manifest.stepsOverTimed();
+    of.wall.push_back(whole * manifest.number("wall_time_s"));
+    of.cpu.push_back(whole * manifest.figure("cpu_steps_s"));
     of.steps.push_back(manifest.number("steps"));
   }
   std::vector<CaseCost> costs;
@@ -182,6 +190,7 @@ CaseStatus statusOf(const CheckRecord& record, std::size_t aCase) {
     if (record.runs.caseOf[r] != aCase) continue;
     const SweepOutcome& outcome = record.outcomes[r];
     if (outcome.status == RunStatus::failed) return {"failed", outcome.message};
+    if (outcome.status == RunStatus::incomplete) return {"incomplete", outcome.message};
     if (outcome.status == RunStatus::finished) status.word = "finished";
   }
   return status;
@@ -211,6 +220,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
             {"seeds_matter", results.seeded},
             {"bar_percent", results.percent},
             {"skin", bitsText(results.skin)}};
+  if (!results.doubt.empty()) json["inconclusive"] = results.doubt;
   json["cases"] = Json::array();
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) json["cases"].push_back(caseJson(record, c));
   json["not_asked"] = Json::array();

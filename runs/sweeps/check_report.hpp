@@ -30,7 +30,8 @@ struct CheckRecord {
 /// [cases] from the manifests of the runs.
 std::vector<CaseCost> costsOf(const CheckRecord& record);
 
-/// "finished", "failed", "refused", "left out", "not begun", with the message behind it where there is one.
+/// "finished", "incomplete", "failed", "refused", "left out", "not begun", with the message behind it where there is
+/// one.
 struct CaseStatus {
   std::string word, message;
 };

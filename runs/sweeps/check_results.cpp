@@ -8,22 +8,25 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace grouser::sweeps {
 
 namespace {
 
-using output::RunStatus;
-
 /// Figures of all runs: those of a sweep, and of scenes without a vehicle all columns at the end.
 SweepFigures figuresOf(const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
-                       const std::filesystem::path& folder, bool hasVehicle) {
+                       const std::filesystem::path& folder, bool hasVehicle, std::string& doubt) {
   SweepFigures figures = sweepFigures(runs.plan, outcomes, folder);
+  std::vector<std::size_t> all(runs.plan.runs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  doubt = figures.doubtOf(all);
+  figures.keepSound(all);
   if (hasVehicle) return figures;
   std::map<std::string, std::size_t> columnOf; // of what is added
   for (std::size_t r = 0; r < runs.plan.runs.size(); ++r) {
-    if (outcomes[r].status != RunStatus::finished) continue;
+    if (!output::hasEnded(outcomes[r].status)) continue;
     const RunSeries& series = runs.series[r];
     for (std::size_t c = 0; c < series.columns.size(); ++c) {
       if (series.values[c].empty() || series.columns[c].starts_with("terrain.rebuilds")) continue;
@@ -224,7 +227,7 @@ SameBits sameBits(const CheckCases& cases, const RunsByCase& byCase, const Check
   for (std::size_t c = 0; c < cases.cases.size(); ++c) {
     if (cases.cases[c].axis != CheckAxis::skin) continue;
     for (const std::vector<std::size_t>& pair : byCase.sharing({0, c})) {
-      if (outcomes[pair[0]].status != RunStatus::finished || outcomes[pair[1]].status != RunStatus::finished) continue;
+      if (!output::hasEnded(outcomes[pair[0]].status) || !output::hasEnded(outcomes[pair[1]].status)) continue;
       const std::string one = RunManifest(folder / runs.plan.runs[pair[1]].name).text("state_hash"),
                         other = RunManifest(folder / runs.plan.runs[pair[0]].name).text("state_hash");
       if (one.empty() || other.empty()) continue;
@@ -271,12 +274,12 @@ CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const 
   const RunsByCase byCase(runs, cases.cases.size());
   results.skin = sameBits(cases, byCase, runs, outcomes, folder);
   const bool hasVehicle = !runs.plan.runs.empty() && runs.plan.runs.front().scene.vehicle.has_value();
-  const SweepFigures figures = figuresOf(runs, outcomes, folder, hasVehicle);
+  const SweepFigures figures = figuresOf(runs, outcomes, folder, hasVehicle, results.doubt);
   for (std::size_t c = 0; c < cases.cases.size(); ++c) {
     const CheckAxis axis = cases.cases[c].axis;
     const std::vector<std::size_t> own = byCase.of(c);
     const bool finished =
-        std::any_of(own.begin(), own.end(), [&](std::size_t r) { return outcomes[r].status == RunStatus::finished; });
+        std::any_of(own.begin(), own.end(), [&](std::size_t r) { return output::hasEnded(outcomes[r].status); });
     if (finished && (axis == CheckAxis::step || axis == CheckAxis::base)) results.stepCases.push_back(c);
   }
   for (std::size_t column = 0; column < figures.columns.size(); ++column) {

@@ -74,6 +74,7 @@ struct CheckResults {
   std::vector<CheckFigure> figures;
   std::vector<std::size_t> stepCases; ///< those of barOfStep: finished cases of the step axis and the base
   SameBits skin = SameBits::notRun;
+  std::string doubt; ///< why all figures are inconclusive, as where no run drove two teeth; empty where they are not
 };
 
 /// `folder`: that of the runs' folders. A figure is kept where a base run has it.

@@ -27,7 +27,7 @@ std::vector<Member> membersOf(const CheckCases& cases, const CheckRuns& runs,
   std::vector<Member> members;
   for (std::size_t r = 0; r < runs.caseOf.size(); ++r) {
     const CheckCase& c = cases.cases[runs.caseOf[r]];
-    if (hasPartInSeries(c) && outcomes[r].status == output::RunStatus::finished)
+    if (hasPartInSeries(c) && output::hasEnded(outcomes[r].status))
       members.push_back({c.refinement, runs.seedOf[r], &runs.series[r]});
   }
   return members;

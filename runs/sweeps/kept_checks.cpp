@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/kept_checks.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/studies/estimate.hpp"
@@ -53,7 +54,8 @@ std::string partsOf(const nlohmann::json& figure, bool seeded) {
   std::string text;
   for (const nlohmann::json& e : figure.at("errors"))
     text += fmt::format("{}{}", text.empty() ? "" : ", ", e.at("axis").get<std::string>());
-  if (seeded) text += fmt::format("{}{} seeds", text.empty() ? "" : ", ", figure.at("seeds").get<int>());
+  if (seeded)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", base::counted(figure.at("seeds").get<int>(), "seed"));
   return text;
 }
 

@@ -24,16 +24,20 @@ nlohmann::ordered_json jsonNumber(double value) {
 nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   const RunManifest manifest(folder);
   nlohmann::ordered_json json{{"figures", nlohmann::ordered_json::array()}, {"check", nullptr}};
-  if (manifest.text("status") != "finished") return json;
+  const bool complete = manifest.text("status") == base::wordOf(output::RunStatus::finished);
+  if (!complete && manifest.text("status") != base::wordOf(output::RunStatus::incomplete)) return json;
   SweepPlan plan;
   plan.scene = folder / "scene.toml";
   // The name of a folder, whether or not its path ends in a slash or a dot.
   const std::filesystem::path whole = std::filesystem::canonical(folder);
   plan.runs.push_back({whole.filename().string(), {}, {}, setup::loadScene(plan.scene)});
   const scene::Scene& scene = plan.runs.front().scene;
-  const SweepFigures found = sweepFigures(plan, {{output::RunStatus::finished, ""}}, whole.parent_path());
+  const SweepFigures found = sweepFigures(
+      plan, {{complete ? output::RunStatus::finished : output::RunStatus::incomplete, manifest.text("incomplete")}},
+      whole.parent_path());
   for (std::size_t i = 0; i < found.columns.size(); ++i)
     json["figures"].push_back({{"name", found.columns[i]}, {"value", jsonNumber(found.values.front()[i])}});
+  json["inconclusive"] = found.inconclusive.front();
   json["steady_from"] = jsonNumber(steadyFrom(scene, manifest));
   if (const std::string check = keptCheckText(scene, manifest.text("inputs")); !check.empty())
     json["check"] = nlohmann::ordered_json::parse(check);

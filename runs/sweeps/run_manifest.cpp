@@ -40,4 +40,9 @@ std::string RunManifest::commit() const {
   return program != json_.end() && program->is_object() ? textOf(*program, "commit") : "";
 }
 
+double RunManifest::stepsOverTimed() const {
+  const double steps = number("steps"), before = figure("resumed_at_step");
+  return before > 0 ? steps / (steps - before) : 1; // which is no number where it went on at its end
+}
+
 } // namespace grouser::sweeps

@@ -17,6 +17,9 @@ public:
   double figure(const char* key) const;    ///< of the run's figures; NaN where it is missing
   std::string text(const char* key) const; ///< empty where it is missing
   std::string commit() const;              ///< of the program; empty where it is missing
+  /// All steps of the run over those that its times are of: a run that went on from a checkpoint tells times since
+  /// then.
+  double stepsOverTimed() const;
 
 private:
   nlohmann::json json_;

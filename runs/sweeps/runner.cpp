@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/runner.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/exec.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
+#include "runs/simulation/checkpoint.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/file_lock.hpp"
@@ -28,6 +30,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <thread>
 
 namespace grouser::sweeps {
@@ -40,16 +43,16 @@ using output::RunStatus;
 
 constexpr const char* kLog = "log.txt"; // what a run printed
 
-/// Whether a run of this scene by this program has ended so.
-bool hasEnded(RunStatus status, const fs::path& folder, const scene::Scene& scene) {
+/// How a run of this scene by this program stands in the folder; pending where there is none.
+RunStatus statusOf(const fs::path& folder, const scene::Scene& scene) {
   const RunManifest manifest(folder);
-  if (manifest.text("status") != base::wordOf(status) || manifest.commit() != support::buildInfo().commit ||
-      manifest.text("inputs") != setup::inputsOf(scene))
-    return false;
+  const std::optional<RunStatus> status = base::valueOf<RunStatus>(manifest.text("status"));
+  if (!status || manifest.commit() != support::buildInfo().commit || manifest.text("inputs") != setup::inputsOf(scene))
+    return RunStatus::pending;
   try {
-    return identity(setup::loadScene(folder / "scene.toml")) == identity(scene);
+    return identity(setup::loadScene(folder / "scene.toml")) == identity(scene) ? *status : RunStatus::pending;
   } catch (const base::InputError&) {
-    return false; // of another version of the program, or damaged
+    return RunStatus::pending; // of another version of the program, or damaged
   }
 }
 
@@ -86,9 +89,9 @@ void awaitFormer(const fs::path& folder) {
   }
 }
 
-/// Starts the program with its output in the log, on the GPU of that place among those that run at the same time.
-/// Returns the process.
-pid_t start(std::vector<std::string> words, const fs::path& log, int place) {
+/// Starts the program with its output in the log, on the GPU of that place among those that run at the same time. A run
+/// that goes on adds to its log. Returns the process.
+pid_t start(std::vector<std::string> words, const fs::path& log, int place, bool goesOn) {
   std::vector<char*> arguments;
   for (std::string& w : words) arguments.push_back(w.data());
   arguments.push_back(nullptr);
@@ -100,7 +103,7 @@ pid_t start(std::vector<std::string> words, const fs::path& log, int place) {
   prctl(PR_SET_PDEATHSIG, SIGTERM); // a killed sweep leaves no runs behind
   if (getppid() != parent) _exit(1);
   setenv(support::kFirstGpu, gpu.c_str(), 1);
-  const int file = open(log.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
+  const int file = open(log.c_str(), O_CREAT | (goesOn ? O_APPEND : O_TRUNC) | O_WRONLY, 0644);
   dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
   close(file);
   execv(arguments[0], arguments.data());
@@ -119,6 +122,9 @@ std::string reason(int status, const fs::path& log) {
   return fmt::format("ended with exit code {}; see {}", WEXITSTATUS(status), log.string());
 }
 
+/// Whether a signal has stopped a run, which may go on: exit code 128 + signal.
+bool hasStopped(int status) { return WIFEXITED(status) && WEXITSTATUS(status) > 128; }
+
 /// The runs of a sweep as processes, at most `jobs` at a time.
 class Runner {
 public:
@@ -128,15 +134,22 @@ public:
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       const bool anew =
           options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
-      if (!anew && hasEnded(RunStatus::finished, folder(i), plan.runs[i].scene)) {
+      const RunStatus former = anew ? RunStatus::pending : statusOf(folder(i), plan.runs[i].scene);
+      if (former == RunStatus::finished) {
         outcomes_[i].status = RunStatus::finished;
         progress_.note(fmt::format("{} finished already", title(i)));
-      } else if (!anew && options.failuresStay && hasEnded(RunStatus::failed, folder(i), plan.runs[i].scene)) {
+      } else if (former == RunStatus::incomplete) {
+        outcomes_[i] = {RunStatus::incomplete, RunManifest(folder(i)).text("incomplete")};
+        progress_.note(fmt::format("{} incomplete already: {}", title(i), outcomes_[i].message));
+      } else if (former == RunStatus::failed && options.failuresStay) {
         outcomes_[i] = {RunStatus::failed, RunManifest(folder(i)).text("error")};
         progress_.note(fmt::format("{} failed before: {}", title(i), outcomes_[i].message));
       } else {
         waiting_.push_back(i);
         work_[i] = workOf(plan.runs[i]), due_ += work_[i];
+        const bool isHalfDone = former == RunStatus::stopped || former == RunStatus::running; // or killed
+        std::error_code error;
+        if (isHalfDone && fs::exists(folder(i) / simulation::kCheckpointName, error)) goesOn_.insert(i);
       }
     }
     todo_ = waiting_.size();
@@ -159,7 +172,7 @@ public:
       if (progress_.due()) report();
     }
     if (todo_ > 0)
-      progress_.finish(fmt::format("{} of {} runs finished{}", countFinished(), outcomes_.size(),
+      progress_.finish(fmt::format("{} of {} finished{}", countFinished(), base::counted(outcomes_.size(), "run"),
                                    next < waiting_.size() ? "; call again for the others" : ""));
   }
 
@@ -187,16 +200,19 @@ private:
       throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
                                          folder(i).string(), error.message()));
     awaitFormer(folder(i));
+    const bool goesOn = goesOn_.contains(i);
     // What an earlier run left must not be taken for what this one does.
-    for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
+    if (!goesOn)
+      for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
     std::vector<std::string> words = {options_.program.string(), "run", fileOf(i).string()};
     std::vector<std::string> overrides = plan_.runs[i].overrides;
     if (options_.jobs > 1 && plan_.runs[i].scene.run.threads == 0)
       putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
     for (const std::string& o : overrides) words.insert(words.end(), {"--set", o});
-    words.insert(words.end(), {"--out", folder(i).string(), "--force", "--hash"});
+    words.insert(words.end(), {"--out", folder(i).string(), goesOn ? "--resume" : "--force", "--hash"});
     const int place = freePlace();
-    running_[start(std::move(words), folder(i) / kLog, place)] = {i, Clock::now(), place};
+    if (goesOn) progress_.note(fmt::format("{} goes on from its checkpoint", title(i)));
+    running_[start(std::move(words), folder(i) / kLog, place, goesOn)] = {i, Clock::now(), place};
     outcomes_[i].status = RunStatus::running;
     changed_(outcomes_);
   }
@@ -224,31 +240,45 @@ private:
       }
       const Running run = it->second;
       it = running_.erase(it);
+      if (beginsAnew(run.index, status)) continue;
       finish(run.index, status, std::chrono::duration<double>(Clock::now() - run.since).count());
     }
   }
 
-  /// The runs end after their step. Nothing of them is kept but what they leave.
+  /// A run that could not go on, such as from a damaged checkpoint, is begun anew.
+  bool beginsAnew(std::size_t i, int status) {
+    constexpr int kWrongInput = 2;
+    if (stopping_ || !goesOn_.contains(i) || !WIFEXITED(status) || WEXITSTATUS(status) != kWrongInput) return false;
+    progress_.note(fmt::format("{} begins anew: {}", title(i), reason(status, folder(i) / kLog)));
+    goesOn_.erase(i);
+    launch(i);
+    return true;
+  }
+
+  /// The runs end after their step, and write their checkpoints.
   void stop(int signal) {
     stopping_ = true;
     for (const auto& [process, run] : running_) kill(process, SIGTERM);
     while (!running_.empty()) reap();
     if (countFinished() == static_cast<std::ptrdiff_t>(outcomes_.size())) return;
-    throw support::Stopped(signal, fmt::format("stopped by {} after {} of {} runs; the same command does the others",
-                                               support::StopSignals::name(signal), countFinished(), outcomes_.size()));
+    throw support::Stopped(signal, fmt::format("stopped by {} after {} of {} runs", support::StopSignals::name(signal),
+                                               countFinished(), outcomes_.size()));
   }
 
   std::ptrdiff_t countFinished() const {
     return std::count_if(outcomes_.begin(), outcomes_.end(),
-                         [](const SweepOutcome& o) { return o.status == RunStatus::finished; });
+                         [](const SweepOutcome& o) { return output::hasEnded(o.status); });
   }
 
   void finish(std::size_t i, int status, double seconds) {
     ++ended_, done_ += work_[i];
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-      outcomes_[i].status = RunStatus::finished;
-      progress_.note(fmt::format("{} finished in {}", title(i), support::Progress::duration(seconds)));
-    } else if (stopping_) {
+      const RunManifest manifest(folder(i));
+      const bool whole = manifest.text("status") != base::wordOf(RunStatus::incomplete);
+      outcomes_[i] = {whole ? RunStatus::finished : RunStatus::incomplete, manifest.text("incomplete")};
+      progress_.note(fmt::format("{} {} in {}", title(i), base::wordOf(outcomes_[i].status),
+                                 support::Progress::duration(seconds)));
+    } else if (stopping_ || (support::StopSignals::received() && hasStopped(status))) { // Ctrl-C is for all of them
       outcomes_[i].status = RunStatus::stopped;
       progress_.note(fmt::format("{} stopped", title(i)));
     } else {
@@ -274,6 +304,7 @@ private:
   const OutcomesChanged& changed_;
   std::vector<SweepOutcome> outcomes_;
   std::vector<std::size_t> waiting_;
+  std::set<std::size_t> goesOn_; ///< runs to do of which a checkpoint is there
   std::map<pid_t, Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
   bool stopping_ = false;

@@ -32,7 +32,8 @@ std::string identity(scene::Scene scene);
 /// Runs what is not there yet, at most `jobs` at a time: in the order of the plan, but where several may go at a time
 /// and `seconds` sets no end, those with the most work first, since the longest would else be what all wait for
 /// (workOf). A run is left out when its folder holds a finished one of the same identity(), the same bytes of all files
-/// that the scene names, and the same commit of the program; what is half done or of another scene is run again.
+/// that the scene names, and the same commit of the program; what is half done goes on from its checkpoint, if it has
+/// one, and what is of another scene is run again.
 /// `changed` is called at the start and after every run; `what` stands before the lines of progress. Throws InputError,
 /// before anything is started, where a run's folder holds something else. Returns how each run stands.
 std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,

@@ -6,13 +6,15 @@
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
+#include "runs/setup/size_checks.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/simulation/mechanism.hpp"
 
 namespace grouser::sweeps {
 
-void checkScene(const scene::Scene& scene) {
+void checkScene(const scene::Scene& scene, bool sizes) {
+  if (sizes) setup::checkFillSizes(scene), setup::checkBedSize(scene);
   setup::checkRestitutions(scene);
   setup::plannedGrains(scene);
   if (scene.vehicle) {

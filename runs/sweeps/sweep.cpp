@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/sweep.hpp"
 
+#include "base/counted.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/sweeps/sweep_files.hpp"
 #include "runs/sweeps/sweep_intervals.hpp"
@@ -17,21 +18,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What to say of finished runs that ended before anything was steady, whose figures are empty.
+/// Warns of runs whose figures are inconclusive, and of finished runs without a steady part, whose figures are empty.
+std::string inconclusiveText(const SweepPlan& plan, const SweepFigures& figures) {
+  std::string first;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    if (!figures.inconclusive[i].empty() && ++count == 1)
+      first = fmt::format("{}: {}", plan.runs[i].name, figures.inconclusive[i]);
+  if (count == 0) return {};
+  return fmt::format("WARNING: {} of {} runs {} inconclusive ({})\n", count, plan.runs.size(),
+                     count == 1 ? "is" : "are", first);
+}
 std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOutcome>& outcomes) {
   const auto column = std::find(figures.columns.begin(), figures.columns.end(), "steady from [s]");
   if (column == figures.columns.end()) return {};
   const auto at = static_cast<std::size_t>(column - figures.columns.begin());
   int finished = 0, tooShort = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (outcomes[i].status != output::RunStatus::finished) continue;
+    if (!output::hasEnded(outcomes[i].status)) continue;
     ++finished;
     if (!std::isfinite(figures.values[i][at])) ++tooShort;
   }
   if (tooShort == 0) return {};
-  return fmt::format("note      {} of {} runs ended before their drive was up to speed, and have no figures: give "
+  return fmt::format("note      {} of {} ended before their drive was up to speed, and have no figures: give "
                      "run.duration more than driver.drive_start + driver.drive_ramp\n",
-                     tooShort, finished);
+                     tooShort, base::counted(finished, "run"));
 }
 
 } // namespace
@@ -44,6 +55,7 @@ int runSweep(const SweepPlan& plan, const SweepOptions& options) {
   for (const char* name : {kIntervalsFile, kSummaryPlot}) fs::remove(options.folder / name);
   std::vector<fs::path> tables = {options.folder / kSummaryFile};
   const SweepFigures figures = sweepFigures(plan, outcomes, options.folder);
+  fmt::print("{}", inconclusiveText(plan, figures));
   const SeedIntervals intervals = seedIntervals(plan, figures);
   if (!intervals.groups.empty()) {
     fmt::print("{}", intervalsText(intervals));

@@ -73,6 +73,13 @@ std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
   return words.empty() ? "all" : fmt::format("{}", fmt::join(words, ", "));
 }
 
+/// Why a figure of a group says little; empty where it is sound, and where there is none.
+std::string doubtOf(const SeedGroup& group, std::size_t column) {
+  const support::Estimate& figure = group.figures[column];
+  if (!std::isfinite(figure.value)) return {};
+  return !group.doubt.empty() ? group.doubt : studies::isInconclusive(figure) ? "interval wider than the value" : "";
+}
+
 /// "+12.3 +- 0.4 %"; in the figure's unit where the first mean may as well be zero, of which shares say nothing.
 std::string differenceText(const support::Estimate& first, const SeedGroup& group, std::size_t column) {
   const support::Estimate &share = group.differences[column], &change = group.changes[column];
@@ -83,9 +90,9 @@ std::string differenceText(const support::Estimate& first, const SeedGroup& grou
 
 } // namespace
 
-SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) {
+SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& given) {
   SeedIntervals all;
-  all.columns = figures.columns;
+  all.columns = given.columns;
   const auto seed = std::find(plan.keys.begin(), plan.keys.end(), kSeedKey);
   if (seed == plan.keys.end()) return all;
   const std::ptrdiff_t at = seed - plan.keys.begin();
@@ -98,10 +105,13 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures) 
     const std::string seedOfRun = values[static_cast<std::size_t>(at)];
     values.erase(values.begin() + at);
     const auto [group, isNew] = groupOf.try_emplace(values, all.groups.size());
-    if (isNew) all.groups.push_back({values, 0, {}, {}, {}}), members.emplace_back();
+    if (isNew) all.groups.push_back({values, 0, "", {}, {}, {}}), members.emplace_back();
     Members& m = members[group->second];
     m.rows.push_back(i), m.rowOf.try_emplace(seedOfRun, i);
   }
+  SweepFigures figures = given;
+  for (std::size_t g = 0; g < members.size(); ++g)
+    all.groups[g].doubt = figures.doubtOf(members[g].rows), figures.keepSound(members[g].rows);
   for (std::size_t g = 0; g < members.size(); ++g) {
     const std::vector<std::pair<std::size_t, std::size_t>> pairs = pairsOf(members[0], members[g]);
     for (std::size_t c = 0; c < all.columns.size(); ++c) {
@@ -119,14 +129,14 @@ std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::
   std::string text;
   for (const std::string& key : intervals.keys) text += support::csvCell(key) + ",";
   text += "figure,seeds,mean,half width,difference to the first [-],half width of the difference [-],"
-          "difference to the first,half width of the difference\n";
+          "difference to the first,half width of the difference,inconclusive\n";
   for (const SeedGroup& group : intervals.groups)
     for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
       for (const std::string& value : group.values) text += support::csvCell(value) + ",";
       text += fmt::format("{},{}", support::csvCell(intervals.columns[c]), group.runs);
       for (const support::Estimate& e : {group.figures[c], group.differences[c], group.changes[c]})
         text += fmt::format(",{},{}", support::csvCell(e.value), support::csvCell(e.halfWidth));
-      text += "\n";
+      text += fmt::format(",{}\n", support::csvCell(doubtOf(group, c)));
     }
   std::filesystem::path path = folder / kIntervalsFile;
   support::replaceTextFile(path, text);
@@ -145,8 +155,9 @@ std::string intervalsText(const SeedIntervals& intervals) {
     text += intervals.columns[c] + "\n";
     for (const SeedGroup& group : intervals.groups) {
       if (!std::isfinite(group.figures[c].value)) continue;
-      text += fmt::format("  {:<{}}  {:>22}  {} seed{}", named(intervals, group), width,
-                          studies::valueText(group.figures[c]), group.runs, group.runs == 1 ? " " : "s");
+      text += fmt::format("  {:<{}}  {:>22}  {} seed{}{}", named(intervals, group), width,
+                          studies::valueText(group.figures[c]), group.runs, group.runs == 1 ? " " : "s",
+                          doubtOf(group, c).empty() ? "" : "  inconclusive");
       if (&group != &intervals.groups.front() && std::isfinite(group.differences[c].value))
         text += fmt::format("  {:>18}", differenceText(intervals.groups.front().figures[c], group, c));
       text += "\n";

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/output/channels.hpp"
+#include "runs/setup/drive_length.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/hdf5_file.hpp"
@@ -63,10 +64,37 @@ public:
     for (std::size_t i = k; i < all.size(); i += 3) spread.add(all[i]);
     return spread.mean();
   }
-  /// From the first steady row to the last, of one number a row.
-  double change(const std::string& path) const {
-    const std::vector<double> all = rows(path);
-    return all.empty() ? base::kNaN : all.back() - all.front();
+  /// Sum of the means of those tracks that there are.
+  double sumOfTracks(const std::string& name) const {
+    double sum = base::kNaN;
+    for (const std::string side : {"left", "right"})
+      if (const double mean = of("vehicle/" + side + "/" + name).mean(); std::isfinite(mean))
+        sum = std::isfinite(sum) ? sum + mean : mean;
+    return sum;
+  }
+  /// Teeth that pass the sprocket of each track, forward and backward alike [-].
+  Spread teeth() const {
+    Spread spread;
+    for (const std::string side : {"left", "right"}) {
+      const std::vector<double> all = rows("vehicle/" + side + "/teeth_passed");
+      double passed = 0;
+      for (std::size_t i = 1; i < all.size(); ++i) passed += std::fabs(all[i] - all[i - 1]);
+      if (!all.empty()) spread.add(passed);
+    }
+    return spread;
+  }
+  /// Slip of both tracks together: way of the hull over the way of the sprockets, in each track's own direction.
+  double slip() const {
+    double went = 0, asked = 0;
+    for (const std::string side : {"left", "right"}) {
+      const std::vector<double> speed = rows("vehicle/" + side + "/speed"),
+                                turns = rows("vehicle/" + side + "/sprocket_speed");
+      for (std::size_t i = 0; i < std::min(speed.size(), turns.size()); ++i) {
+        if (turns[i] == 0 || !std::isfinite(speed[i] * turns[i])) continue;
+        went += turns[i] > 0 ? speed[i] : -speed[i], asked += std::fabs(turns[i]);
+      }
+    }
+    return asked > 0 ? 1 - went / (asked * constant("vehicle/pitch_radius")) : base::kNaN;
   }
   double last(const std::string& path) const {
     const std::vector<double> all = numbers(path);
@@ -143,50 +171,55 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
   if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", file ? from : base::kNaN});
   addSurfaces(steady, columns.surfaces, figures);
   if (!columns.vehicle) return figures;
-  // Both tracks together: what the hull did against what the sprockets asked for.
-  const double speed = steady.ofTracks("speed").mean();
-  const double asked = steady.ofTracks("sprocket_speed").mean() * steady.constant("vehicle/pitch_radius");
   const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
-  const std::vector<Figure> ofVehicle{
-      {"steady from [s]", file ? from : base::kNaN},
-      {"teeth passed [-]",
-       0.5 * (steady.change("vehicle/left/teeth_passed") + steady.change("vehicle/right/teeth_passed"))},
-      {"speed [m/s]", speed},
-      {"slip [-]", asked != 0 ? 1 - speed / asked : base::kNaN},
-      {"sinkage mean [m]", sinkage.mean()},
-      {"sinkage max [m]", sinkage.most},
-      {"drive torque [N m]",
-       steady.of("vehicle/left/mean_torque").mean() + steady.of("vehicle/right/mean_torque").mean()},
-      {"drive power [W]", steady.of("vehicle/left/drive_power").mean() + steady.of("vehicle/right/drive_power").mean()},
-      {"tension mean [N]", tension.mean()},
-      {"tension peak [N]", tension.most},
-      {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
-      {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
-      {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()}};
+  const std::vector<Figure> ofVehicle{{"steady from [s]", file ? from : base::kNaN},
+                                      {"teeth passed [-]", steady.teeth().mean()},
+                                      {"speed [m/s]", steady.ofTracks("speed").mean()},
+                                      {"slip [-]", steady.slip()},
+                                      {"sinkage mean [m]", sinkage.mean()},
+                                      {"sinkage max [m]", sinkage.most},
+                                      {"drive torque [N m]", steady.sumOfTracks("mean_torque")},
+                                      {"drive power [W]", steady.sumOfTracks("drive_power")},
+                                      {"tension mean [N]", tension.mean()},
+                                      {"tension peak [N]", tension.most},
+                                      {"gross traction [N]", steady.of("vehicle/gross_traction").mean()},
+                                      {"drawbar pull [N]", steady.of("vehicle/drawbar_pull").mean()},
+                                      {"motion resistance [N]", steady.of("vehicle/motion_resistance").mean()}};
   figures.insert(figures.begin(), ofVehicle.begin(), ofVehicle.end());
   figures.push_back({"impulse residual [N s]", steady.lastNorm("ledger/impulse_residual")});
   return figures;
 }
 
-/// Of one run: all NaN where it has not finished.
-std::vector<Figure> figuresOf(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
-                              const Columns& columns) {
-  if (outcome.status != output::RunStatus::finished) return figuresOf(nullptr, base::kNaN, columns);
+/// Why figures of the steady part say little; empty where they are sound, and where there are none.
+std::string doubtOf(const scene::Scene& scene, const SweepOutcome& outcome, double teeth) {
+  if (outcome.status == output::RunStatus::incomplete) return outcome.message;
+  if (!setup::asksToDrive(scene) || !(teeth < setup::kFewestTeeth)) return {};
+  return fmt::format("{:.2g} teeth in the steady part, fewer than {:g}", teeth, setup::kFewestTeeth);
+}
+
+/// Adds the figures of one run to `all`; NaN where it has not ended.
+void addFigures(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder, const Columns& columns,
+                SweepFigures& all) {
   std::optional<support::Hdf5File> file;
-  if (const fs::path results = folder / run.name / "results.h5"; fs::exists(results))
-    file.emplace(support::Hdf5File::open(results));
-  return figuresOf(file ? &*file : nullptr, steadyFrom(run.scene, RunManifest(folder / run.name)), columns);
+  const fs::path results = folder / run.name / "results.h5";
+  const bool ended = output::hasEnded(outcome.status);
+  if (ended && fs::exists(results)) file.emplace(support::Hdf5File::open(results));
+  const double from = ended ? steadyFrom(run.scene, RunManifest(folder / run.name)) : base::kNaN;
+  const support::Hdf5File* const read = file ? &*file : nullptr;
+  std::vector<double>& values = all.values.emplace_back();
+  for (const Figure& f : figuresOf(read, from, columns)) values.push_back(f.value);
+  all.inconclusive.push_back(ended ? doubtOf(run.scene, outcome, Steady(read, from).teeth().most) : "");
 }
 
 /// The cells of one run, in the order of the header.
 std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
-                             const std::vector<double>& figures) {
+                             const std::vector<double>& figures, const std::string& inconclusive) {
   std::vector<std::string> cells = {support::csvCell(run.name)};
   for (const std::string& value : run.values) cells.push_back(support::csvCell(value));
   cells.emplace_back(base::wordOf(outcome.status));
   cells.push_back(support::csvCell(outcome.message));
-  const bool isFinished = outcome.status == output::RunStatus::finished;
-  const RunManifest manifest(isFinished ? folder / run.name : fs::path());
+  cells.push_back(support::csvCell(inconclusive));
+  const RunManifest manifest(output::hasEnded(outcome.status) ? folder / run.name : fs::path());
   for (const char* key : {"wall_time_s", "steps", "simulated_time_s"})
     cells.push_back(support::csvCell(manifest.number(key)));
   for (const double value : figures) cells.push_back(support::csvCell(value));
@@ -218,11 +251,24 @@ SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>
   const Columns columns(plan);
   SweepFigures all;
   for (const Figure& f : figuresOf(nullptr, base::kNaN, columns)) all.columns.push_back(f.column);
-  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-    all.values.emplace_back();
-    for (const Figure& f : figuresOf(plan.runs[i], outcomes[i], folder, columns)) all.values[i].push_back(f.value);
-  }
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) addFigures(plan.runs[i], outcomes[i], folder, columns, all);
   return all;
+}
+
+std::string SweepFigures::doubtOf(const std::vector<std::size_t>& runs) const {
+  std::string first;
+  for (const std::size_t i : runs) {
+    const bool has = std::any_of(values[i].begin(), values[i].end(), [](double v) { return std::isfinite(v); });
+    if (i >= inconclusive.size() || (has && inconclusive[i].empty())) return {};
+    if (first.empty()) first = inconclusive[i];
+  }
+  return first;
+}
+
+void SweepFigures::keepSound(const std::vector<std::size_t>& runs) {
+  if (inconclusive.empty() || !doubtOf(runs).empty()) return;
+  for (const std::size_t i : runs)
+    if (!inconclusive[i].empty()) values[i].assign(columns.size(), base::kNaN);
 }
 
 void checkSweepFiles(const fs::path& folder) {
@@ -242,13 +288,14 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   const SweepFigures figures = sweepFigures(plan, outcomes, folder);
   std::vector<std::string> header = {"run"};
   for (const std::string& key : plan.keys) header.push_back(support::csvCell(key));
-  for (const char* column : {"status", "message", "wall time [s]", "steps", "simulated time [s]"})
+  for (const char* column : {"status", "message", "inconclusive", "wall time [s]", "steps", "simulated time [s]"})
     header.emplace_back(column);
   for (const std::string& column : figures.columns) header.push_back(support::csvCell(column));
   header.insert(header.end(), {"state hash", "commit"});
   std::string text = fmt::format("{}\n", fmt::join(header, ","));
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
-    text += fmt::format("{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, figures.values[i]), ","));
+    text += fmt::format(
+        "{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, figures.values[i], figures.inconclusive[i]), ","));
 
   fs::path path = folder / kSummaryFile;
   support::replaceTextFile(path, text);

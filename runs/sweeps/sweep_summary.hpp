@@ -16,7 +16,7 @@ class RunManifest;
 /// How one run of a sweep stands.
 struct SweepOutcome {
   output::RunStatus status = output::RunStatus::pending;
-  std::string message; ///< of a failed run
+  std::string message; ///< of a failed run, and of an incomplete one
 };
 
 /// Time [s] from which a run counts as steady: the second half of what follows the drive's ramp (and the last time of a
@@ -31,13 +31,20 @@ double steadyFrom(const scene::Scene& scene, const RunManifest& manifest);
 /// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5.
 struct SweepFigures {
   std::vector<std::string> columns;        ///< name and unit; of a vehicle or a surface only where a run has it
-  std::vector<std::vector<double>> values; ///< [runs][columns]; NaN: none, as of every run that has not finished
+  std::vector<std::vector<double>> values; ///< [runs][columns]; NaN: none, as of every run that has not ended
+  std::vector<std::string> inconclusive;   ///< [runs]: why its figures are, as over less than two teeth; empty: sound
+
+  /// Why the mean of these runs is inconclusive: none of those that have ended is sound. Else empty.
+  std::string doubtOf(const std::vector<std::size_t>& runs) const;
+  /// Leaves out what is inconclusive of these runs, where any of them is sound.
+  void keepSound(const std::vector<std::size_t>& runs);
 };
 SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                           const std::filesystem::path& folder);
 
-/// Writes summary.csv into `folder`: one row a run. Columns: run, the swept keys, status, message, what the run's
-/// manifest says of it, and its figures; cells without a number are empty. Replaces the file at once. Returns its path.
+/// Writes summary.csv into `folder`: one row a run. Columns: run, the swept keys, status, message, why its figures are
+/// inconclusive, what the run's manifest says of it, and its figures; cells without a number are empty. Replaces the
+/// file at once. Returns its path.
 std::filesystem::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                                    const std::filesystem::path& folder);
 

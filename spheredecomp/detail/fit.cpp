@@ -3,12 +3,14 @@
 
 #include "base/math.hpp"
 
+#include <algorithm>
+
 namespace grouser::spheredecomp::detail {
 namespace {
 
 constexpr int kPushes = 12;
 constexpr int kHalvings = 5;
-constexpr double kSmallest = 0.2;
+constexpr int kShrinks = 30;
 constexpr int kDirections = 12;
 constexpr int kFlatSteps = 10;
 
@@ -36,9 +38,24 @@ bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double 
   return false;
 }
 
+/// Radius, at most `radius`, of the largest ball inside that touches the surface at `point`: it shrinks to the nearest
+/// point of the surface until none lies within (Ma, Bae and Choi 2012, shrinking ball).
+double touchingRadius(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius) {
+  double r = radius;
+  for (int i = 0; i < kShrinks; ++i) {
+    const ClosestPoint near = outer.surface().closest(point - normal * r, r * (1 - 1e-4));
+    if (near.triangle == kNone) break;
+    const Vec3d apart = point - near.point;
+    const double along = dot(apart, normal);
+    if (!(along > 0)) break;
+    r = norm2(apart) / (2 * along);
+  }
+  return r;
+}
+
 } // namespace
 
-SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius) {
+SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius, const Fit& fit) {
   SetSphere sphere;
   sphere.normal = normal;
   sphere.offset = dot(normal, point);
@@ -52,7 +69,8 @@ SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& 
   if (fits(radius)) return sphere;
 
   // Too thin for the full sphere: the largest that fits, by halving.
-  double low = kSmallest * radius, high = radius;
+  double low = fit.smallest * radius, high = radius;
+  if (fit.touching && fits(std::max(low, touchingRadius(outer, point, normal, radius)))) return sphere;
   if (!fits(low)) {
     sphere.centre = point - normal * low;
     sphere.radius = low;
@@ -65,20 +83,23 @@ SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& 
   return sphere;
 }
 
-double flatRadius(const OuterSurface& outer, const SetSphere& sphere, double limit, double tolerance) {
+double flatRadius(const OuterSurface& outer, const SetSphere& sphere, double limit, double tolerance, bool closely) {
   const Vec3d& n = sphere.normal;
   const Vec3d other = n.x * n.x < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   const Vec3d u = normalized(cross(n, other)), v = cross(n, u);
   const double clearance = sphere.radius * (1 - tolerance);
   auto stays = [&](double t) {
-    for (int k = 0; k < kDirections; ++k) {
-      const double angle = 2 * base::kPi * k / kDirections;
+    const int directions = closely ? 2 * kDirections : kDirections;
+    for (int k = 0; k < directions; ++k) {
+      const double angle = 2 * base::kPi * k / directions;
       const Vec3d p = sphere.centre + u * (t * base::cos(angle)) + v * (t * base::sin(angle));
       if (outer.surface().within(p, clearance) || !outer.solid().inside(p)) return false;
     }
     return true;
   };
-  if (stays(limit)) return limit;
+  // A small hole may lie within a rim that stays.
+  const bool whole = stays(limit) && (!closely || (stays(0.75 * limit) && stays(0.5 * limit) && stays(0.25 * limit)));
+  if (whole) return limit;
   double flat = 0;
   for (int i = 1; i < kFlatSteps; ++i) {
     const double t = limit * i / kFlatSteps;

@@ -73,7 +73,8 @@ private:
                                                 contact::kCohesion | contact::kManyMasses | contact::kPlastic);
   static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger,
                         kWithRolling = kFeatures & contact::kRollingFriction, kYields = kFeatures & contact::kPlastic,
-                        kManySizes = kFeatures & kManyRadii;
+                        kManySizes = kFeatures & kManyRadii,
+                        kSlips = (kFeatures & contact::kHertz) && kWithFriction && kWithLedger;
   static constexpr bool kBothSpins = kWithRolling || kManySizes;    ///< are needed, not their sum alone
   static constexpr int kGrains = Advance::kGrains, kContacts = 192; ///< of a block
   static constexpr std::size_t kHistory = contact::historyWidth(kFeatures), kDent = contact::plasticPlace(kFeatures);
@@ -241,13 +242,14 @@ private:
   struct Pair {
     Long reach2;
     Float reach, mass, share;              ///< effective mass; of what is dissipated, that of grain i
+    Float dampingShare;                    ///< of both dashpots
     Float ownMass, ownRadius, otherRadius; ///< where they differ
     Float otherMass;
   };
   /// `own`, `other`: velocity.w of both; of grains of one radius `other` tells whether it never moves.
   GROUSER_SIMD Pair pairOf(const Float& own, const Float& other, const ForceData<float>& f) const {
     Pair pair{};
-    pair.share = base::broadcast<Float>(0.5f);
+    pair.share = base::broadcast<Float>(0.5f), pair.dampingShare = base::broadcast<Float>(1);
     const auto fixed = kManySizes ? other < 0.0f : other > 0.5f;
     if (kManySizes) {
       pair.ownRadius = own, pair.otherRadius = base::absolute(other);
@@ -265,6 +267,8 @@ private:
     }
     if (!hasFixed()) return pair;
     pair.mass = fixed ? pair.ownMass : pair.mass, pair.share = fixed ? base::broadcast<Float>(1) : pair.share;
+    if (!(kFeatures & contact::kHertz))
+      pair.dampingShare = fixed ? base::broadcast<Float>(f.law.fixedShare) : pair.dampingShare;
     return pair;
   }
 
@@ -298,15 +302,17 @@ private:
       velocity += cross(kBothSpins ? firstThree(turning) + firstThree(theirs) : firstThree(turning), arm);
     Float radius = base::broadcast<Float>(0.5f * f.radius);
     if (kManySizes) radius = both.ownRadius * both.otherRadius / (both.ownRadius + both.otherRadius);
-    const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity, both.mass, radius};
+    const contact::BasicContactGeometry<Float> touch{pair.normal, pair.overlap, velocity,
+                                                     both.mass,   radius,       both.dampingShare};
     Float dents[4] = {};
     if (kYields) base::loadRows(dent_ + c, dents);
     contact::BasicPlasticState<Float> dent{dents[0], dents[1]};
     const auto reaction = contact::contactForce<kLaw>(f.law, touch, f.timeStep, shear, kYields ? &dent : nullptr);
     if (kYields) {
       dents[0] = dent.deepest, dents[1] = dent.origin, dents[2] = both.share * reaction.yielded;
-      base::storeRows(dent_ + c, dents);
     }
+    if (kSlips) dents[3] = both.share * reaction.slipped;
+    if (kYields || kSlips) base::storeRows(dent_ + c, dents);
     if (kWithFriction) {
       spring[0] = shear.x, spring[1] = shear.y, spring[2] = shear.z,
       spring[3] = kWithLedger ? both.share * reaction.rubbed : Float{};
@@ -333,8 +339,8 @@ private:
     base::loadRows(angle_ + c, rows);
     Vec angle = firstThree(rows);
     Float rolled{};
-    const Vec torque =
-        contact::rollingTorque(f.law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep, angle, rolled);
+    const Vec torque = contact::rollingTorque(f.law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
+                                              angle, rolled, kFeatures & contact::kHertz ? &reaction.change : nullptr);
     rows[0] = angle.x, rows[1] = angle.y, rows[2] = angle.z;
     base::storeRows(angle_ + c, rows);
     Float torques[4] = {torque.x, torque.y, torque.z, kWithLedger ? both.share * rolled : Float{}};
@@ -350,7 +356,7 @@ private:
     const auto row = [&](const Float4* rows) { return base::bitsAs<Float4>(base::bitsAs<Int4>(rows[c]) & there); };
     const Float4 turning = row(turning_);
     if (kWithFriction && kWithLedger) sum.rubbed += row(spring_);
-    if (kYields && kWithLedger) sum.dented += row(dent_);
+    if ((kYields && kWithLedger) || kSlips) sum.dented += row(dent_);
     sum.force += row(moving_);
     sum.torque += turning;
     if (kWithRolling) {
@@ -383,7 +389,7 @@ private:
       if (load.deepest > data_.maxSurfaceShare * radius) raiseThrough(data_, forces_, i);
     }
     force[3] = damped, torque[3] = samePlace_[g] ? data_.diameter : all.most[3];
-    advance_.add(g, i, force, torque, all.rubbed[3], all.rolled[3]);
+    advance_.add(g, i, force, torque, all.rubbed[3], all.rolled[3], all.dented[3]);
     const bool pressed = data_.features & kSurfaces && place != 0,
                loaded = data_.features & kLoads && data_.loads.range[i] != 0;
     if (atSide_[g] || pressed || loaded) [[unlikely]]
@@ -431,7 +437,7 @@ private:
   // Of the block's contacts, and as many more as the last lanes may read and write for nothing.
   static constexpr int kRows = kContacts + std::max(8, kWidth);
   alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows],
-      dent_[kRows];                                          ///< plastic state, and what yields
+      dent_[kRows];                                          ///< plastic state, what yields, what is slipped
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };
 

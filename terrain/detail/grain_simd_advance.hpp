@@ -11,6 +11,7 @@ namespace grouser::terrain::detail {
 template <int kLanes, unsigned kFeatures> class AdvanceLanes {
 public:
   static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger,
+                        kSlips = (kFeatures & contact::kHertz) && kWithFriction && kWithLedger,
                         kManySizes = kFeatures & kManyRadii;
   static constexpr int kGrains = 64; ///< of a block
   enum class Way : std::int32_t { lanes, alone, done };
@@ -19,11 +20,13 @@ public:
       : data_(data), forces_(forces), books_(data) {}
 
   /// Forces in rows of four, as they are summed; their fourth numbers: what is damped, and the deepest overlap.
-  GROUSER_SIMD void add(int g, int slot, const Float4& force, const Float4& torque, float rubbed, float rolled) {
+  GROUSER_SIMD void add(int g, int slot, const Float4& force, const Float4& torque, float rubbed, float rolled,
+                        float slipped) {
     const int lane = laneOf(g);
     slot_[lane] = static_cast<std::uint32_t>(slot), way_[lane] = static_cast<std::int32_t>(Way::lanes);
     force_[g] = force, torque_[g] = torque;
     if (kWithLedger) rubbed_[lane] = rubbed, rolled_[lane] = rolled;
+    if (kSlips) slipped_[lane] = slipped;
   }
   /// One that is advanced already, or never.
   GROUSER_SIMD void addDone(int g, int slot) {
@@ -31,6 +34,7 @@ public:
     slot_[lane] = static_cast<std::uint32_t>(slot), way_[lane] = static_cast<std::int32_t>(Way::done);
     force_[g] = torque_[g] = Float4{};
     if (kWithLedger) rubbed_[lane] = rolled_[lane] = 0;
+    if (kSlips) slipped_[lane] = 0;
   }
   /// Grain g goes to GrainStep, with these instead of what add() was given.
   GROUSER_SIMD void setAlone(int g, const Double4& force, const Double4& torque) {
@@ -172,9 +176,11 @@ private:
     ordinary &= (speed2 <= data_.maxSpeed2) & (speed2 < 1e30f);
     const unsigned which = base::laneBits(ordinary);
     if (kWithLedger) {
-      const Double damped = base::toDouble(force[3]), rubbed = base::toDouble(load<Float>(rubbed_ + g)),
-                   rolled = base::toDouble(load<Float>(rolled_ + g));
-      books_.add(work, damped, rubbed, rolled, p, size.massShare, ordinary);
+      const Double slipped = kSlips ? base::toDouble(load<Float>(slipped_ + g)) : Double{};
+      books_.add(work,
+                 {base::toDouble(force[3]), base::toDouble(load<Float>(rubbed_ + g)),
+                  base::toDouble(load<Float>(rolled_ + g)), slipped},
+                 p, size.massShare, ordinary);
     }
     raiseWhereStale(g, q, which);
     if (!kManySizes) v[3] = Float{};
@@ -221,7 +227,7 @@ private:
       const Double4 none{}, torque = kWithFriction ? base::toDouble(torque_[k]) : none;
       const Double4 f = alone ? forceAlone_[k] : base::toDouble(force_[k]), t = alone ? torqueAlone_[k] : torque;
       const Lost lost{static_cast<double>(force_[k][3]), kWithLedger ? double{rubbed_[l]} : 0,
-                      kWithLedger ? double{rolled_[l]} : 0};
+                      kWithLedger ? double{rolled_[l]} : 0, kSlips ? double{slipped_[l]} : 0};
       advanceGrain(data_, forces_, static_cast<int>(slot_[l]), {f[0], f[1], f[2]}, {t[0], t[1], t[2]}, torque_[k][3],
                    lost, rare);
     }
@@ -233,7 +239,7 @@ private:
   std::uint32_t slot_[kGrains];
   std::int32_t way_[kGrains];
   alignas(32) Float4 force_[kGrains], torque_[kGrains];
-  float rubbed_[kGrains], rolled_[kGrains];
+  float rubbed_[kGrains], rolled_[kGrains], slipped_[kSlips ? kGrains : 1];
   Double4 forceAlone_[kGrains], torqueAlone_[kGrains];
 };
 

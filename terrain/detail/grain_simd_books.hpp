@@ -79,16 +79,21 @@ public:
 
   GROUSER_SIMD explicit LaneBooks(const GrainKernelData& data) : data_(data) {}
 
+  /// Dissipation of these grains [J].
+  struct LostLanes {
+    Double damped, rubbed, rolled, slipped;
+  };
   /// `work`: by axis; `massShare`: of the mass of the model; of the grains in `which`.
-  GROUSER_SIMD void add(const Double (&work)[3], const Double& damped, const Double& rubbed, const Double& rolled,
-                        const Int (&place)[4], const Double& massShare, const Int& which) {
+  GROUSER_SIMD void add(const Double (&work)[3], const LostLanes& lost, const Int (&place)[4], const Double& massShare,
+                        const Int& which) {
     const Long mask = base::convert<std::int64_t>(which);
     const double perEnergy = data_.bookScale.perEnergy;
     const Double all = (work[0] + work[2]) + work[1];
     work_ += wholeOf(all * perEnergy) & mask, turnover_ += wholeOf((all < 0.0 ? -all : all) * perEnergy) & mask;
-    damped_ += wholeOf(damped * perEnergy) & mask;
-    if (kFeatures & contact::kFriction) rubbed_ += wholeOf(rubbed * perEnergy) & mask;
-    if (kFeatures & contact::kRollingFriction) rolled_ += wholeOf(rolled * perEnergy) & mask;
+    damped_ += wholeOf(lost.damped * perEnergy) & mask;
+    if (kFeatures & contact::kFriction) rubbed_ += wholeOf(lost.rubbed * perEnergy) & mask;
+    if (kFeatures & contact::kRollingFriction) rolled_ += wholeOf(lost.rolled * perEnergy) & mask;
+    if (kFeatures & contact::kHertz) slipped_ += wholeOf(lost.slipped * perEnergy) & mask;
     if (kManySizes)
       mass_ += wholeOf(massShare * static_cast<double>(kMassQuanta)) & mask;
     else
@@ -104,6 +109,7 @@ public:
     for (int l = 0; l < kLanes; ++l) {
       books.of[kWork] += work_[l], books.of[kTurnover] += turnover_[l];
       books.of[kDamped] += damped_[l], books.of[kRubbed] += rubbed_[l], books.of[kRolled] += rolled_[l];
+      if (kFeatures & contact::kHertz) books.of[kSlipped] += slipped_[l];
       for (int a = 0; a < 3; ++a) books.of[kMoment + a] += moment_[a][l];
       books.of[kMass] += mass_[l];
     }
@@ -111,7 +117,7 @@ public:
 
 private:
   const GrainKernelData& data_;
-  Long work_{}, turnover_{}, damped_{}, rubbed_{}, rolled_{}, mass_{}, moment_[3] = {};
+  Long work_{}, turnover_{}, damped_{}, rubbed_{}, rolled_{}, slipped_{}, mass_{}, moment_[3] = {};
 };
 
 } // namespace grouser::terrain::detail

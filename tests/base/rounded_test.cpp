@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/rounded.hpp"
 
+#include "base/counted.hpp"
 #include "base/random.hpp"
 
 #include <gtest/gtest.h>
@@ -34,6 +35,23 @@ TEST(Rounded, IsTheNumberItselfWhereItHasSoFewDigits) {
   EXPECT_EQ(roundedUp(0.5, 1), "0.5");
   EXPECT_EQ(roundedDown(0, 3), "0");
   EXPECT_EQ(roundedDown(INFINITY, 3), "inf");
+}
+
+TEST(NearestDecimal, LeavesOutWhatTheProductOfAStepHasAdded) {
+  EXPECT_NE(5900 * 1e-4, 0.59);
+  EXPECT_EQ(nearestDecimal(5900 * 1e-4), 0.59);
+  for (int n = 0; n < 20000; ++n) {
+    const double decimal =
+        std::strtod((std::to_string(n / 10000) + "." + std::to_string(10000 + n % 10000).substr(1)).c_str(), nullptr);
+    EXPECT_EQ(nearestDecimal(n * 1e-4), decimal) << n;
+  }
+  EXPECT_EQ(nearestDecimal(1.0 / 3), 0.333333333333333);
+}
+
+TEST(Counted, NamesOneAsOne) {
+  EXPECT_EQ(counted(1, "seed"), "1 seed");
+  EXPECT_EQ(counted(0, "seed"), "0 seeds");
+  EXPECT_EQ(counted(std::size_t{2}, "run is", "runs are"), "2 runs are");
 }
 
 } // namespace

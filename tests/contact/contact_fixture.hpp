@@ -50,10 +50,11 @@ struct SphereOnPlane {
       const BasicContactGeometry<double> touch{n, overlap(), velocity + cross(spin, arm), mass, radius};
       const auto r = contactForce<kGeneral>(law, touch, dt, shear);
       force += r.force, torque += cross(arm, r.force);
-      dissipated += r.damped + r.rubbed;
+      dissipated += r.damped + r.rubbed + r.slipped;
       if (law.rollingFriction > 0) {
         const RollingMotion<double> rolling{n, spin, radius, 1.4 * mass * radius * radius};
-        torque += rollingTorque(law, rolling, r.pressing, r.normalStiffness, dt, angle, dissipated);
+        torque += rollingTorque(law, rolling, r.pressing, r.normalStiffness, dt, angle, dissipated,
+                                law.hertz ? &r.change : nullptr);
       }
       deepest = std::max(deepest, overlap()), strongest = std::max(strongest, r.force.z);
       touched += dt;

@@ -63,6 +63,7 @@ template <unsigned kFeatures, int kWidth, class T> void expectLanesAsAlone(const
       }
       EXPECT_EQ(bitsOf(together.damped[l]), bitsOf(alone.damped));
       EXPECT_EQ(bitsOf(together.rubbed[l]), bitsOf(alone.rubbed));
+      EXPECT_EQ(bitsOf(together.slipped[l]), bitsOf(alone.slipped));
       EXPECT_EQ(bitsOf(together.pressing[l]), bitsOf(alone.pressing));
       EXPECT_EQ(bitsOf(together.normalStiffness[l]), bitsOf(alone.normalStiffness));
       const base::Vec3<T> tangential = alone.force - one[l].normal * dot(alone.force, one[l].normal);
@@ -178,11 +179,22 @@ template <int kWidth, class T> void expectRollingAsAlone(T stiffness) {
       all.radius[l] = one[l].radius, all.inertia[l] = one[l].inertia;
       pressing[l] = random.in(-1, 10), normal[l] = stiffness, lost[l] = T(1e-3);
     }
-    const auto together = rollingTorque(law, all, pressing, normal, T(1e-5), angles, lost);
+    const auto stiffens = [](const auto& way) { // Hertz: as much as a contact that comes or goes by a third
+      using Way = std::remove_cvref_t<decltype(way)>;
+      return hertzChange(base::broadcast<Way>(T(1e-4)), way);
+    };
+    Numbers ways{};
+    for (std::size_t l = 0; l < kWidth; ++l) ways[l] = random.in(-3e-5, 3e-5);
+    const auto changes = stiffens(ways);
+    const bool hertz = round % 2 == 1;
+    const auto together = rollingTorque(law, all, pressing, normal, T(1e-5), angles, lost, hertz ? &changes : nullptr);
     for (std::size_t l = 0; l < kWidth; ++l) {
       T taken = T(1e-3);
       const T pressed = pressing[l];
-      const auto alone = rollingTorque(law, one[l], pressed, stiffness, T(1e-5), angle[l], taken);
+      const T way = ways[l];
+      const auto change = stiffens(way);
+      const auto alone =
+          rollingTorque(law, one[l], pressed, stiffness, T(1e-5), angle[l], taken, hertz ? &change : nullptr);
       for (int a = 0; a < 3; ++a) {
         EXPECT_EQ(bitsOf(together[a][l]), bitsOf(alone[a])) << "lane " << l << ", axis " << a;
         EXPECT_EQ(bitsOf(angles[a][l]), bitsOf(angle[l][a]));

@@ -30,6 +30,7 @@ template <unsigned kFeatures> void expectMirrored(const BasicLaw<float>& law) {
   EXPECT_EQ(shear, -mirrored);
   EXPECT_EQ(r.damped, other.damped);
   EXPECT_EQ(r.rubbed, other.rubbed);
+  EXPECT_EQ(r.slipped, other.slipped);
 }
 
 TEST(ContactLaw, SwappingTheSidesChangesOnlyTheSign) {
@@ -62,6 +63,7 @@ template <unsigned kFeatures, class T> void expectSameBits(const BasicLaw<T>& la
   EXPECT_EQ(special.force, general.force);
   EXPECT_EQ(special.damped, general.damped);
   EXPECT_EQ(special.rubbed, general.rubbed);
+  EXPECT_EQ(special.slipped, general.slipped);
   EXPECT_EQ(shear, other);
 }
 

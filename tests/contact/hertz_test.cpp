@@ -105,12 +105,13 @@ TEST(Hertz, RestitutionConvergesWithItsStep) {
 }
 
 struct Oblique {
-  double angle, ratio, spin, rebound; // [deg], [-], [rad/s], [deg]: reference with dashpot
-  double smoothRatio, smoothSpin;     // the same without tangential dashpot
+  double angle, ratio, spin, rebound;            // [deg], [-], [rad/s], [deg]: reference with dashpot
+  double smoothRatio, smoothSpin, smoothRebound; // the same without tangential dashpot
 };
 
 TEST(HertzMindlin, ObliqueImpactMatchesTheConvergedReference) {
-  // Chung and Ooi test 4, aluminium oxide: constant speed, varied angle; F_t = -k_t(overlap) shear.
+  // Chung and Ooi test 4, aluminium oxide: constant speed, varied angle. An independent program kept the tangential
+  // force itself, in increments: unchanged while the contact is loaded, scaled with the contact radius while unloaded.
   const Solid solid{3.8e11, .23, 4000};
   const double radius = 0.0025, mass = sphereMass(solid, radius), speed = 3.9, friction = 0.092;
   auto law = lawOf(solid, 1, 0.98, friction);
@@ -118,31 +119,28 @@ TEST(HertzMindlin, ObliqueImpactMatchesTheConvergedReference) {
   const double beta = hertzDampingRatioFor(0.98, true);
   law.rootDamping = 2 * beta * std::sqrt(1.5 * law.stiffness);
   const double dt = hertzImpact(law.stiffness * 0.75, radius, mass, speed).duration / 4000;
-  const Oblique cases[] = {{5, .96495, -11.91, 4.478, .952841, -16.0296},
-                           {10, .69837, -204.27, -.574, .698022, -204.5077},
-                           {15, .63297, -370.47, -4.449, .629909, -373.5676},
-                           {20, .62253, -503.50, -6.801, .620099, -506.7422},
-                           {40, .78290, -544.24, 11.62, 0, 0},
-                           {60, .89483, -355.23, 48.16, 0, 0},
-                           {85, .98406, -61.92, 84.81, 0, 0}};
+  const Oblique cases[] = {{5, .85768, -48.3758, 2.5652, .861345, -47.1300, 2.6307},
+                           {10, .71447, -193.3671, .0067, .710570, -196.0104, -.1341},
+                           {15, .63484, -368.5901, -4.3473, .631430, -372.0320, -4.5331},
+                           {20, .62249, -503.5521, -6.8041, .620098, -506.7432, -6.9796},
+                           {40, .78290, -544.2386, 11.6186, .782902, -544.2358, 11.6188},
+                           {60, .89483, -355.2265, 48.1559, .894826, -355.2258, 48.1559},
+                           {85, .98406, -61.9201, 84.8111, .984062, -61.9201, 84.8111}};
   for (const Oblique& c : cases) {
     const double theta = c.angle * base::kPi / 180;
     const double vt = speed * base::sin(theta), vn = speed * base::cos(theta);
+    // Stepped by that program to the same scheme and step: where each meets the first touch differs.
+    const auto expectLike = [&](const SphereOnPlane& s, double ratio, double spin, double rebound) {
+      EXPECT_NEAR(s.velocity.x / vt, ratio, 2e-4) << c.angle;
+      EXPECT_NEAR(-s.spin.y, spin, 0.05) << c.angle;
+      const double contactPoint = s.velocity.x - s.spin.y * radius;
+      EXPECT_NEAR(base::atan2(contactPoint, s.velocity.z) * 180 / base::kPi, rebound, 0.01) << c.angle;
+    };
     law.tangentialRootDamping = 0;
-    const SphereOnPlane smooth = impact(law, radius, mass, {vt, 0, -vn}, dt);
-    if (c.smoothRatio > 0) {
-      // Stepped by an independent program to the same scheme and step: how each meets the first touch differs.
-      EXPECT_NEAR(smooth.velocity.x / vt, c.smoothRatio, 1e-4) << c.angle;
-      EXPECT_NEAR(-smooth.spin.y, c.smoothSpin, 0.05) << c.angle;
-    }
+    expectLike(impact(law, radius, mass, {vt, 0, -vn}, dt), c.smoothRatio, c.smoothSpin, c.smoothRebound);
     law.tangentialRootDamping = 2 * beta * std::sqrt(law.tangentialStiffness);
     const SphereOnPlane s = impact(law, radius, mass, {vt, 0, -vn}, dt);
-    // With the dashpot the reference stretches the spring by the dashpot's force too where the ball slips at first;
-    // that matters at steep impacts: 2 % of v_t, 6 rad/s of 600, 0.3 degrees.
-    EXPECT_NEAR(s.velocity.x / vt, c.ratio, c.angle < 10 ? 0.02 : 0.005) << c.angle;
-    EXPECT_NEAR(-s.spin.y, c.spin, 6) << c.angle;
-    const double contactPoint = s.velocity.x - s.spin.y * radius;
-    EXPECT_NEAR(base::atan2(contactPoint, s.velocity.z) * 180 / base::kPi, c.rebound, 0.3) << c.angle;
+    expectLike(s, c.ratio, c.spin, c.rebound);
     if (c.angle >= 40) {
       EXPECT_NEAR(s.velocity.x / vt, 1 - friction * (1 + s.velocity.z / vn) * vn / vt, 1e-6) << "gross sliding";
     }
@@ -180,9 +178,10 @@ TEST(HertzMindlin, ConstantNormalSpeedMatchesTheDigitisedCurves) {
     for (const auto& [before, after] : curve.points) {
       const SphereOnPlane s = impact(law, radius, mass, {before * friction * vn, 0, -vn}, dt);
       const double psi = (s.velocity.x - s.spin.y * radius) / (friction * vn);
-      // The paper's tangential force grows in increments, which lags behind k_t(overlap) shear on loading: the curves
-      // part where the ball sticks at first and slips later, by at most 0.45 of a range of 9.
-      EXPECT_NEAR(psi, after, before <= 2 ? 0.11 : before < 5 ? 0.45 : 0.06) << before;
+      // The spring gives a part of its energy up as the contact is unloaded, the paper's finite elements less: a tenth
+      // of the rebound where the ball sticks, and where it sticks at first and slips later at most 0.45 of a range
+      // of 9.
+      EXPECT_NEAR(psi, after, before <= 2 ? 0.15 : before < 5 ? 0.45 : 0.06) << before;
       if (before > 6.5) {
         EXPECT_NEAR(psi, before - 7, 2e-3) << "gross sliding";
       }

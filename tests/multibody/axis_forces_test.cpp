@@ -31,9 +31,10 @@ TEST(AxisForces, TorquesOnOneAxisAddUpWithBothIntegrators) {
   }
 }
 
-TEST(AxisForces, AStopDampsOnTheWayInOnly) {
+TEST(AxisForces, AStopIsDampedBothWaysUntilItWouldPull) {
   // 1 kg at 2 m/s into 1e4 N/m with a damping ratio of 0.3, that is 60 N s/m: in it goes as a damped swing to
-  // v / omega exp(-zeta / r atan(r / zeta)), r = sqrt(1 - zeta^2), and comes back as an undamped one.
+  // v / omega exp(-zeta / r atan(r / zeta)), r = sqrt(1 - zeta^2), and loses the same share of its speed on the way
+  // back, where it is let go at k x + c x' = 0.
   const double v = 2, omega = 100, zeta = 0.3, r = std::sqrt(1 - zeta * zeta);
   const double deepest = v / omega * base::exp(-zeta / r * base::atan(r / zeta));
   for (const double side : {1.0, -1.0}) {
@@ -54,7 +55,7 @@ TEST(AxisForces, AStopDampsOnTheWayInOnly) {
     }
     // Order 1: omega dt = 1e-3.
     EXPECT_NEAR(most - 0.01, deepest, 3e-3 * deepest);
-    EXPECT_NEAR(m.state.joint[0].rate, -side * omega * deepest, 3e-3 * v) << "on its way to the other stop";
+    EXPECT_NEAR(m.state.joint[0].rate, -side * omega * omega * deepest * deepest / v, 3e-3 * v) << "to the other stop";
     ASSERT_LT(std::fabs(m.state.joint[0].position), 0.01);
   }
 }

@@ -5,8 +5,10 @@ import json
 import os
 import re
 import signal
+import tempfile
 import time
 import tomllib
+import traceback
 import unittest
 
 import numpy
@@ -70,6 +72,30 @@ class Scenes(FolderTest):
             del scene["plane.material"]
         self.assertEqual(scene.document, MINIMAL)
 
+    def test_an_unknown_key_is_refused_where_it_is_set(self):
+        scene = grouser.Scene.read(ROOT / "runs/scenes/quickstart.toml")
+        before = scene.copy()
+        for key, near in (("driver.sproket_speed", "driver.sprocket_speed"), ("sprocket_speed", "driver.sprocket_speed"),
+                          ("run.duraton", "run.duration"), ("material.soil.fricton", "material.soil.friction"),
+                          ("materal.soil.friction", "material.soil.friction"), ("driver.tabel.time", "driver.table.time"),
+                          ("spec.shoe.pin_dampng", "spec.shoe.pin_damping")):
+            with self.assertRaises(KeyError) as caught:
+                scene[key] = 1
+            self.assertEqual(caught.exception.args[0], f"{key}: unknown key; did you mean {near}?")
+        for wrong in (lambda: scene.add("plane", materal="soil"), lambda: grouser.Scene({"version": 1, "run": {"duraton": 1}}),
+                      lambda: scene.__setitem__("boxes", [{"size": [1, 1, 1]}]), lambda: scene.__setitem__("run", 1),
+                      lambda: scene.__setitem__("box", [{"size": [1, 1, 1], "materal": "soil"}])):
+            self.assertRaises(KeyError, wrong)
+        self.assertEqual(scene.document, before.document)
+        scene["spec.shoe.pin_damping"], scene['contact."a|b".friction'] = 10.0, 0.4
+        scene["driver.table"] = {"time": [0.0], "left": [1.0], "right": [1.0]}
+
+    def test_all_keys_of_all_scenes_can_be_set(self):
+        for folder in ("runs/scenes", "runs/mechanisms", "tests/scenes"):
+            for file in sorted((ROOT / folder).glob("*.toml")):
+                scene = grouser.Scene.read(file)
+                self.assertEqual(grouser.Scene(scene.document).document, scene.document, file)
+
     def test_a_byte_order_mark_is_taken_and_other_encodings_are_told(self):
         (self.folder / "mark.toml").write_bytes(b"\xef\xbb\xbf" + grouser.Scene(MINIMAL).text().encode())
         self.assertEqual(grouser.Scene.read("mark.toml").document, MINIMAL)
@@ -98,10 +124,26 @@ class Calls(FolderTest):
             scene.run("bad")
         self.assertEqual(caught.exception.exit_code, 2)
         message = str(caught.exception)
-        self.assertRegex(message, r"bad\.toml:\d+: .*restitution = 1\.4 \[-\] is outside")
+        self.assertRegex(message, r"^scene: material\.glass\.restitution = 1\.4 \[-\] is outside")
         self.assertNotIn("grouser: error", message)
         self.assertEqual(caught.exception.command[1], "run")
         self.assertFalse((self.folder / "bad").exists())
+
+    def test_a_message_names_the_scene_and_no_file_that_was_written_for_it(self):
+        scene = grouser.Scene(MINIMAL, name="falling")
+        scene["material.glass.restitution"] = 1.4
+        grouser.Scene(scene.document).write("falling.toml")
+        for one, called in ((scene, "scene falling"), (grouser.Scene.read("falling.toml"), "falling.toml")):
+            for call in (one.plan, lambda: one.run("bad"), lambda: one.sweep("bad", {"run.seed": [1, 2]})):
+                with self.assertRaises(grouser.InputError) as caught:
+                    call()
+                self.assertTrue(str(caught.exception).startswith(f"{called}: material.glass.restitution = 1.4 [-]"),
+                                str(caught.exception))
+                frames = traceback.extract_tb(caught.exception.__traceback__)
+                self.assertLessEqual(len(frames), 2, "a traceback that goes through the package")
+
+    def test_a_plan_names_no_file_that_was_written_for_it(self):
+        self.assertNotIn(tempfile.gettempdir(), grouser.Scene(MINIMAL, name="falling").plan())
 
     def test_a_file_of_the_users_is_not_written_over(self):
         (self.folder / "mine.toml").write_text("# my own\n" + grouser.Scene(MINIMAL).text())

@@ -57,6 +57,62 @@ class Rows(unittest.TestCase):
             series["z"]
 
 
+class Printed(unittest.TestCase):
+    def test_in_one_line(self):
+        rows = numpy.arange(0, 101) / 100
+        for one, text in (
+                (grouser.Series(rows**2, "m", "", "way", rows),
+                 "way [m]: 101 rows from 0 to 1 s, first 0, last 1, min 0, mean 0.335, max 1"),
+                (grouser.Series(numpy.where(rows < 0.5, numpy.nan, 1.0), "-", "", "slip", rows),
+                 "slip [-]: 101 rows from 0 to 1 s, first nan, last 1, min 1, mean 1, max 1, 50 of 101 are NaN"),
+                (grouser.Series(numpy.zeros((101, 3)), "m", "", "place", rows, None, ("x", "y", "z")),
+                 "place [m]: 101 rows from 0 to 1 s, columns x, y, z, min 0, mean 0, max 0"),
+                (grouser.Series(numpy.zeros((1, 46)), "N", "", "tension", rows[:1]),
+                 "tension [N]: 1 row from 0 to 0 s of 46 columns, min 0, mean 0, max 0"),
+                (grouser.Series(rows[:0], "m", "", "way", rows[:0]), "way [m]: 0 rows"),
+                (grouser.Quantity(numpy.array(3.25), "m", "", "radius"), "radius [m]: 3.25"),
+                (grouser.Quantity(numpy.arange(5.0), "m", "", "depth"), "depth [m]: [5], 0 to 4, mean 2"),
+                (barred([1.0, 2.0, 4.0], [1.0] * 3, [1.0] * 3, [1.0] * 3),
+                 "error [J]: 3 rows from 0 to 0.2 s, first 1, last 4, min 1, mean 2.333, max 4")):
+            self.assertEqual((str(one), repr(one)), (text, text))
+
+    def test_with_no_more_digits_than_the_interval_allows(self):
+        for value, half, text in ((0.27056, 4e-12, "z = 0.27056 m"), (0.27056, 0.0, "z = 0.27056 m"),
+                                  (0.0673, 0.0103, "z = 0.067 +- 0.010 m"), (1234567.0, 21000.0, "z = (1.235 +- 0.021)e6 m"),
+                                  (0.5, numpy.nan, "z = 0.5 +- ? m"), (numpy.nan, numpy.nan, "z = nan m"),
+                                  (-0.0004, 0.0031, "z = -0.0004 +- 0.0031 m (inconclusive)"), (0.0, 3e-4, "z = (0.0 +- 3.0)e-4 m (inconclusive)")):
+            one = grouser.Estimate(value, half, "m", "z")
+            self.assertEqual((str(one), repr(one)), (text, text))
+        self.assertEqual(str(grouser.Estimate(0.25, 0.01, "-", "slip")), "slip = 0.250 +- 0.010")
+
+    def test_without_the_arrays_of_what_holds_several(self):
+        surface = grouser.Surface(TIME, TIME, numpy.zeros((3, 3)), "bilinear")
+        self.assertEqual(repr(surface), "<Surface x: array [3], y: array [3], height: array [3, 3], "
+                                        "interpolation: 'bilinear', final_height: None>")
+
+
+class Doubt(FolderTest):
+    def test_of_an_estimate_whose_interval_is_wider_than_itself(self):
+        for value, half, doubtful in ((-47, 12155, True), (-47, 46, False), (0.0, 0.0, False), (1, float("inf"), False),
+                                      (float("nan"), float("nan"), False)):
+            estimate = grouser.series.Estimate(value, half, "N m", "torque")
+            self.assertIs(bool(estimate.inconclusive), doubtful, str(estimate))
+            self.assertEqual("(inconclusive)" in str(estimate), doubtful)
+
+    def test_of_runs_and_means_of_a_sweep(self):
+        about = "run,k,status,message,inconclusive,wall time [s],steps,simulated time [s],slip [-],state hash"
+        (self.folder / "summary.csv").write_text(f"{about}\nk=1,1,incomplete,never drove,never drove,1,1,1,0.2,x\n"
+                                                 "k=2,2,finished,,,1,1,1,0.1,y\n")
+        (self.folder / "intervals.csv").write_text(
+            "k,figure,seeds,mean,half width,difference to the first,half width of the difference,inconclusive\n"
+            "1,slip [-],2,0.2,0.1,0,0,never drove\n2,slip [-],2,0.1,0.05,0,0,\n")
+        sweep = grouser.open_sweep(self.folder)
+        self.assertEqual([run.status for run in sweep.runs], ["incomplete", "finished"])
+        self.assertEqual([run.inconclusive for run in sweep.runs], ["never drove", ""])
+        self.assertEqual(list(sweep.units), ["slip"])
+        self.assertEqual([mean.inconclusive for mean in sweep.means["slip"]], ["never drove", ""])
+
+
 class Names(FolderTest):
     def test_of_sums_are_as_they_were_written(self):
         energy = grouser.Series(numpy.ones(3), "J", "", "kinetic", TIME)

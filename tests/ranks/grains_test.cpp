@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One answer on any number of ranks: grains that slide, spin, touch walls and cross borders.
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "terrain/bed_tops.hpp"
 #include "terrain/grains.hpp"
 #include "tests/ranks/ranks.hpp"
@@ -55,6 +56,32 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
       advance(grains, kSteps);
       EXPECT_EQ(allWords(grains), expected()) << x << " x " << y << " x " << n / x / y;
     }
+}
+
+/// Noise as fine and nearly as high as the grains: most touch the floor in several places.
+Boundaries roughBox(const GrainModel& m) {
+  Boundaries sides = box(m);
+  const Rectangle area{-0.3, 1.2, -0.3, 0.9};
+  int i = 0;
+  const auto noise = [&](double, double) { return 0.02 * base::uniform(1, 2, static_cast<std::uint64_t>(i++), 0); };
+  sides.floor = HeightField(area, 51, 41, HeightField::sample(area, 51, 41, noise).heights(), Interpolation::monotone);
+  return sides;
+}
+
+TEST(GrainsOnRanks, EqualBitsOnGroundWithHollowsTighterThanTheGrains) {
+  GrainModel m = gravel();
+  m.law.rollingFriction = 0.1;
+  m.floorLaw = m.law;
+  constexpr int kFew = 1500;
+  Grains alone(base::cpuExec(1), m, roughBox(m), thrownBlock()),
+      grains(base::cpuExec(1), m, roughBox(m), thrownBlock(), shared({}, true));
+  advance(alone, kFew), advance(grains, kFew);
+  ASSERT_FALSE(alone.state().floorNormal.empty());
+  EXPECT_EQ(allWords(grains), alone.state().words());
+  Grains resumed(base::cpuExec(1), m, roughBox(m), thrownBlock(), shared());
+  resumed.restore(grains.state());
+  advance(resumed, 300), advance(alone, 300);
+  EXPECT_EQ(allWords(resumed), alone.state().words());
 }
 
 TEST(GrainsOnRanks, EqualBitsOfYieldingContacts) {

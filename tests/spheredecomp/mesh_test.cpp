@@ -60,6 +60,20 @@ TEST(ImportMesh, BinaryAndTextFormatsOfAssimp_AreRead) {
   EXPECT_NEAR(signedVolume(importMesh(file.path)), 1.0 / 6, 1e-15);
 }
 
+TEST(ImportMesh, VerticesOfAnObjThatWouldBeDroppedOrChanged_AreRefusedWithTheirLine) {
+  const auto messageFor = [](const std::string& vertex) {
+    const File file("grouser_vertex.obj",
+                    "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + vertex + "\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    return messageOf(file.path);
+  };
+  EXPECT_NE(messageFor("v 0 0").find("grouser_vertex.obj:4: a vertex has 2 of its 3 coordinates"), std::string::npos)
+      << messageFor("v 0 0");
+  EXPECT_NE(messageFor("v 0 0 1.5.2").find(":4: a vertex has \"1.5.2\" for a number"), std::string::npos);
+  EXPECT_NE(messageFor("v 0 0 1 2").find(":4: a vertex has the weight 2"), std::string::npos);
+  for (const char* good : {"v 0 0 1", "v +0 0,0 1e0 # top", "v 0 0 1 1", "v 0 0 1 0.5 0.5 0.5", "v 0 0 \\\n1"})
+    EXPECT_EQ(messageFor(good), "no error") << good;
+}
+
 TEST(ImportMesh, BadFiles_GiveOneClearError) {
   EXPECT_NE(messageOf("/no/such/mesh.obj").find("/no/such/mesh.obj: no such mesh file"), std::string::npos);
   const File open("grouser_open.obj", kTetrahedron);

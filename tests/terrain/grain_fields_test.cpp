@@ -22,6 +22,7 @@ struct RowColumns {
   Places places;
   template <class T> void column(const std::vector<T>& values) { places.push_back(&values); }
   template <class T> void unhashed(const std::vector<T>& values) { column(values); }
+  template <class T> void several(const std::vector<T>& values, std::size_t) { column(values); }
   template <class... T> void contacts(const std::vector<std::uint32_t>& counts, const std::vector<T>*... columns) {
     column(counts), (column(*columns), ...);
   }
@@ -40,7 +41,7 @@ TEST(GrainFields, AllNamesEachFieldOnce) {
 
 TEST(GrainFields, StateNamesEachColumnForHashAndFiles) {
   GrainState state;
-  state.layout = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+  state.layout = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   RowColumns row;
   GrainState::visitRow(state, row);
   Places inFiles;

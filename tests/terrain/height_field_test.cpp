@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace {
@@ -280,6 +281,110 @@ TEST(HeightField, BrokenInput_IsAnError) {
   EXPECT_THROW(HeightField(kArea, 2, 2, {0, 0, 0, nan}), InputError);
   EXPECT_THROW(HeightField({0, 0, 0, 1}, 2, 2, {0, 0, 0, 0}), InputError);
   EXPECT_THROW(HeightField({0, nan, 0, 1}, 2, 2, {0, 0, 0, 0}), InputError);
+}
+
+HeightField with(Interpolation how, const HeightField& nodes) {
+  return {nodes.area(), nodes.columns(), nodes.rows(), nodes.heights(), how};
+}
+
+TEST(Interpolation, MonotoneAndBilinear_StayBetweenTheNodesOfEachCell) {
+  for (const Interpolation how : {Interpolation::monotone, Interpolation::bilinear}) {
+    const HeightField field = with(how, noiseField());
+    for (int j = 0; j + 1 < field.rows(); ++j)
+      for (int i = 0; i + 1 < field.columns(); ++i) {
+        const double* h = &field.heights()[static_cast<std::size_t>(j) * 41 + i];
+        const auto [low, high] = std::minmax({h[0], h[1], h[41], h[42]});
+        EXPECT_GE(field.boundsOfCell(i, j).lowest, low - 8 * kEps);
+        EXPECT_LE(field.boundsOfCell(i, j).highest, high + 8 * kEps);
+        // Between the cell's borders, where round-off does not decide which cell it is.
+        for (int k = 0; k < 25; ++k) {
+          const double z = field.height(0.1 * (i + 0.1 + 0.2 * (k % 5)), -1 + 0.1 * (j + 0.1 + 0.2 * (k / 5)));
+          EXPECT_GE(z, low - 8 * kEps);
+          EXPECT_LE(z, high + 8 * kEps);
+        }
+      }
+  }
+}
+
+TEST(Interpolation, StepBetweenTwoColumns_HasNoLipAndNoTrench) {
+  // White next to black at 0.3 m; Catmull-Rom rises to 0.322 m and falls to -0.022 m there.
+  const HeightField step =
+      HeightField::sample({0, 2, -0.1, 0.1}, 21, 3, [](double x, double) { return x > 0.95 ? 0.3 : 0.0; });
+  const HeightField monotone = with(Interpolation::monotone, step);
+  double low = 1, high = -1, smoothHigh = -1;
+  for (int k = 0; k <= 2000; ++k) {
+    const double z = monotone.height(0.001 * k, 0.03);
+    low = std::min(low, z), high = std::max(high, z), smoothHigh = std::max(smoothHigh, step.height(0.001 * k, 0.03));
+  }
+  EXPECT_GE(low, -kEps);
+  EXPECT_NEAR(high, 0.3, 2 * kEps);
+  EXPECT_NEAR(monotone.height(1.025, 0), 0.3, 2 * kEps);
+  EXPECT_NEAR(smoothHigh, 0.3222, 1e-4);
+}
+
+TEST(Interpolation, MonotoneAndBilinear_HaveTheDerivativesOfTheirHeight) {
+  for (const Interpolation how : {Interpolation::monotone, Interpolation::bilinear}) {
+    const HeightField field = with(how, noiseField());
+    const HeightFieldView v = field.view();
+    for (int i = 0; i < 300; ++i) {
+      const double x = 0.1 * (i % 40) + random(i, 0, 0.01, 0.09), y = -1 + 0.1 * (i % 20) + random(i, 1, 0.01, 0.09);
+      const double d = 1e-5; // truncation: third derivative below 1e5, times d^2 / 6; round-off eps / d
+      const SurfaceJet s = v.jet(x, y), e = v.jet(x + d, y), w = v.jet(x - d, y), n = v.jet(x, y + d),
+                       b = v.jet(x, y - d);
+      EXPECT_NEAR(s.hx, (e.h - w.h) / (2 * d), 1e5 * d * d);
+      EXPECT_NEAR(s.hy, (n.h - b.h) / (2 * d), 1e5 * d * d);
+      EXPECT_NEAR(s.hxx, (e.hx - w.hx) / (2 * d), 1e6 * d * d);
+      EXPECT_NEAR(s.hyy, (n.hy - b.hy) / (2 * d), 1e6 * d * d);
+      EXPECT_NEAR(s.hxy, (n.hx - b.hx) / (2 * d), 1e6 * d * d);
+      EXPECT_EQ(v.height(x, y), s.h);
+    }
+  }
+}
+
+TEST(Interpolation, Monotone_HasContinuousNormalsAcrossCellsAndTheBorder) {
+  const HeightField field = with(Interpolation::monotone, noiseField());
+  const HeightFieldView view = field.view();
+  const double step = 1e-9, curvature = 1e4; // |second derivatives| of this noise are below 1e4 / m
+  for (int i = 0; i <= 40; ++i)
+    for (int s = 0; s < 20; ++s) {
+      const double x = 0.1 * i, y = random(s, i, -1.2, 1.2);
+      const SurfaceJet a = view.jet(x - step, y), b = view.jet(x + step, y);
+      EXPECT_NEAR(a.h, b.h, 2 * step * 100);
+      EXPECT_NEAR(a.hx, b.hx, 2 * step * curvature);
+      EXPECT_NEAR(a.hy, b.hy, 2 * step * curvature);
+    }
+}
+
+TEST(Interpolation, OfAPlane_IsTheFormerSurfaceBitForBit) {
+  const HeightField flat = HeightField::sample(kArea, 41, 21, [](double, double) { return 0.037; });
+  const HeightField leaning = HeightField::sample(kArea, 41, 21, [](double x, double y) { return 0.5 * x - 0.2 * y; });
+  for (const HeightField* plane : {&flat, &leaning})
+    for (const Interpolation how : {Interpolation::monotone, Interpolation::bilinear})
+      for (int i = 0; i < 100; ++i) {
+        const double x = random(i, 0, -1, 5), y = random(i, 1, -2, 2);
+        EXPECT_EQ(with(how, *plane).height(x, y), plane->height(x, y));
+      }
+}
+
+TEST(Interpolation, Monotone_ConvergesWithOrder2_4InTheMeanAnd1_6AtExtrema) {
+  const auto errors = [](int n) {
+    const HeightField field = with(Interpolation::monotone, waveField(n));
+    double worst = 0, sum = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const double x = random(i, 0, 0.5, 3.5), y = random(i, 1, -0.6, 0.6);
+      const double error = std::fabs(field.height(x, y) - waves(x, y));
+      worst = std::max(worst, error), sum += error / 4000;
+    }
+    return std::array<double, 2>{sum, worst};
+  };
+  const auto coarse = errors(40), fine = errors(160);
+  EXPECT_GT(base::log(coarse[0] / fine[0]) / base::log(4), 2.4);
+  EXPECT_GT(base::log(coarse[1] / fine[1]) / base::log(4), 1.6);
+}
+
+TEST(Interpolation, RaisedGround_KeepsIts) {
+  const HeightField field = with(Interpolation::monotone, noiseField());
+  EXPECT_NEAR(field.raised(-2).height(1.234, 0.321), field.height(1.234, 0.321) - 2, 8 * kEps);
 }
 
 } // namespace

@@ -122,6 +122,47 @@ TEST_F(HeightmapFile, RangeIsTheFormats_NotThePictures) {
   EXPECT_EQ(map.at(0, 1), 110 / 255.0);
 }
 
+TEST_F(HeightmapFile, ColourIsKnown_AndGreyInThreeChannelsIsNone) {
+  EXPECT_TRUE(load(png(2, 2, 8, kRgb, {9, 9, 9, 9, 8, 9, 9, 9, 9, 9, 9, 9})).colour);
+  EXPECT_FALSE(load(png(2, 2, 8, kRgb, {9, 9, 9, 5, 5, 5, 1, 1, 1, 9, 9, 9})).colour);
+  EXPECT_FALSE(load(png(2, 2, 8, kGreyAlpha, {9, 1, 9, 2, 9, 3, 9, 4})).colour);
+  EXPECT_TRUE(load(png(2, 2, 16, kRgba, std::vector<int>{1, 2, 3, 4, 1, 2, 3, 4, 1, 2, 3, 4, 1, 2, 3, 4})).colour);
+}
+
+TEST_F(HeightmapFile, DamagedBytesOfAPng_AreFoundByItsChecksums) {
+  const Bytes good = png(3, 3, 8, kGrey, {0, 10, 20, 30, 40, 50, 60, 70, 80});
+  ASSERT_EQ(errorOf(good), "no error");
+  // Any bit of any chunk behind its length: type, data or checksum.
+  for (std::size_t at = 12; at < good.size(); ++at) {
+    Bytes bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ 0x04);
+    EXPECT_NE(errorOf(bad), "no error") << at;
+  }
+  Bytes pixel = good;
+  pixel[good.find("IDAT") + 14] ^= 0x20; // a height
+  EXPECT_NE(errorOf(pixel).find("damaged or cut short (wrong checksum of chunk IDAT at byte 33)"), std::string::npos)
+      << errorOf(pixel);
+  EXPECT_NE(errorOf(good.substr(0, good.size() - 12)).find("damaged or cut short"), std::string::npos);
+  EXPECT_EQ(errorOf(good + "behind the end mark"), "no error");
+}
+
+TEST_F(HeightmapFile, WrongChecksumOfThePixels_IsFoundUnderASoundChunk) {
+  const Bytes good = png(2, 2, 8, kGrey, {0, 10, 20, 30});
+  const std::size_t type = good.find("IDAT"), end = good.find("IEND") - 8; // of its data
+  Bytes stream = good.substr(type + 4, end - type - 4);
+  stream.back() = static_cast<char>(stream.back() ^ 1);
+  Bytes bad = good.substr(0, type - 4);
+  appendChunk(bad, "IDAT", stream);
+  appendChunk(bad, "IEND", "");
+  EXPECT_NE(errorOf(bad).find("wrong checksum of the pixels"), std::string::npos) << errorOf(bad);
+}
+
+TEST_F(HeightmapFile, TransparentPixelsAreKnown_AndOpaqueOnesAreNone) {
+  EXPECT_TRUE(load(png(2, 2, 8, kGreyAlpha, {9, 255, 9, 254, 9, 255, 9, 255})).transparent);
+  EXPECT_FALSE(load(png(2, 2, 8, kGreyAlpha, {9, 255, 9, 255, 9, 255, 9, 255})).transparent);
+  EXPECT_FALSE(load(png(2, 2, 8, kRgb, {9, 9, 9, 5, 5, 5, 1, 1, 1, 9, 9, 9})).transparent);
+}
+
 TEST_F(HeightmapFile, Colour_BecomesLuminance_AndAlphaIsIgnored) {
   const std::vector<double> pure{0.2126, 0.7152, 0.0722, 1.0};
   const std::vector<int> rgb{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};

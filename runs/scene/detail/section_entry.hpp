@@ -24,6 +24,7 @@ struct SectionEntry {
   std::function<std::string(const Scene& scene)> write;              ///< TOML with headings
   std::function<std::string()> describe;                             ///< Markdown
   std::function<void(base::Document& document)> renameKeys;          ///< that files still call by a former name
+  std::vector<std::string> keys;                                     ///< with the section: "driver.table.time"
 
   /// As long as `holds` does not, nothing is written.
   SectionEntry writtenIf(bool (*holds)(const Scene&)) && {
@@ -37,6 +38,12 @@ using SectionList = std::vector<SectionEntry>;
 /// before it in the list of entries.
 template <class S> using Check = std::function<void(const base::Section& section, S& s, const Scene& scene)>;
 template <class S> using CheckOf = std::type_identity_t<Check<S>>; // is no part of what a call deduces
+
+template <class S> std::vector<std::string> fullKeys(const std::string& name, const base::Table<S>& table) {
+  std::vector<std::string> keys;
+  for (const base::Field& field : table.fields()) keys.push_back(name + "." + field.key);
+  return keys;
+}
 
 /// The section at a path such as "driver.table", where there is one.
 inline std::optional<base::Section> findSection(const base::Section& root, const std::string& path) {
@@ -73,10 +80,12 @@ std::function<void(const base::Section&, Scene&)> readerOfOne(const std::string&
 template <class S, class Where> SectionEntry single(const std::string& name, Where where, const base::Table<S>& table,
                                                     CheckOf<S> check = {},
                                                     const std::vector<std::string>& subsections = {}) {
-  return {name, readerOfOne<S>(name, where, table, check, subsections),
+  return {name,
+          readerOfOne<S>(name, where, table, check, subsections),
           [=](const Scene& scene) { return written<S>(fmt::format("[{}]", name), table, std::invoke(where, scene)); },
           [=] { return base::describe(table); },
-          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
+          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); },
+          fullKeys(name, table)};
 }
 
 /// [name], without which a file is no scene.
@@ -93,13 +102,15 @@ SectionEntry required(const std::string& name, Where where, const base::Table<S>
 /// [name], that may be absent.
 template <class S, class Where>
 SectionEntry optional(const std::string& name, Where where, const base::Table<S>& table, CheckOf<S> check = {}) {
-  return {name, readerOfOne<S>(name, where, table, check),
+  return {name,
+          readerOfOne<S>(name, where, table, check),
           [=](const Scene& scene) {
             const std::optional<S>& s = std::invoke(where, scene);
             return s ? written<S>(fmt::format("[{}]", name), table, *s) : std::string();
           },
           [=] { return base::describe(table); },
-          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
+          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); },
+          fullKeys(name, table)};
 }
 
 /// [[name]]: as many as there are, in the file's order.
@@ -116,7 +127,8 @@ SectionEntry list(const std::string& name, Where where, const base::Table<S>& ta
             return text;
           },
           [=] { return base::describe(table); },
-          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); }};
+          [=](base::Document& document) { document.renameKeys(name, table.formerKeys()); },
+          fullKeys(name, table)};
 }
 
 /// [name.KEY], in the file's order. `begin` makes a section with its key and all that stands there before it is read,
@@ -138,7 +150,8 @@ SectionEntry named(const std::string& name, Where where, const base::Table<S>& t
             return text;
           },
           [=] { return base::describe(table); },
-          [=](base::Document& document) { document.renameKeys(name + ".*", table.formerKeys()); }};
+          [=](base::Document& document) { document.renameKeys(name + ".*", table.formerKeys()); },
+          fullKeys(name, table)};
 }
 
 } // namespace grouser::scene::detail

@@ -77,10 +77,11 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
     EXPECT_NE(text.find("coarse"), std::string::npos) << file;
   }
   const std::string before = contents(folder_ / "results" / "constants.csv");
-  const Outcome again = call(words + " --resume");
-  ASSERT_EQ(again.code, 0) << again.errors;
-  EXPECT_EQ(contents(folder_ / "results" / "constants.csv"), before) << "the same tests, the same numbers";
-  EXPECT_EQ(call(words).code, 2) << "there are results in it";
+  for (const std::string& same : {words + " --resume", words}) {
+    const Outcome again = call(same);
+    ASSERT_EQ(again.code, 0) << again.errors;
+    EXPECT_EQ(contents(folder_ / "results" / "constants.csv"), before) << "the same tests, the same numbers";
+  }
   // Without the large plate: what the small one gives alone.
   for (const int seed : {1, 2}) fs::remove(folder_ / "results" / "runs" / fmt::format("coarse_large_seed{}.csv", seed));
   const Outcome alone = call(words + " --resume --seconds 1e-6");

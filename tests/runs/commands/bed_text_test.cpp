@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run says of its grains, and of a bed that is too small for its vehicle.
 #include "runs/commands/bed_text.hpp"
+#include "runs/commands/bed_warnings.hpp"
+#include "runs/commands/plan.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/support/locations.hpp"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
 
 namespace grouser::commands {
 
@@ -54,6 +59,84 @@ TEST(BedNotes, CountTheGrainsAtTheSurfaceOfABedThatIsCoarserBelow) {
   bool told = false;
   for (const std::string& note : bedNotes(simulation)) told |= note.find("a pad is 3.5 mean grains wide") == 0;
   EXPECT_TRUE(told) << "0.28 m over 0.08 m";
+}
+
+TEST(PorosityWarning, NamesLeaningGravityWhereTheBedHasMovedAfterItsPreparation) {
+  terrain::BedStructure bed;
+  bed.porosity = 0.427, bed.porosityError = 0.001, bed.grains = 500;
+  const std::string leaning = porosityWarning(0.40, bed, {5.627, 0, -8.036}),
+                    level = porosityWarning(0.40, bed, {0, 0, -9.81});
+  for (const char* part : {"porosity of 0.427", "asks for 0.4:", "straight down", "leans by 35.0 degrees"})
+    EXPECT_NE(leaning.find(part), std::string::npos) << leaning;
+  EXPECT_NE(level.find("enlarge terrain.size or depth"), std::string::npos) << level;
+  EXPECT_EQ(leanOf({0, 0, -9.81}), 0);
+  EXPECT_EQ(leanOf({}), 0);
+  bed.porosity = 0.409;
+  EXPECT_EQ(porosityWarning(0.40, bed, {5.627, 0, -8.036}), "") << "as near as beds come";
+  bed.porosity = 0.427, bed.porosityError = 0.01;
+  EXPECT_EQ(porosityWarning(0.40, bed, {0, 0, -9.81}), "") << "measured in too few grains to say";
+}
+
+TEST(Plan, SaysThatAPorosityIsPreparedStraightDown) {
+  const auto plan = [](const std::string& gravity) {
+    return planText(setup::parseScene("version = 1\n[run]\nduration = 0.01\ngravity = " + gravity +
+                                          "\n[material.soil]\nstiffness = 2e5\n[terrain]\nheightmap = "
+                                          "\"heightmaps/flat.png\"\nheight_range = [0, 0]\nsize = [0.6, 0.6]\n"
+                                          "material = \"soil\"\ngrain_radius = 0.03\ndepth = 0.25\nporosity = 0.4\n",
+                                      "scene.toml"));
+  };
+  const std::string note = "under gravity straight down; run.gravity leans by 35.0 degrees";
+  EXPECT_NE(plan("[5.627, 0, -8.036]").find(note), std::string::npos);
+  EXPECT_EQ(plan("[0, 0, -9.81]").find("leans by"), std::string::npos);
+}
+
+TEST(BedWarnings, NameBedsThatAreNone) {
+  const BedQuality good{10000, 800, 9000, 0.42, 0.005};
+  EXPECT_TRUE(bedWarnings(good).empty());
+  BedQuality bad = good; // of a run that passed without a word
+  bad.grains = 400, bad.fixed = 300, bad.porosity = 0.68, bad.measured = 40;
+  const std::vector<std::string> both = bedWarnings(bad);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NE(both[0].find("75 % of the bed's grains are fixed on its floor (300 of 400)"), std::string::npos) << both[0];
+  EXPECT_NE(both[1].find("porosity of 0.68"), std::string::npos) << both[1];
+  BedQuality loose = good; // what is too loose depends on what holds the grains apart
+  loose.porosity = 0.51;
+  EXPECT_EQ(bedWarnings(loose).size(), 1u);
+  loose.rollingFriction = true;
+  EXPECT_TRUE(bedWarnings(loose).empty());
+  loose.porosity = 0.58;
+  EXPECT_EQ(bedWarnings(loose).size(), 1u);
+  loose.cohesion = true;
+  EXPECT_TRUE(bedWarnings(loose).empty());
+  loose.porosity = 0.68;
+  EXPECT_EQ(bedWarnings(loose).size(), 1u);
+  BedQuality unsure = good;
+  unsure.porosity = 0.6, unsure.porosityError = 0.05;
+  EXPECT_TRUE(bedWarnings(unsure).empty()) << "within three standard errors";
+  BedQuality unknown = good;
+  unknown.measured = 0, unknown.porosity = 0;
+  EXPECT_TRUE(bedWarnings(unknown).empty());
+}
+
+TEST(BedWarnings, ShippedScenesHaveNone) {
+  for (const auto& entry : std::filesystem::directory_iterator(support::shareFolder() / "runs/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    const scene::Scene scene = setup::loadScene(entry.path());
+    const std::vector<std::string> warnings = plannedBedWarnings(scene);
+    EXPECT_TRUE(warnings.empty()) << entry.path() << ": " << warnings.front();
+  }
+}
+
+TEST(BedWarnings, TellOfAThinBedBeforeItIsLaid) {
+  const std::string text = "version = 1\n[run]\nduration = 0.01\n[material.soil]\nstiffness = 2e5\n[terrain]\n"
+                           "heightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\nsize = [1, 1]\n"
+                           "material = \"soil\"\ngrain_radius = 0.02\ndepth = ";
+  const auto warnings = [&](const std::string& depth) {
+    return plannedBedWarnings(setup::parseScene(text + depth + "\n", "scene.toml"));
+  };
+  EXPECT_TRUE(warnings("0.2").empty());
+  ASSERT_EQ(warnings("0.04").size(), 1u);
+  EXPECT_NE(warnings("0.04").front().find("are fixed on its floor"), std::string::npos);
 }
 
 } // namespace grouser::commands

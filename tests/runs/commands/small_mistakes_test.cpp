@@ -105,9 +105,8 @@ TEST_F(SmallMistakes, ABedThatDoesNotSettleIsSaidToFall) {
   put(folder_ / "map.png", picture());
   const Outcome o = call("plan loose.toml --no-probe");
   EXPECT_EQ(o.code, 0) << o.errors;
-  EXPECT_NE(
-      o.errors.find("grouser: warning: terrain.settle_time_limit = 0 leaves the bed as it is laid, a loose column"),
-      std::string::npos)
+  EXPECT_NE(o.errors.find("WARNING: terrain.settle_time_limit = 0 leaves the bed as it is laid, a loose column"),
+            std::string::npos)
       << o.errors;
   EXPECT_NE(o.errors.find("not of terrain.porosity = 0.42"), std::string::npos) << o.errors;
   EXPECT_EQ(call("plan loose.toml --no-probe --set terrain.settle_time_limit=3").errors, "");

@@ -303,6 +303,34 @@ TEST_F(Output, SinkageCsvOfSingleShoesHasThoseAlone) {
   requireShoes(folder_ / "results.h5", {0, 2});
 }
 
+TEST_F(Output, SinkageCsvOfOneTrackHasNoOther) {
+  {
+    RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
+    writer.row(numbered(1));
+    writer.finish({});
+  }
+  const fs::path results = folder_ / "results.h5";
+  EXPECT_EQ(lines(contents(writeSinkageCsv(results, folder_, {2, 1}, "left")))[0], "time [s],left 2 [m],left 1 [m]");
+  EXPECT_EQ(lines(contents(writeSinkageCsv(results, folder_, {0}, "right")))[0], "time [s],right 0 [m]");
+  EXPECT_THROW(requireShoes(results, {3}, "right"), base::InputError);
+}
+
+TEST_F(Output, TablesHaveNoRoundingOfTheProductOfAStep) {
+  {
+    RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
+    RowBuilder row(channels());
+    row.begin(5900, 5900 * 1e-4); // 0.5900000000000001
+    writer.row(row.row());
+    Summary summary;
+    summary.simulatedTime = 5900 * 1e-4;
+    writer.finish(summary);
+  }
+  EXPECT_TRUE(lines(contents(folder_ / "timeseries.csv"))[1].starts_with("5900,0.59,"));
+  EXPECT_TRUE(lines(contents(writeSinkageCsv(folder_ / "results.h5", folder_)))[1].starts_with("0.59,"));
+  EXPECT_NE(contents(folder_ / "manifest.json").find("\"simulated_time_s\": 0.59,"), std::string::npos);
+  EXPECT_EQ(support::Hdf5File::open(folder_ / "results.h5").numbers("/series/time")[0], 5900 * 1e-4) << "as it was";
+}
+
 TEST(ShoesNamed, AreNumbersAndRanges) {
   EXPECT_EQ(shoesNamed("10-13,20"), (std::vector<int>{10, 11, 12, 13, 20}));
   EXPECT_EQ(shoesNamed("5"), std::vector<int>{5});

@@ -237,5 +237,48 @@ TEST(Picture, StrayGrainDoesNotShrinkABed) {
   EXPECT_GT(s.pixels, 320 * 180 / 4);
 }
 
+base::TriangleMesh level(float half, float z) {
+  return {{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {0, 1, 2, 0, 2, 3}};
+}
+
+/// Pixels of the colours of heights, which are livelier than a floor's and the sky's.
+int livelyPixels(const Image& image) {
+  int count = 0;
+  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
+    const auto [least, most] = std::minmax({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+    count += most - least > 60 ? 1 : 0;
+  }
+  return count;
+}
+
+/// A bed of 40 x 20 grains, and the place of a part over its middle.
+output::Frame bedAndBox(float spacing) {
+  output::Frame frame;
+  for (int i = 0; i < 800; ++i)
+    frame.positions.push_back({spacing * float(i % 40), spacing * float(i / 40), 0}),
+        frame.radii.push_back(0.5f * spacing);
+  frame.partPoses = {{{20 * spacing, 10 * spacing, 0.4}, {}}};
+  return frame;
+}
+
+TEST(Picture, BedLittleLargerThanTheVehicleIsSeenWhole) {
+  const Image empty = drawFrame({}, {}, {}, 320);
+  const std::vector<output::FramePart> box{{"chassis", output::PartKind::chassis, level(1.2f, 0)}};
+  EXPECT_FALSE(subjectOf(drawFrame(bedAndBox(0.08f), box, {}, 320), empty).isCut) << "3.2 m under 2.4 m";
+  EXPECT_TRUE(subjectOf(drawFrame(bedAndBox(0.5f), box, {}, 320), empty).isCut)
+      << "20 m: the vehicle fills the picture";
+}
+
+TEST(Picture, FloorWithoutAnEndShrinksNoGrains) {
+  const Image empty = drawFrame({}, {}, {}, 320);
+  output::Frame frame = bedAndBox(0.1f);
+  frame.partPoses.clear();
+  const int alone = livelyPixels(drawFrame(frame, {}, {}, 320));
+  const Image onFloor = drawFrame(frame, {}, level(60, -0.05f), 320);
+  EXPECT_GT(alone, 1000);
+  EXPECT_NEAR(livelyPixels(onFloor), alone, 0.1 * alone) << "but for shadows";
+  EXPECT_TRUE(subjectOf(onFloor, empty).isCut) << "it goes on beyond the picture";
+}
+
 } // namespace
 } // namespace grouser::render

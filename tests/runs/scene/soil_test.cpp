@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Soils by name: what a scene takes from a soil's file, and how it is scaled to the scene's grains.
 #include "runs/scene/soil.hpp"
+#include "runs/scene/soil_calibration.hpp"
 
 #include "base/error.hpp"
 #include "runs/scene/scene_file.hpp"
@@ -280,9 +281,6 @@ TEST_F(Soils, ResolvedSceneSaysWhereItsValuesComeFromAndLoadsToTheSame) {
 
 TEST_F(Soils, NotesTellWhatHasNotBeenMeasured) {
   EXPECT_TRUE(soilNotes(parse(grainOf("loam", 0.02))).empty());
-  const std::vector<std::string> outside = soilNotes(parse(grainOf("loam", 0.021)));
-  ASSERT_EQ(outside.size(), 1u);
-  EXPECT_NE(outside[0].find("calibrated for grains of 8 mm to 20 mm, not of 21 mm"), std::string::npos) << outside[0];
   const std::vector<std::string> other =
       soilNotes(parse(bedOf("loam", "depth = 0.3\n"), {"material.loam.grain_radius=0.01"}));
   ASSERT_EQ(other.size(), 1u);
@@ -291,6 +289,30 @@ TEST_F(Soils, NotesTellWhatHasNotBeenMeasured) {
   const std::vector<std::string> unmeasured = soilNotes(parse(grainOf("loam", 0.021)));
   ASSERT_EQ(unmeasured.size(), 1u);
   EXPECT_NE(unmeasured[0].find("the soil loam is uncalibrated"), std::string::npos) << unmeasured[0];
+}
+
+TEST_F(Soils, AreCalibratedAtTheirSizeAndWithTheirValuesAlone) {
+  const auto of = [&](double radius, const std::vector<std::string>& sets = {}) {
+    const Scene scene = parse(grainOf("loam", radius), sets);
+    const std::vector<std::string> warnings = soilWarnings(scene);
+    return std::pair{soilUses(scene).front(), warnings.empty() ? std::string() : warnings.front()};
+  };
+  for (const double radius : {0.008, 0.01, 0.02, 0.0201}) { // measured from 8 mm to 20 mm, within 1 %
+    const auto [use, warning] = of(radius);
+    EXPECT_TRUE(use.calibrated) << radius;
+    EXPECT_TRUE(soilLine(use).ends_with("; calibrated")) << soilLine(use);
+    EXPECT_EQ(warning, "") << radius;
+  }
+  for (const double radius : {0.0079, 0.0203, 0.06}) {
+    const auto [use, warning] = of(radius);
+    EXPECT_FALSE(use.calibrated) << radius;
+    EXPECT_TRUE(soilLine(use).ends_with("; scaled, not calibrated at this size")) << soilLine(use);
+    EXPECT_NE(warning.find("calibrated for grains of 8 mm to 20 mm, not of "), std::string::npos) << warning;
+  }
+  EXPECT_NE(of(0.06).second.find("not of 60 mm, 6 times its own"), std::string::npos) << of(0.06).second;
+  EXPECT_NE(of(0.06).second.find("grouser soil loam --grain-radius 0.06"), std::string::npos);
+  const SoilUse changed = of(0.02, {"material.loam.friction=0.6"}).first;
+  EXPECT_FALSE(changed.calibrated);
 }
 
 TEST_F(Soils, UsesNameFileHashAndScaledValues) {

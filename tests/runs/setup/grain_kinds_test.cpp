@@ -6,6 +6,7 @@
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
@@ -169,9 +170,11 @@ TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
       read(std::string("0 0 1 0.1\n") + bad + "\n");
       ADD_FAILURE() << bad << " was taken";
     } catch (const base::InputError& e) {
-      EXPECT_NE(std::string(e.what()).find("moving.txt:2: "), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("moving.txt:2:"), std::string::npos) << e.what();
     }
   }
+  const std::string inputs = inputsOf(read("0 0 1 0.1\n"));
+  EXPECT_NE(inputs, inputsOf(read("0 0 1 0.2\n"))) << "a file that changed is another scene";
   const scene::Scene quick = read("0 0 1 0.1 100 0 0\n");
   EXPECT_THROW(checkSpeeds(quick, 1e-3), base::InputError) << "farther than the skin in a step";
   EXPECT_NO_THROW(checkSpeeds(quick, 1e-5));

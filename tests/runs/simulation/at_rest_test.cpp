@@ -121,6 +121,11 @@ TEST(AtRest, TheGradeThatItHoldsIsItsFriction) {
   const vehicle::Observation seen = slides.vehicle()->observe();
   EXPECT_NEAR(seen.groundForce.x / seen.groundForce.z, kFriction, 1e-4 * kFriction) << "each shoe slides";
   const double gained = (before - slides.ledger().momentum.x) / slides.vehicle()->assembly().mass;
+  // Downhill, where it slides to, the ground holds it back, and what it gains is left of its weight.
+  EXPECT_NEAR(seen.netThrust, -seen.groundForce.x, 1e-9 * seen.groundForce.x);
+  const double weight = slides.vehicle()->assembly().mass * kGravity;
+  EXPECT_NEAR(seen.drawbarPull, gained / 0.5 * slides.vehicle()->assembly().mass, 1e-6 * weight)
+      << "round-off, and a heading of 1e-4 rad";
   std::printf("at 1.02 it gains %.4f m/s in half a second\n", gained);
   EXPECT_GT(gained, 0.01);
 }

@@ -95,6 +95,28 @@ TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {
   EXPECT_EQ(files().size(), 1u);
 }
 
+TEST_F(KeptBed, OfCopiedTilesIsTakenBeforeItsTileSettles) {
+  const std::vector<std::string> tiled{"terrain.size=[0.8,0.4]", "terrain.tile=[0.4,0.4]", "terrain.floor=flat"};
+  const Outcome alone = run(nullptr, tiled), first = runIn(folder_, tiled);
+  EXPECT_TRUE(first.settled);
+  EXPECT_EQ(first.hash, alone.hash);
+  // A tile that cannot come to rest shows whether it is asked to.
+  setup::SimulationSetup setup = setup::simulationSetup(scene(tiled));
+  auto restless = std::make_shared<setup::GroundSetup>(*setup.ground.grains->bed->tile->ground);
+  restless->grains->bed->settle.timeLimit = 1e-9;
+  setup.ground.grains->bed->tile->ground = restless;
+  const auto quiet = [](double, double) {};
+  EXPECT_THROW(Simulation(setup, base::cpuExec(1), quiet), base::SimulationError);
+  BedCache beds(folder_);
+  Simulation kept(setup, base::cpuExec(1), quiet, {}, &beds);
+  while (kept.steps() < 300) kept.step();
+  EXPECT_EQ(kept.stateHash(), alone.hash);
+  // Nor does a run that goes on need it.
+  Simulation resumed(setup, base::cpuExec(1), kept.save());
+  while (resumed.steps() < 320) kept.step(), resumed.step();
+  EXPECT_EQ(resumed.stateHash(), kept.stateHash());
+}
+
 TEST_F(KeptBed, ServesEverySkinAndEveryNumberOfThreads) {
   const Outcome first = runIn(folder_);
   BedCache beds(folder_);
@@ -131,7 +153,8 @@ TEST_F(KeptBed, WhatHasNoPartInItChangesNothing) {
        {std::string("run.duration=7"), std::string("run.skin=0.5"), std::string("run.threads=2"),
         std::string("run.device=cpu"), std::string("run.output_interval=0.03"),
         std::string("material.steel.friction=0"), std::string("output.frames=false"),
-        std::string("parallel.rebalance=false"), "terrain.heightmap=" + (folder_ / "copy.png").string()})
+        std::string("parallel.rebalance=false"), std::string("source.0.total=2"),
+        std::string("run.steps_per_contact=30"), "terrain.heightmap=" + (folder_ / "copy.png").string()})
     EXPECT_EQ(setup::bedOrigin(scene({key}), 2e-4), origin) << key;
 }
 

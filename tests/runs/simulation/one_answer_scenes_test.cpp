@@ -67,8 +67,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OneAnswerScenes,
                                            Golden{"chute", 4000, "5a9fa64e8fdd3ca7", {"run.skin=0.6"}},
                                            Golden{"moving", 4000, "858daf9fbde2f86e", {"run.skin=0.6"}},
                                            Golden{"rain", 5000, "245e5d2a7169fea8", {"run.skin=0.7"}},
-                                           Golden{"mixture", 1500, "fef0375713db4e20", {"run.skin=0.5"}},
-                                           Golden{"cohesive", 4000, "dc7cb6305b291fad", {"run.skin=0.5"}},
+                                           Golden{"mixture", 1500, "c7c0bf29d5340cd0", {"run.skin=0.5"}},
+                                           Golden{"cohesive", 4000, "aa2fb3ec1525955f", {"run.skin=0.5"}},
                                            Golden{"bed", 500, "b0b64439decac9fa", {"run.skin=0.6"}}),
                          [](const ::testing::TestParamInfo<Golden>& each) { return std::string(each.param.scene); });
 

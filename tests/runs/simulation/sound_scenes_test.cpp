@@ -17,7 +17,7 @@
 namespace grouser::simulation {
 namespace {
 
-using namespace test; // pieces of scenes
+using namespace grouser::test; // pieces of scenes
 
 struct Sound {
   const char* name;

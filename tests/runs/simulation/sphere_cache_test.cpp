@@ -111,7 +111,7 @@ TEST_F(KeptSpheres, DamagedOrForeignFileIsToldAndCutAnew) {
   std::string flipped = whole;
   flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 4);
   std::string version = whole;
-  version.replace(version.find("version 1"), 9, "version 9");
+  version.replace(version.find("version 2"), 9, "version 9");
   for (const std::string& bad :
        {flipped, version, whole.substr(0, whole.size() - 1), whole + "x", std::string("no set"), std::string()}) {
     put(file, bad);

@@ -97,6 +97,10 @@ TEST(Towing, AForceBeyondFrictionAcceleratesTheVehicle) {
   EXPECT_NEAR(momentum() - before, (ground - 60e3) * 0.3, 1e-6 * 60e3);
   EXPECT_NEAR(ground / load.z, assembly.spec.contact.frictionGround, 0.01) << "the hull still swings on its arms";
   EXPECT_LT(simulation.vehicle()->state().twist[0].v.x, -0.1);
+  // It slides backward on tracks that stand: the hitch draws it along, the ground holds it back.
+  const vehicle::Observation seen = simulation.vehicle()->observe();
+  EXPECT_NEAR(seen.drawbarPull, -60e3, 1e-6);
+  EXPECT_EQ(seen.netThrust, -seen.groundForce.x);
 }
 
 TEST(Towing, ASledPullsWithItsFriction) {

@@ -6,9 +6,11 @@
 namespace grouser::support {
 namespace {
 
-TEST(Progress, TimeLeftIsThatOfTheShareDone) {
-  EXPECT_EQ(Progress::line("running", 0.25, 30, "t 1 s"), "running:  25.0 %, t 1 s, 1 min 30 s left");
-  EXPECT_EQ(Progress::line("running", 0, 30, "t 0 s"), "running:   0.0 %, t 0 s, time left unknown yet");
+TEST(Progress, LineTellsTheTimeLeft) {
+  EXPECT_EQ(Progress::line("running", 0.25, 90, "t 1 s"), "running:  25.0 %, t 1 s, about 1 min 30 s left");
+  EXPECT_EQ(Progress::line("running", 0, {}, "t 0 s"), "running:   0.0 %, t 0 s, time left unknown");
+  EXPECT_EQ(Progress::line("settling", 0.25, 90, "t 1 s", Progress::End::limit),
+            "settling:  25.0 %, t 1 s, at most 1 min 30 s left");
 }
 
 TEST(Progress, DurationsReadWell) {
@@ -22,6 +24,66 @@ TEST(Progress, DurationsReadWell) {
 TEST(Progress, NothingIsDueAtOnce) {
   const Progress progress("running");
   EXPECT_FALSE(progress.due());
+}
+
+/// Work of one unit, at `fast` a second until `busy` [s], at `slow` from then on; looked at every `look` seconds.
+struct Machine {
+  double fast, busy, slow, look;
+  double done(double t) const { return t < busy ? fast * t : fast * busy + slow * (t - busy); }
+};
+
+// Each bound is exact but for the window, a fifth of the time spent, and the last look before it.
+TEST(TimeLeft, IsThatOfAnEvenRate) {
+  TimeLeft left;
+  for (int k = 1; k < 100; ++k) {
+    left.add(k, 0.01 * k);
+    EXPECT_NEAR(left.at(k).value(), 100 - k, 1e-9);
+  }
+}
+
+TEST(TimeLeft, CountsDownUnderALoadThatStays) {
+  const Machine m{0.01, 40, 0.002, 5}; // 40 % in 40 s, then 300 s more: five times as slow
+  TimeLeft left;
+  double before = 1e300;
+  for (double t = m.look; m.done(t) < 1; t += m.look) {
+    left.add(t, m.done(t));
+    const double now = left.at(t).value();
+    if (t > m.busy + 20 + m.look) { // the mean rate since the start would count up until 80 s, and be off until the end
+      EXPECT_LT(now, before) << t;
+      EXPECT_NEAR(now, 340 - t, 1e-6) << t;
+    }
+    before = now;
+  }
+}
+
+TEST(TimeLeft, CountsDownWhileNothingIsReportedAndThenIsUnknown) {
+  TimeLeft left;
+  left.add(100, 0.25); // one of four pieces
+  EXPECT_NEAR(left.at(100).value(), 300, 1e-9);
+  EXPECT_NEAR(left.at(180).value(), 220, 1e-9);
+  EXPECT_FALSE(left.at(201)); // twice as long as the first piece took: nothing is known of it
+  TimeLeft none;
+  none.add(10, 0);
+  EXPECT_FALSE(none.at(10));
+}
+
+TEST(TimeLeft, IsNeverNegative) {
+  TimeLeft left;
+  left.add(100, 0.9);
+  EXPECT_NEAR(left.at(110).value(), 100.0 / 9 - 10, 1e-9);
+  EXPECT_FALSE(left.at(112)); // overdue
+}
+
+TEST(TimeLeft, OfAResumedRunIsThatOfTheRest) {
+  TimeLeft left(0.9);
+  left.add(10, 0.91);
+  EXPECT_NEAR(left.at(10).value(), 90, 1e-9);
+}
+
+TEST(TimeLeft, ManySamplesASecondChangeNothing) {
+  TimeLeft left;
+  for (int k = 1; k <= 100000; ++k) left.add(1e-3 * k, 1e-6 * k);
+  EXPECT_NEAR(left.at(100).value(), 900, 1e-3);
 }
 
 } // namespace

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace grouser::base {
+
+/// "1 seed", "3 seeds": a number with the word that it counts. `many`: the plural, where it is not `one` with an s.
+template <class Number> std::string counted(Number number, const std::string& one, const std::string& many = {}) {
+  return std::to_string(number) + " " + (number == 1 ? one : many.empty() ? one + "s" : many);
+}
+
+} // namespace grouser::base

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grouser::base {
+
+/// A key or a section that its place in a file does not have. The message names the nearest one of that place; a reader
+/// who knows all keys of the file may name one of another section (base/nearest_key.hpp).
+class UnknownKey : public InputError {
+public:
+  struct Place {
+    std::string origin;             ///< "scene.toml:14", or "--set"
+    std::string path;               ///< of the section; empty at the root
+    std::string key;                ///< as it stands there
+    std::vector<std::string> inner; ///< the keys of a section that is unknown; empty for a key
+    std::vector<std::string> valid; ///< keys and sections of that place
+  };
+  UnknownKey(Place place, const std::string& nearest) : InputError(message(place, nearest)), place_(std::move(place)) {}
+
+  const Place& place() const { return place_; }
+  static std::string message(const Place& p, const std::string& nearest) {
+    const std::string what = fmt::format("{}: unknown {} {}{}", p.origin, p.inner.empty() ? "key" : "section",
+                                         p.path.empty() ? "" : p.path + ".", p.key);
+    if (nearest.empty()) return fmt::format("{}; the scene has no [[{}]]", what, p.path);
+    if (p.valid.empty()) return fmt::format("{}; did you mean {}?", what, nearest);
+    return fmt::format("{}; did you mean {}? (valid here: {})", what, nearest, fmt::join(p.valid, ", "));
+  }
+
+private:
+  Place place_;
+};
+
+} // namespace grouser::base

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/scene.hpp"
+#include "runs/simulation/simulation.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// Beds that are none: too loose for a packing of spheres, or hardly anything but their floor.
+namespace grouser::commands {
+
+struct BedQuality {
+  std::int64_t grains = 0, fixed = 0; ///< of the bed; the fixed ones among them
+  std::int64_t measured = 0;          ///< grains that tell the porosity; 0: it is not known
+  double porosity = 0, porosityError = 0;
+  bool rollingFriction = false, cohesion = false;
+};
+
+/// A line for each of terrain/packing_limits.hpp that a bed is beyond.
+std::vector<std::string> bedWarnings(const BedQuality& bed);
+
+/// Warnings about the settled bed of a run; empty without a bed.
+std::vector<std::string> bedWarnings(const scene::Scene& scene, const simulation::Simulation& simulation);
+
+/// Warnings about the bed that a scene will lay.
+std::vector<std::string> plannedBedWarnings(const scene::Scene& scene);
+
+} // namespace grouser::commands

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/drive_length.hpp"
+
+#include "base/math.hpp"
+#include "runs/setup/placement.hpp"
+#include "vehicle/driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace grouser::setup {
+
+namespace {
+
+bool anyIsNot0(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double v) { return v != 0; });
+}
+
+} // namespace
+
+bool asksToDrive(const scene::Scene& scene) {
+  if (!scene.vehicle) return false;
+  const scene::Driver& d = scene.driver;
+  if (d.course) return d.course->speed != 0;
+  if (d.drive == vehicle::SprocketDrive::torque) return anyIsNot0(d.torques().left) || anyIsNot0(d.torques().right);
+  return anyIsNot0(d.speeds().left) || anyIsNot0(d.speeds().right);
+}
+
+double teethAsked(const scene::Scene& scene) {
+  const scene::Driver& d = scene.driver;
+  const double time = scene.run.duration - d.driveBegins();
+  if (!(time > 0)) return 0;
+  if (d.drive == vehicle::SprocketDrive::torque) return base::kInfinity;
+  const vehicle::VehicleSpec spec = vehicleSpec(scene);
+  vehicle::DriverOptions options;
+  options.tensionRamp = options.weightRamp = options.driveStart = 0, options.driveRamp = d.rampOfDrive();
+  options.speeds = {d.speeds().time, d.speeds().left, d.speeds().right};
+  const vehicle::Driver driver(options);
+  constexpr int kParts = 2000;
+  std::array<double, 2> turned{}; // [rad]
+  for (int i = 0; i < kParts; ++i) {
+    const double t = time * (i + 0.5) / kParts;
+    std::array<double, 2> speed = driver.at(t).sprocketSpeed;
+    if (d.course) speed.fill(std::min(std::fabs(d.course->speed), d.course->acceleration * t) / spec.pitchRadius());
+    for (std::size_t side = 0; side < 2; ++side) turned[side] += std::fabs(speed[side]) * time / kParts;
+  }
+  return std::max(turned[0], turned[1]) * spec.sprocket.teeth / (2 * base::kPi);
+}
+
+std::string shortDriveWarning(const scene::Scene& scene) {
+  if (!asksToDrive(scene)) return {};
+  const double teeth = teethAsked(scene);
+  if (teeth >= kFewestTeeth) return {};
+  return fmt::format("the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; raise run.duration",
+                     teeth > 0 ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
+                     scene.driver.driveBegins(), scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,
+                     teeth > 0 ? fmt::format(", and figures from fewer than {:g} teeth are inconclusive", kFewestTeeth)
+                               : "");
+}
+
+} // namespace grouser::setup

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+/// Whether results can be written, found out before the work that they come from.
+namespace grouser::support {
+
+/// Throws base::InputError with cause and remedy where nothing can be written in `folder`, or where it is not there and
+/// cannot be made: a file or a link to nothing stands in its way, its name is too long, the file system is read-only
+/// or full. Tries it beside or in the folder, and leaves nothing behind.
+void requireFolder(const std::filesystem::path& folder, const std::string& option = "--out");
+
+/// The same of a file, which may be there already; its folder must be.
+void requireFile(const std::filesystem::path& file, const std::string& option);
+
+} // namespace grouser::support

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "spheredecomp/detail/polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::spheredecomp::detail {
+namespace {
+
+using base::Vec3d;
+
+/// Ears of a face of more corners are not compared, which would take the cube of their number.
+constexpr std::size_t kMostCompared = 64;
+
+struct Point {
+  double x, y;
+  bool operator==(const Point&) const = default;
+};
+
+/// Twice the area of abc, positive where it turns left.
+double turn(const Point& a, const Point& b, const Point& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+double length2(const Point& a, const Point& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
+
+/// Twice the vector area (Newell), which is normal to the face whatever its corners.
+Vec3d vectorArea(const std::vector<Vec3d>& corners) {
+  Vec3d sum;
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+    sum += cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+  return sum;
+}
+
+/// The outline seen along the axis that its normal is nearest to, anticlockwise: coordinates stay as they are, so that
+/// corners on a straight side are found exactly.
+std::vector<Point> projected(const std::vector<Vec3d>& corners) {
+  const Vec3d n = vectorArea(corners);
+  const int axis = std::fabs(n.x) >= std::fabs(n.y) && std::fabs(n.x) >= std::fabs(n.z) ? 0
+                   : std::fabs(n.y) >= std::fabs(n.z)                                   ? 1
+                                                                                        : 2;
+  int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  if (n[axis] < 0) std::swap(u, v);
+  std::vector<Point> points;
+  for (const Vec3d& c : corners) points.push_back({c[u], c[v]});
+  return points;
+}
+
+class EarClipper {
+public:
+  explicit EarClipper(std::vector<Point> points) : points_(std::move(points)) {
+    double size2 = 0;
+    for (std::uint32_t k = 0; k < points_.size(); ++k) {
+      left_.push_back(k);
+      size2 = std::max(size2, length2(points_[0], points_[k]));
+    }
+    // Corners that a file's digits put beside a straight side count as on it.
+    flat_ = 1e-7 * std::sqrt(size2);
+  }
+
+  bool clipAll() {
+    while (left_.size() > 3) {
+      const std::size_t best = bestEar();
+      if (best == left_.size()) return false;
+      clip(best);
+    }
+    clip(1);
+    return true;
+  }
+  double clippedArea() const { return area_; }
+  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+
+private:
+  const Point& at(std::size_t k) const { return points_[left_[k % left_.size()]]; }
+
+  /// Least height of a triangle [m].
+  double height(const Point& a, const Point& b, const Point& c) const {
+    const double longest2 = std::max({length2(a, b), length2(b, c), length2(c, a)});
+    return longest2 > 0 ? turn(a, b, c) / std::sqrt(longest2) : 0;
+  }
+
+  /// Left of the line from a to b, or on it.
+  bool isLeftOf(const Point& a, const Point& b, const Point& p) const {
+    return turn(a, b, p) >= -flat_ * std::sqrt(length2(a, b));
+  }
+
+  /// Whether the diagonal from a to c, with b cut off, meets no other corner: the triangle holds none, its sides but
+  /// for their ends neither.
+  bool isFree(std::size_t ear) const {
+    const std::size_t n = left_.size();
+    const Point &a = at(ear + n - 1), &b = at(ear), &c = at(ear + 1);
+    for (std::size_t k = 2; k + 1 < n; ++k) {
+      const Point& p = at(ear + k);
+      if (p == a || p == b || p == c) {
+        // A bridge's end, met twice: no other side may lead from it into the ear.
+        if (leadsInto(ear + k, a, b, c)) return false;
+        continue;
+      }
+      if (isLeftOf(a, b, p) && isLeftOf(b, c, p) && isLeftOf(c, a, p)) return false;
+    }
+    return true;
+  }
+  bool leadsInto(std::size_t k, const Point& a, const Point& b, const Point& c) const {
+    // Strictly: not left of any side seen from its other end.
+    const auto inside = [&](const Point& p) { return !isLeftOf(b, a, p) && !isLeftOf(c, b, p) && !isLeftOf(a, c, p); };
+    const Point& from = at(k);
+    const auto beginsInside = [&](const Point& end) { // a short step along the side
+      return inside({from.x + 0.01 * (end.x - from.x), from.y + 0.01 * (end.y - from.y)});
+    };
+    return beginsInside(at(k + left_.size() - 1)) || beginsInside(at(k + 1));
+  }
+
+  /// The ear of the greatest least height, of very many corners the first; one without area only where no other is
+  /// left, as on a face whose remaining corners all lie on a line. left_.size() without any.
+  std::size_t bestEar() const {
+    const std::size_t n = left_.size();
+    std::size_t best = n, empty = n;
+    double bestHeight = flat_;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Point &a = at(k + n - 1), &b = at(k), &c = at(k + 1);
+      const double h = height(a, b, c);
+      if (h > bestHeight && isFree(k)) best = k, bestHeight = h;
+      if (best < n && n > kMostCompared) break;
+      if (std::fabs(h) <= flat_ && empty == n) empty = k;
+    }
+    return best < n ? best : empty;
+  }
+
+  void clip(std::size_t ear) {
+    const std::size_t n = left_.size();
+    triangles_.push_back({left_[(ear + n - 1) % n], left_[ear], left_[(ear + 1) % n]});
+    area_ += std::fabs(turn(at(ear + n - 1), at(ear), at(ear + 1)));
+    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+
+  std::vector<Point> points_;
+  std::vector<std::uint32_t> left_; ///< corners not yet clipped, in order
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  double flat_{}, area_{};
+};
+
+} // namespace
+
+std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Vec3d>& corners) {
+  if (corners.size() < 3) return {};
+  if (corners.size() == 3) return {{0, 1, 2}};
+  const std::vector<Point> points = projected(corners);
+  EarClipper clipper(points);
+  if (!clipper.clipAll()) return {};
+  double area = 0, size2 = 0;
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    area += turn(points[0], points[k], points[k + 1]);
+    size2 = std::max({size2, length2(points[0], points[k]), length2(points[0], points[k + 1])});
+  }
+  // Triangles that overlap have more area than the outline.
+  const double rounding = 1e-6 * size2;
+  return std::fabs(clipper.clippedArea() - area) <= rounding ? clipper.triangles()
+                                                             : std::vector<std::array<std::uint32_t, 3>>{};
+}
+
+} // namespace grouser::spheredecomp::detail

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/height_field.hpp"
+
+#if defined(__CUDACC__)
+#define GROUSER_HD_CALL __host__ __device__ __noinline__
+#else
+#define GROUSER_HD_CALL
+#endif
+
+namespace grouser::terrain {
+
+/// Marks of cells in HeightFieldView::marks.
+inline constexpr std::uint8_t kNearHollow = 1; ///< a hollow tighter than the sphere lies within its radius
+inline constexpr std::uint8_t kInHollow = 2;   ///< the cell is part of such a hollow
+
+/// All places where a sphere touches a height field.
+struct Feet {
+  static constexpr int kMost = 8;
+  FootPoint foot[kMost]; ///< the first `count`, in the order of the cells; the nearest is among them in any case
+  int count{0};
+  bool tooMany{false};
+
+  GROUSER_HD const FootPoint& nearest() const {
+    int k = 0;
+    for (int l = 1; l < count; ++l)
+      if (foot[l].distance < foot[k].distance) k = l;
+    return foot[k];
+  }
+};
+
+/// Finds the local minima of the distance between a sphere's centre and the surface that are less than the radius. Away
+/// from hollows tighter than the sphere there is one, which HeightFieldView::closestPoint() finds. Near them every cell
+/// in reach is searched: a cell without such a hollow from its centre, others from four places, by damped Newton steps
+/// that stay near the cell. A centre below the surface has the nearest point alone.
+class FeetSearch {
+public:
+  GROUSER_HD FeetSearch(const HeightFieldView& surface, const Vec3d& centre, double radius)
+      : v_(surface), p_(centre), radius_(radius), same_(0.01 * smaller(surface.dx, surface.dy)) {}
+
+  /// A call of its own on a GPU: kernels for ground without such hollows keep their registers.
+  GROUSER_HD_CALL void run(Feet& feet) {
+    const bool near = v_.marks && v_.marks[cell(v_.cellX(p_.x), v_.cellY(p_.y))] & kNearHollow;
+    const FootPoint first = v_.closestPoint(p_);
+    if (!near) {
+      if (first.distance < radius_) feet.foot[feet.count++] = first;
+      return;
+    }
+    // Where other feet are possible only a true minimum is one.
+    const Vec3d aside = p_ - first.point - first.normal * first.distance;
+    if (v_.interpolation != Interpolation::bilinear && first.distance < radius_ && base::norm(aside) < same_)
+      feet.foot[feet.count++] = first;
+    side_ = p_.z < v_.height(p_.x, p_.y) ? -1 : 1;
+    const int i0 = v_.cellX(p_.x - radius_), i1 = v_.cellX(p_.x + radius_);
+    const int j0 = v_.cellY(p_.y - radius_), j1 = v_.cellY(p_.y + radius_);
+    for (int j = j0; j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i)
+        if (reaches(i, j)) searchCell(i, j, feet);
+    if (feet.count == 0) keep(first, feet);
+  }
+
+private:
+  struct Range {
+    double low, high;
+  };
+  static constexpr double kFar = 1e30; // [m]
+
+  /// A sphere that overlaps the ground touches it, also when sunk by more than its radius: then the run must stop.
+  GROUSER_HD void keep(FootPoint foot, Feet& feet) const {
+    const Vec3d gap = p_ - foot.point;
+    const double away = base::norm(gap);
+    if ((side_ > 0 && away >= radius_) || away == 0) return;
+    foot.distance = side_ * away, foot.normal = gap * (1 / foot.distance);
+    feet.foot[feet.count++] = foot;
+  }
+
+  GROUSER_HD static double smaller(double a, double b) { return a < b ? a : b; }
+  GROUSER_HD std::int64_t cell(int i, int j) const { return static_cast<std::int64_t>(j) * (v_.columns - 1) + i; }
+  /// Extent of a cell along one axis; the outermost cells extend beyond the border.
+  GROUSER_HD static Range rangeOf(int i, int cells, double from, double d) {
+    return {i == 0 ? -kFar : from + i * d, i == cells - 1 ? kFar : from + (i + 1) * d};
+  }
+  GROUSER_HD static double clamped(double x, const Range& r) { return x < r.low ? r.low : x > r.high ? r.high : x; }
+
+  /// Whether a point of the cell may lie in the sphere.
+  GROUSER_HD bool reaches(int i, int j) const {
+    const Range x = rangeOf(i, v_.columns - 1, v_.xMin, v_.dx), y = rangeOf(j, v_.rows - 1, v_.yMin, v_.dy);
+    const double awayX = p_.x - clamped(p_.x, x), awayY = p_.y - clamped(p_.y, y);
+    const bool open = p_.x - radius_ < v_.xMin || p_.x + radius_ > v_.xMin + (v_.columns - 1) * v_.dx ||
+                      p_.y - radius_ < v_.yMin || p_.y + radius_ > v_.yMin + (v_.rows - 1) * v_.dy;
+    const bool outermost = i == 0 || j == 0 || i == v_.columns - 2 || j == v_.rows - 2;
+    // Beyond the border the tangent may rise above the cell.
+    const double over = (open && outermost) || side_ < 0 ? 0 : p_.z - v_.tops[cell(i, j)];
+    const double awayZ = over > 0 ? over : 0;
+    return awayX * awayX + awayY * awayY + awayZ * awayZ < radius_ * radius_;
+  }
+
+  GROUSER_HD void searchCell(int i, int j, Feet& feet) {
+    const int starts = v_.marks[cell(i, j)] & kInHollow ? 2 : 1;
+    for (int b = 0; b < starts; ++b)
+      for (int a = 0; a < starts; ++a) {
+        const double x = v_.xMin + (i + (a + 0.5) / starts) * v_.dx, y = v_.yMin + (j + (b + 0.5) / starts) * v_.dy;
+        FootPoint foot;
+        if (descend(i, j, x, y, 1.0 / starts, foot)) add(foot, feet);
+      }
+  }
+
+  /// Where a descent from `x` may go along one axis: on bilinear ground the cell; on smooth ground twice the width that
+  /// is searched from there, `share` of the cell. Beyond the border as far as it likes.
+  GROUSER_HD Range rangeAbout(double x, int i, int cells, double from, double d, double share) const {
+    const Range cell = rangeOf(i, cells, from, d);
+    if (v_.interpolation == Interpolation::bilinear) return cell;
+    const double low = x - share * d, high = x + share * d;
+    return {cell.low == -kFar && low < from ? -kFar : low, cell.high == kFar && high > from + cells * d ? kFar : high};
+  }
+
+  GROUSER_HD SurfaceJet jet(int i, int j, double x, double y) const {
+    return v_.interpolation == Interpolation::bilinear ? v_.jetInCell(i, j, x, y) : v_.jet(x, y);
+  }
+  GROUSER_HD double squaredDistance(double x, double y, double z) const {
+    return (x - p_.x) * (x - p_.x) + (y - p_.y) * (y - p_.y) + (z - p_.z) * (z - p_.z);
+  }
+  /// Whether a coordinate at the end of its range would go on beyond it, downhill.
+  GROUSER_HD static bool held(double x, double slope, const Range& r) {
+    return (x <= r.low && slope > 0) || (x >= r.high && slope < 0);
+  }
+
+  /// Newton's step of HeightFieldView::closestPoint(), in the coordinates that are not held.
+  GROUSER_HD void newtonStep(const SurfaceJet& s, double gx, double gy, bool heldX, bool heldY, double& stepX,
+                             double& stepY) const {
+    const double e = s.h - p_.z;
+    double a = 1 + s.hx * s.hx + e * s.hxx, b = s.hx * s.hy + e * s.hxy, c = 1 + s.hy * s.hy + e * s.hyy;
+    if (!(a > 1e-6 && c > 1e-6 && a * c - b * b > 1e-6 * a * c))
+      a = 1 + s.hx * s.hx, b = s.hx * s.hy, c = 1 + s.hy * s.hy;
+    if (heldX || heldY) b = 0;
+    const double det = a * c - b * b;
+    stepX = heldX ? 0 : (b * gy - c * gx) / det, stepY = heldY ? 0 : (b * gx - a * gy) / det;
+  }
+
+  /// The minimum that is reached downhill from a place in cell (i, j). False: there is none in it, or it is too far.
+  GROUSER_HD bool descend(int i, int j, double x, double y, double share, FootPoint& foot) const {
+    constexpr int kIterations = 40;
+    const bool bilinear = v_.interpolation == Interpolation::bilinear;
+    const double converged = 1e-6 * smaller(v_.dx, v_.dy);
+    const Range rangeX = rangeAbout(x, i, v_.columns - 1, v_.xMin, v_.dx, share),
+                rangeY = rangeAbout(y, j, v_.rows - 1, v_.yMin, v_.dy, share);
+    SurfaceJet s = jet(i, j, x, y);
+    double stepX = 0, stepY = 0;
+    bool fresh = true, heldX = false, heldY = false, done = false;
+    for (int k = 0; k < kIterations && !done; ++k) {
+      if (fresh) {
+        const double gx = x - p_.x + (s.h - p_.z) * s.hx, gy = y - p_.y + (s.h - p_.z) * s.hy;
+        heldX = held(x, gx, rangeX), heldY = held(y, gy, rangeY);
+        if ((heldX || heldY) && !bilinear) return false; // what lies beyond is found from there
+        newtonStep(s, gx, gy, heldX, heldY, stepX, stepY);
+      }
+      done = stepX * stepX + stepY * stepY <= converged * converged;
+      const double nextX = clamped(x + stepX, rangeX), nextY = clamped(y + stepY, rangeY);
+      const SurfaceJet next = jet(i, j, nextX, nextY);
+      fresh = done || squaredDistance(nextX, nextY, next.h) < squaredDistance(x, y, s.h);
+      if (fresh)
+        x = nextX, y = nextY, s = next;
+      else
+        stepX *= 0.25, stepY *= 0.25;
+    }
+    // At the edge of the range lies no minimum of a smooth surface, of a creased one where it is one of all cells
+    // there.
+    const bool atEdge = heldX || heldY;
+    if (atEdge && (!bilinear || !isLowestAround(i, j, x, y))) return false;
+    return measure(x, y, s, atEdge, foot);
+  }
+
+  /// Whether no cell that meets cell (i, j) at a point of its edge falls away from the minimum there.
+  GROUSER_HD bool isLowestAround(int i, int j, double x, double y) const {
+    const double u = (x - v_.xMin) / v_.dx - i, w = (y - v_.yMin) / v_.dy - j, slack = 1e-6 * same_;
+    const int acrossX = u < 1e-9 ? -1 : u > 1 - 1e-9 ? 1 : 0, acrossY = w < 1e-9 ? -1 : w > 1 - 1e-9 ? 1 : 0;
+    for (int b = 0; b < (acrossY ? 2 : 1); ++b)
+      for (int a = 0; a < (acrossX ? 2 : 1); ++a) {
+        const int ci = i + a * acrossX, cj = j + b * acrossY;
+        if ((a == 0 && b == 0) || ci < 0 || cj < 0 || ci > v_.columns - 2 || cj > v_.rows - 2) continue;
+        const SurfaceJet s = v_.jetInCell(ci, cj, x, y);
+        const double gx = x - p_.x + (s.h - p_.z) * s.hx, gy = y - p_.y + (s.h - p_.z) * s.hy;
+        // Into that cell.
+        if ((a ? acrossX : -acrossX) * gx < -slack || (b ? acrossY : -acrossY) * gy < -slack) return false;
+      }
+    return true;
+  }
+
+  GROUSER_HD bool measure(double x, double y, const SurfaceJet& s, bool atEdge, FootPoint& foot) const {
+    foot.point = {x, y, s.h};
+    foot.normal = base::normalized(Vec3d{-s.hx, -s.hy, 1.0});
+    const Vec3d gap = p_ - foot.point;
+    foot.distance = base::dot(gap, foot.normal);
+    if (!(side_ * foot.distance > 0)) return false;
+    if (atEdge) {
+      foot.distance = side_ * base::norm(gap);
+      foot.normal = gap * (1 / foot.distance);
+    } else if (base::norm(gap - foot.normal * foot.distance) > same_) {
+      return false;
+    }
+    return side_ * foot.distance < radius_;
+  }
+
+  /// Two that lie in one place, or with no rise between them (in a hollow as round as the sphere), are one.
+  GROUSER_HD bool isSame(const FootPoint& a, const FootPoint& b) const {
+    if (base::norm(a.point - b.point) < same_) return true;
+    const double farther = a.distance > b.distance ? a.distance : b.distance;
+    const double most = (farther > 0 ? farther : -farther) + 1e-6 * radius_;
+    constexpr int kPlaces = 16;
+    for (int k = 1; k < kPlaces; ++k) {
+      const Vec3d between = a.point + (b.point - a.point) * (static_cast<double>(k) / kPlaces);
+      if (squaredDistance(between.x, between.y, v_.height(between.x, between.y)) > most * most) return false;
+    }
+    return true;
+  }
+
+  GROUSER_HD void add(const FootPoint& found, Feet& feet) const {
+    int farthest = 0;
+    for (int k = 0; k < feet.count; ++k) {
+      if (side_ < 0 || isSame(found, feet.foot[k])) {
+        if (side_ * (found.distance - feet.foot[k].distance) < -1e-6 * radius_) feet.foot[k] = found;
+        return;
+      }
+      if (feet.foot[k].distance > feet.foot[farthest].distance) farthest = k;
+    }
+    if (feet.count < Feet::kMost) {
+      feet.foot[feet.count++] = found;
+      return;
+    }
+    feet.tooMany = true;
+    if (found.distance < feet.foot[farthest].distance) feet.foot[farthest] = found;
+  }
+
+  const HeightFieldView& v_;
+  Vec3d p_;
+  double radius_, same_;
+  double side_{1}; ///< of the surface that the centre is on
+};
+
+/// The nearest point of a surface to a sphere that touches it, and whether it does.
+GROUSER_HD bool deepestFoot(const HeightFieldView& surface, const Vec3d& centre, double radius, FootPoint& foot) {
+  if (!surface.marks) {
+    foot = surface.closestPoint(centre);
+    return foot.distance < radius;
+  }
+  Feet feet;
+  FeetSearch(surface, centre, radius).run(feet);
+  if (feet.count == 0) return false;
+  foot = feet.nearest();
+  return true;
+}
+
+/// Which of the places of the floor each foot takes, so that a contact keeps its springs from step to step: the pairs
+/// whose normals differ least come first, and none by more than 60 degrees. `held`: a bit for each place that had a
+/// foot in the last step, whose normals are `normals` [3 * place]; null where contacts have no springs. Returns the
+/// bits of places whose contact goes on.
+GROUSER_HD std::uint32_t takePlaces(const Feet& feet, std::uint32_t held, const float* normals,
+                                    int (&place)[Feet::kMost]) {
+  std::uint32_t taken = 0;
+  for (int k = 0; k < feet.count; ++k) place[k] = -1;
+  for (int round = 0; normals && round < feet.count; ++round) {
+    double best = 0.5;
+    int foot = -1, at = -1;
+    for (int k = 0; k < feet.count; ++k)
+      for (int q = 0; q < Feet::kMost; ++q) {
+        if (place[k] >= 0 || !(held >> q & 1) || taken >> q & 1) continue;
+        const float* n = normals + 3 * q;
+        const double along = base::dot(feet.foot[k].normal, Vec3d{double(n[0]), double(n[1]), double(n[2])});
+        if (along > best) best = along, foot = k, at = q;
+      }
+    if (foot < 0) break;
+    place[foot] = at, taken |= 1u << at;
+  }
+  const std::uint32_t goOn = taken;
+  for (int k = 0; k < feet.count; ++k) {
+    if (place[k] >= 0) continue;
+    int free = 0;
+    while (taken >> free & 1) ++free;
+    place[k] = free, taken |= 1u << free;
+  }
+  return goOn;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+namespace grouser::terrain {
+
+/// Weights of four consecutive nodes for value, slope and second derivative of a cubic along one axis [cells].
+struct CubicWeights {
+  int first{}; ///< index of the node that w[0] belongs to; may be -1, with zero weight
+  double w[4]{}, d[4]{}, dd[4]{};
+};
+
+/// Catmull-Rom weights at `u` [cells] among `n` >= 2 nodes. The missing node beyond either end continues the last two
+/// linearly; outside [0, n - 1] the curve is its end tangent. Continuous with its slope everywhere, exact on lines.
+GROUSER_HD CubicWeights cubicWeights(double u, int n) {
+  CubicWeights c;
+  if (!(u >= 0) || u > n - 1) {
+    c.first = !(u >= 0) ? -1 : n - 3;
+    const double t = u - (c.first + 1);
+    c.w[1] = 1 - t, c.w[2] = t;
+    c.d[1] = -1, c.d[2] = 1;
+    return c;
+  }
+  const int below = static_cast<int>(u);
+  const int i = below < n - 2 ? below : n - 2;
+  const double t = u - i;
+  c.first = i - 1;
+  c.w[0] = 0.5 * t * (t * (2 - t) - 1), c.w[1] = 0.5 * (t * t * (3 * t - 5) + 2);
+  c.w[2] = 0.5 * t * (t * (4 - 3 * t) + 1), c.w[3] = 0.5 * t * t * (t - 1);
+  c.d[0] = 0.5 * (t * (4 - 3 * t) - 1), c.d[1] = 0.5 * t * (9 * t - 10);
+  c.d[2] = 0.5 * (t * (8 - 9 * t) + 1), c.d[3] = 0.5 * t * (3 * t - 2);
+  c.dd[0] = 2 - 3 * t, c.dd[1] = 9 * t - 5, c.dd[2] = 4 - 9 * t, c.dd[3] = 3 * t - 1;
+  if (i == 0) {
+    c.w[1] += 2 * c.w[0], c.w[2] -= c.w[0], c.w[0] = 0;
+    c.d[1] += 2 * c.d[0], c.d[2] -= c.d[0], c.d[0] = 0;
+    c.dd[1] += 2 * c.dd[0], c.dd[2] -= c.dd[0], c.dd[0] = 0;
+  }
+  if (i == n - 2) {
+    c.w[2] += 2 * c.w[3], c.w[1] -= c.w[3], c.w[3] = 0;
+    c.d[2] += 2 * c.d[3], c.d[1] -= c.d[3], c.d[3] = 0;
+    c.dd[2] += 2 * c.dd[3], c.dd[1] -= c.dd[3], c.dd[3] = 0;
+  }
+  return c;
+}
+
+/// How the surface runs between the nodes of a height-map.
+enum class Interpolation {
+  monotone, ///< cubic, slopes limited: between the four nodes of a cell never above the highest nor below the lowest
+  smooth,   ///< Catmull-Rom: swings beyond its nodes by up to 7 per cent of a step between them
+  bilinear  ///< flat edges between nodes; the normal jumps at the edges of the cells
+};
+
+/// Slopes of a node for monotone interpolation, per cell [m].
+struct NodeSlopes {
+  double x{}, y{}, xy{};
+};
+
+/// Weights of the two nodes of cell `first` at `t` cells from its lower one: of values, of slopes, and derivatives of
+/// both. Hermite's cubic, or a line; before 0 in the first cell and beyond 1 in the last one the tangent goes on.
+struct CellWeights {
+  int first{};
+  double v[2]{}, s[2]{}, dv[2]{}, ds[2]{}, ddv[2]{}, dds[2]{};
+};
+
+GROUSER_HD CellWeights lineWeights(double u, int cell) {
+  CellWeights c;
+  const double t = u - cell;
+  c.first = cell;
+  c.v[0] = 1 - t, c.v[1] = t;
+  c.dv[0] = -1, c.dv[1] = 1;
+  return c;
+}
+
+/// `cells` >= 1: of the axis.
+GROUSER_HD CellWeights hermiteWeights(double u, int cell, int cells) {
+  CellWeights c;
+  const double t = u - cell;
+  c.first = cell;
+  if ((t < 0 && cell == 0) || (t > 1 && cell == cells - 1)) {
+    const int end = t < 0 ? 0 : 1;
+    c.v[end] = 1, c.s[end] = t - end, c.ds[end] = 1;
+    return c;
+  }
+  c.v[0] = (1 + 2 * t) * (1 - t) * (1 - t), c.v[1] = t * t * (3 - 2 * t);
+  c.s[0] = t * (1 - t) * (1 - t), c.s[1] = t * t * (t - 1);
+  c.dv[0] = 6 * t * (t - 1), c.dv[1] = 6 * t * (1 - t);
+  c.ds[0] = (1 - t) * (1 - 3 * t), c.ds[1] = t * (3 * t - 2);
+  c.ddv[0] = 12 * t - 6, c.ddv[1] = 6 - 12 * t;
+  c.dds[0] = 6 * t - 4, c.dds[1] = 6 * t - 2;
+  return c;
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,161 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plots as a reader meets them: whole numbers at their axes, legends beside the curves, no panel that is empty or shows
+another panel again."""
+import re
+import sys
+import unittest
+from unittest import mock
+
+import h5py
+import numpy
+from fixture import ROOT, FolderTest
+
+sys.path[:0] = [str(ROOT / "runs/plots"), str(ROOT / "runs/report")]
+
+import bed
+import drawing
+import drive
+import ledger
+import mechanism
+import page
+import run_page
+import series
+import shoes
+import single_shoes
+import surface
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+TIME = numpy.arange(0, 3, 0.02)
+SHOES = 24
+
+
+def pads(rise):
+    """[rows, shoes]: they lie on the ground run one after the other, and then rise by so much [m]."""
+    left = 0.1 * numpy.arange(SHOES)[None, :] - 0.6 * TIME[:, None]
+    return numpy.clip(-left, 0, None) * rise - 0.01, left > 0
+
+
+def written(file, rise=0.5, final=True, **more):
+    """The results of a drive on a bed, as far as plots read them."""
+    values = {"vehicle/position": numpy.stack([0.3 * TIME, 0 * TIME, 0 * TIME], 1)}
+    height, on_ground = pads(rise)
+    for side in series.SIDES:
+        values |= {f"vehicle/{side}/{name}": value for name, value in (
+            ("pad_height", height), ("sinkage", numpy.where(on_ground, 0.01 + 0.001 * numpy.sin(height), numpy.nan)),
+            ("sprocket_speed", TIME), ("speed", 0.2 * TIME), ("drive_torque", 100 * TIME),
+            ("tension", 4000 + 0 * height), ("teeth_passed", numpy.clip(TIME - 1, 0, None)))}
+    for name, _, _ in ledger.TERMS:
+        values[f"ledger/{name}"] = 1e3 * TIME
+    values["ledger/integration_error"] = 1e-7 * TIME
+    values |= more
+    with h5py.File(file, "w") as results:
+        results["series/time"] = TIME
+        for path, value in values.items():
+            results[f"{path}/value"] = value
+        results["vehicle/pitch_radius"] = numpy.array([0.25])
+        x, y = numpy.linspace(0, 5, 51), numpy.linspace(-1, 1, 21)
+        results["terrain/surface/x"], results["terrain/surface/y"] = x, y
+        results["terrain/surface/height"] = 0.02 * numpy.sin(x)[None, :] + 0 * y[:, None]
+        if final:
+            results["terrain/surface/final_height"] = 0.02 * numpy.sin(x)[None, :] - 0.05 * (y[:, None] > 0.5)
+        for name, curve in (("depth", [0.0, 0.1]), ("porosity_at_depth", [0.5, 0.4]), ("distance", []),
+                            ("radial_distribution", []), ("porosity", [0.42]), ("order", [0.1])):
+            results[f"terrain/bed/{name}"] = numpy.array(curve)
+    return file
+
+
+class Readable(FolderTest):
+    def figure_of(self, plot, **values):
+        with h5py.File(written("results.h5", **values)) as file:
+            return self.drawn(plot(series.Run(file)))
+
+    def drawn(self, figure):
+        """As it is written; what no picture may show."""
+        drawing.save(figure, "picture.png", 80)
+        FigureCanvasAgg(figure).draw()
+        for axes in figure.axes:
+            self.assertTrue(axes.has_data() or axes.texts, "an empty panel")
+            inside = axes.get_window_extent()
+            if legend := axes.get_legend():
+                covers = legend.get_window_extent()
+                self.assertFalse(covers.overlaps(inside) and covers.y0 < inside.y1 - 2 and covers.y1 > inside.y0 + 2 and
+                                 covers.x0 < inside.x1 - 2, f"a legend covers the curves: {axes.get_ylabel()}")
+            for axis in (axes.xaxis, axes.yaxis):
+                self.assertEqual(axis.get_offset_text().get_text(), "", "a power of ten or an offset apart from its numbers")
+                for text in axis.get_ticklabels():
+                    self.assertNotRegex(text.get_text(), r"e\N{MINUS SIGN}[3-9]\d", "finer than rounding")
+        return figure
+
+    def test_of_a_vehicle(self):
+        for plot in (shoes.heights, shoes.sinkage, surface.plot, bed.plot, drive.plot, ledger.plot):
+            self.figure_of(plot)
+
+    def test_map_and_section_have_one_x_axis(self):
+        for final in (True, False):
+            plan, section, *_ = self.figure_of(surface.plot, final=final).axes
+            self.assertEqual(plan.get_xlim(), section.get_xlim())
+            one, other = plan.get_window_extent(), section.get_window_extent()
+            self.assertAlmostEqual(one.x0, other.x0)
+            self.assertAlmostEqual(one.x1, other.x1)
+
+    def test_a_close_up_is_drawn_where_it_shows_something_else(self):
+        self.assertEqual(len(self.figure_of(shoes.heights).axes), 2)
+        self.assertEqual(len(self.figure_of(shoes.heights, rise=0.002).axes), 1)
+
+    def test_a_bed_too_thin_for_a_radial_distribution_has_no_panel_of_it(self):
+        self.assertEqual(len(self.figure_of(bed.plot).axes), 1)
+
+    def test_mechanisms_whose_joints_stay_closed(self):
+        tiny = 1e-63 * numpy.exp(-TIME)
+        bodies = {f"bodies/b{k}/position": numpy.stack([numpy.cos(TIME + k), numpy.sin(TIME + k), 0 * TIME], 1) for k in range(8)}
+        error = {"ledger/integration_error": tiny, "ledger/elastic": tiny}
+        for joints, panels in ((tiny, 3), (1e-12 * numpy.exp(-40 * TIME), 4)):
+            figure = self.figure_of(mechanism.plot, **bodies, **error, **{"constraints/position_error": joints})
+            self.assertEqual(len(figure.axes), panels)
+            over_time = {axes.get_xlim() for axes in figure.axes if axes.get_xlabel() == "time [s]"}
+            self.assertEqual(len(over_time), 1)
+
+    def test_single_shoes_have_the_time_of_the_table(self):
+        """The sprockets turn from 1 s on: the first shoe of the picture begins at 0 s as sinkage_shoes.csv does."""
+        written("results.h5")
+        kept = []
+        with mock.patch.object(drawing, "save", lambda figure, *_, **__: kept.append(figure)), \
+                mock.patch.object(sys, "argv", ["single_shoes.py", "results.h5", "left:10,11", "picture.png"]):
+            single_shoes.main()
+        figure, = kept
+        self.assertEqual([axes.get_title() for axes in figure.axes], ["left track", ""])
+        self.assertEqual(list(figure.axes[0].lines[0].get_xdata()), list(TIME))
+
+
+class Numbers(unittest.TestCase):
+    def test_at_axes_are_whole(self):
+        def ticks(*places):
+            formatter = drawing.Ticks()
+            formatter.locs = list(places)
+            return [formatter(place) for place in places]
+        self.assertEqual(ticks(0, 0.25, 0.5), ["0", "0.25", "0.50"])
+        self.assertEqual(ticks(1000.0, 1000.5), ["1000.0", "1000.5"])
+        self.assertEqual(ticks(-1e-5, 0, 1e-5), ["\N{MINUS SIGN}1e\N{MINUS SIGN}5", "0", "1e\N{MINUS SIGN}5"])
+        self.assertEqual(ticks(0, 5e6), ["0", "5e6"])
+
+    def test_have_no_more_digits_than_their_interval_allows(self):
+        def text(*given):
+            return re.sub("<[^>]+>", "", page.with_bar(*given))
+        self.assertEqual(text(0.27056, 4e-12), "0.27056 (exact)")
+        self.assertEqual(text(0.07294, 0.00903), "0.0729 \N{PLUS-MINUS SIGN} 0.0090")
+        self.assertEqual(text(12345.6, 780.0), "12350 \N{PLUS-MINUS SIGN} 780")
+        self.assertEqual(text(1234567.0, 21000.0), "(1.235 \N{PLUS-MINUS SIGN} 0.021) \N{MULTIPLICATION SIGN} 106")
+
+    def test_of_a_track_are_of_its_shoes_in_ground_contact(self):
+        """Four of six shoes carry 100 kPa; two on the upper run are pulled by -102 and 20 kPa: the mean of all is 53."""
+        pressure = numpy.array([[1e5, 1e5, 1e5, 1e5, -1.02e5, 2e4], [numpy.nan] * 6])
+        on_ground = numpy.array([[1, 1, 1, 1, 0, 0], [0] * 6]) > 0
+        mean, least, largest = run_page.spread(pressure, on_ground)
+        self.assertEqual((mean[0], least[0], largest[0]), (1e5, 1e5, 1e5))
+        self.assertTrue(numpy.isnan([mean[1], least[1], largest[1]]).all())
+        self.assertEqual(run_page.spread(pressure, None)[1][0], -1.02e5)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of grains: what is a grain's line is read to the last digit, and what is none is one error with its place.
+#include "base/error.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+namespace grouser::scene {
+namespace {
+
+const std::string kFile = ::testing::TempDir() + "/table_of_grains.csv";
+
+std::vector<Grain> read(const std::string& text) {
+  std::ofstream(kFile, std::ios::binary) << text;
+  GrainFill fill;
+  fill.velocity = {0, 0, -1};
+  return readGrainFile(kFile, fill);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const base::InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+const Grain kMoving{{0.1, -0.2, 0.3}, {1, 2, 3}, {4, 5, 6}, 0.01, "", false};
+
+TEST(GrainFile, EverySeparatorAndLineEndGivesTheSameGrain) {
+  const char* withUnits = "\xEF\xBB\xBFX [m], Y [m], Z [m], radius [m], vx [m/s], vy [m/s], vz [m/s], wx [rad/s], "
+                          "wy [rad/s], wz [rad/s]\n0.1,-0.2,0.3,0.01,1,2,3,4,5,6\n";
+  for (const char* text :
+       {"0.1,-0.2,0.3,0.01,1,2,3,4,5,6\n", "0.1, -0.2 ,0.3,\t0.01, 1,2,3, 4,5,6", "0.1;-0.2;0.3;0.01;1;2;3;4;5;6\r\n",
+        "0.1 -0.2 0.3 0.01 1 2 3 4 5 6\r", "  0.1\t-0.2\t0.3\t0.01\t1\t2\t3\t4\t5\t6 \n",
+        "0.1   -0.2 \t 0.3  0.01 1 2 3 4 5 6", "\xEF\xBB\xBF+0.1,-0.2,3e-1,1E-2,1.,+2,3e0,4,5,6 # a comment, with 7\n",
+        "\n# x, y, z, r [mm]\r\n\r\n0.1,-0.2,0.3,0.01,1,2,3,4,5,6\r\n",
+        "x,y,z,r,vx,vy,vz,wx,wy,wz\n0.1,-0.2,0.3,0.01,1,2,3,4,5,6\n", withUnits,
+        "x [m] y [m] z (m) r[m] vx vy vz wx wy wz\n0.1 -0.2 0.3 0.01 1 2 3 4 5 6\n",
+        "\"x\";\"y\";\"z\";\"r\";\"vx\";\"vy\";\"vz\";\"wx\";\"wy\";\"wz\"\n0.1;-0.2;0.3;0.01;1;2;3;4;5;6"}) {
+    std::vector<Grain> all;
+    ASSERT_NO_THROW(all = read(text)) << text;
+    ASSERT_EQ(all.size(), 1u) << text;
+    EXPECT_EQ(all[0], kMoving) << text;
+  }
+}
+
+TEST(GrainFile, EachLineMayEndBeforeVelocityOrSpin) {
+  const auto all = read("0,0,0,0.1\r1,0,0,0.1,1,2,3\r\n2 0 0 0.1 1 2 3 4 5 6\n");
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].velocity, (base::Vec3d{0, 0, -1}));
+  EXPECT_EQ(all[1].velocity, (base::Vec3d{1, 2, 3}));
+  EXPECT_EQ(all[2].spin, (base::Vec3d{4, 5, 6}));
+}
+
+TEST(GrainFile, EmptyFieldIsAnErrorAtItsColumnAndShiftsNothing) {
+  // Skipped, the first made a grain of seven numbers, another a radius of what stands behind it.
+  const std::pair<const char*, const char*> empty[] = {{"0.1,0.2,0.3,0.01,,,,1,2,3", ":1:18: column 5 is empty"},
+                                                       {"0.1,0.2,,0.3,0.02", ":1:9: column 3 is empty"},
+                                                       {",0.1,0.2,0.3,0.01", ":1:1: column 1 is empty"},
+                                                       {"0,0,0,0.1,", ":1:11: column 5 is empty"},
+                                                       {"0,0,0,0.1 , ", ":1:12: column 5 is empty"},
+                                                       {"0;0; ;0.1", ":1:5: column 3 is empty"},
+                                                       {"0 0 0 0.1\n0,0,0,0.1,#1,2,3", ":2:11: column 5 is empty"},
+                                                       {"0\t0\t0\t0.1\t\t\t\t1\t2\t3", ":1:11: column 5 is empty"},
+                                                       {"0 0 0 0.1\t \t\t1 2 3", ":1:12: column 5 is empty"},
+                                                       {"\t\t\t0 0 0 0.1", ":1:2: column 1 is empty"},
+                                                       {"x,y,,r\n0,0,0,1", ":1:5: column 3 is empty"}};
+  for (const auto& [text, place] : empty)
+    EXPECT_NE(refusal(text).find(kFile + place), std::string::npos) << refusal(text);
+}
+
+TEST(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"0,0,nan,0.1", ":1:5: column 3, z = nan [m] is not finite"},
+      {"inf 0 0 0.1", ":1:1: column 1, x = inf [m] is not finite"},
+      {"0,0,0,-0.1", ":1:7: column 4, r = -0.1 [m] is outside (0, 1000]"},
+      {"0,0,0,0", ":1:7: column 4, r = 0 [m] is outside (0, 1000]"},
+      {"0,0,0,1e4", ":1:7: column 4, r = 1e4 [m] is outside (0, 1000]"},
+      {"0,0,0,1e400", ":1:7: column 4, r = 1e400 [m] is outside the range"},
+      {"0,0,0,1e-400", ":1:7: column 4, r = 1e-400 [m] is outside the range"},
+      {"0,0,0,0.1,2e4,0,0", ":1:11: column 5, vx = 2e4 [m/s] is outside [-10000, 10000]"},
+      {"0,0,0,0.1,0,0,0,0,0,-2e6", "column 10, wz = -2e6 [rad/s] is outside [-1e+06, 1e+06]"},
+      {"0,1 0,2 0,3 0,01", ":1:3: column 2, y = 1 0 [m] is not a number; write decimals with a point"},
+      {"1,5;2;3", ":1:4: commas and semicolons in one line"},
+      {"1;2,5;3", ":1:4: commas and semicolons in one line"},
+      {"0.1 0.2, 0.3, 0.01", ":1:1: column 1, x = 0.1 0.2 [m] is not a number"},
+      {"1d-3 0 0 0.1", "x = 1d-3 [m] is not a number"},
+      {"0x10,0,0,0.1", "x = 0x10 [m] is not a number"},
+      {"+-1,0,0,0.1", "x = +-1 [m] is not a number"},
+      {"0,0,0,+", "r = + [m] is not a number"},
+      {"0,0,0,0.1 m", "r = 0.1 m [m] is not a number"},
+      {"0,0,0,\"0.1\"", "r = \"0.1\" [m] is not a number"},
+      {"0,0,0", ":1:1: 3 numbers; a line has x, y, z, r [m]"},
+      {"0,0,0,0.1,1", ":1:1: 5 numbers"},
+      {"0,0,0,0.1,1,2,3,4,5,6,7", ":1:1: 11 numbers"},
+      {"# only a comment\n\n", ": holds no grain"},
+      {"", ": holds no grain"}};
+  for (const auto& [text, place] : wrong) EXPECT_NE(refusal(text).find(place), std::string::npos) << refusal(text);
+}
+
+TEST(GrainFile, HeaderIsCheckedForNamesUnitsAndItsNumberOfColumns) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"x [m],y [m],z [m],r [mm]\n0,0,0,10\n", ":1:19: column 4 of the header is in [mm], expected [m]; convert"},
+      {"x,y,z,diameter\n0,0,0,1\n", ":1:7: column 4 of the header is \"diameter\", expected \"r [m]\""},
+      {"x,y,r,z\n0,0,1,0\n", ":1:5: column 3 of the header is \"r\""},
+      {"r,x,y,z\n1,0,0,0\n", ":1:1: column 1 of the header is \"r\""},
+      {"x [cm] y z r\n0 0 0 1\n", "column 1 of the header is in [cm]"},
+      {"x,y,z\n0,0,0,1\n", ":1:1: the header names 3 columns"},
+      {"x,y,z,r,vx,vy,vz,wx,wy,wz,id\n", "column 11 of the header is \"id\""},
+      {"x,y,z,r,vx,vy,vz\n0,0,0,0.1\n", ":2:1: 4 numbers, but the header names 7 columns"},
+      {"x,y,z,r\nx,y,z,r\n0,0,0,0.1\n", ":2:1: column 1, x = x [m] is not a number"},
+      {"0,0,0,0.1\nx,y,z,r\n", ":2:1: column 1, x = x [m] is not a number"},
+      {"x,y,z,r\n", ": holds no grain"}};
+  for (const auto& [text, place] : wrong) EXPECT_NE(refusal(text).find(place), std::string::npos) << refusal(text);
+}
+
+TEST(GrainFile, WhatIsNoTextIsRefused) {
+  for (const std::string& text : {std::string("\xFF\xFE"
+                                              "0\0,\0",
+                                              6),
+                                  std::string("\xFE\xFF\0"
+                                              "0",
+                                              4),
+                                  std::string("0,0,0\0,1", 8)})
+    EXPECT_NE(refusal(text).find("is not plain text"), std::string::npos) << refusal(text);
+  EXPECT_THROW(readGrainFile(::testing::TempDir(), {}), base::InputError) << "a folder";
+  EXPECT_THROW(readGrainFile(kFile + "x", {}), base::InputError) << "nothing";
+}
+
+} // namespace
+} // namespace grouser::scene

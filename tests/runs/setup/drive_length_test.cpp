@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a vehicle can drive far enough for figures in the time of its run.
+#include "runs/setup/drive_length.hpp"
+#include "runs/setup/load_scene.hpp"
+
+#include "base/math.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::setup {
+namespace {
+
+/// Tension and weight are on at 0.45 s; then the drive comes on over 0.3 s. Ten teeth a turn.
+scene::Scene driven(const std::string& driver, double duration) {
+  return parseScene(fmt::format("version = 1\n[run]\nduration = {}\n[material.steel]\nstiffness = 1e6\n[terrain]\n"
+                                "kind = \"rigid\"\nheightmap = \"heightmaps/flat.png\"\nsize = [20, 3]\n"
+                                "height_range = [0, 0]\nmaterial = \"steel\"\n[vehicle]\n"
+                                "spec = \"vehicles/light_tracked.toml\"\nposition = [4, 0]\n{}",
+                                duration, driver),
+                    GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
+}
+/// Teeth of so many radians.
+double teeth(double radians) { return radians * 10 / (2 * base::kPi); }
+
+/// The middle of 2000 parts of a smooth ramp and of straight lines: to 1e-5.
+TEST(DriveLength, TeethAreThoseOfTheSpeedsBehindTheRamps) {
+  const std::string plain = "[driver]\nsprocket_speed = 2\n";
+  EXPECT_NEAR(teethAsked(driven(plain, 1)), teeth(2 * (0.55 - 0.15)), 1e-5);
+  EXPECT_NEAR(teethAsked(driven("[driver]\nsprocket_speed = -2\n", 1)), teeth(2 * (0.55 - 0.15)), 1e-5) << "in reverse";
+  EXPECT_NEAR(teethAsked(driven("[driver]\nleft = 0\nright = -3\n", 1.45)), teeth(3 * 0.85), 1e-5) << "the faster one";
+  EXPECT_NEAR(teethAsked(driven("[driver]\nsprocket_speed = 2\ndrive_start = 0.9\n", 1.45)), teeth(2 * 0.4), 1e-5);
+  EXPECT_NEAR(teethAsked(driven("[driver.table]\ntime = [0, 1, 2]\nleft = [0, 2, -2]\nright = [0, 2, -2]\n", 2.45)),
+              teeth(2), 1e-5)
+      << "there and back";
+  EXPECT_NEAR(teethAsked(driven("[driver.course]\nspeed = 1\nacceleration = 2\n", 1.45)),
+              teeth(0.75 / (10 * 0.154 / (2 * base::kPi))), 1e-5);
+  EXPECT_EQ(teethAsked(driven(plain, 0.4)), 0);
+  EXPECT_TRUE(std::isinf(teethAsked(driven("[driver]\ndrive = \"torque\"\ntorque = 500\n", 1))));
+}
+
+TEST(DriveLength, AShortDriveIsSaidBefore) {
+  const std::string never = shortDriveWarning(driven("[driver]\nsprocket_speed = 2\n", 0.4));
+  EXPECT_EQ(never, "the vehicle never drives (its sprockets start at 0.45 s at the earliest, the run ends at 0.4 s); "
+                   "raise run.duration");
+  const std::string half = shortDriveWarning(driven("[driver]\nsprocket_speed = 2\ndrive_start = 0.5\n", 1));
+  EXPECT_EQ(half,
+            "the vehicle drives at most 1.1 teeth (its sprockets start at 0.5 s, the run ends at 1 s), and figures "
+            "from fewer than 2 teeth are inconclusive; raise run.duration");
+  EXPECT_EQ(shortDriveWarning(driven("[driver]\nsprocket_speed = 2\n", 3)), "");
+}
+
+/// A vehicle that only stands, or is drawn by its hitch, is complete without a tooth.
+TEST(DriveLength, WhoIsNotAskedToDriveNeedNot) {
+  for (const char* driver : {"[driver]\nsprocket_speed = 0\n", "[driver]\nleft = 0\nright = 0\n",
+                             "[driver]\ndrive = \"torque\"\ntorque = 0\n",
+                             "[driver.table]\ntime = [0, 1]\nleft = [0, 0]\nright = [0, 0]\n"}) {
+    EXPECT_FALSE(asksToDrive(driven(driver, 0.1))) << driver;
+    EXPECT_EQ(shortDriveWarning(driven(driver, 0.1)), "") << driver;
+  }
+  for (const char* driver :
+       {"[driver]\nleft = 0\nright = 1\n", "[driver]\ndrive = \"torque\"\nleft_torque = 0\nright_torque = -5\n",
+        "[driver.course]\nspeed = -1\n", "[driver.table]\ntime = [0, 1]\nleft = [0, 0]\nright = [0, 2]\n"})
+    EXPECT_TRUE(asksToDrive(driven(driver, 0.1))) << driver;
+}
+
+} // namespace
+} // namespace grouser::setup
