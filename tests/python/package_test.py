@@ -451,8 +451,10 @@ class SoilTests(FolderTest):
         self.assertEqual(set(plates), {"small", "large"})
         self.assertAlmostEqual(plates["large"].breadth / plates["small"].breadth, 1.5)
         self.assertGreaterEqual(plates["small"].pressure.max(), 19000)
+        again = grouser.measure_soil("sand.toml", "soil", options)  # a finished folder is opened, nothing is measured
+        self.assertEqual(again["phi"].measured, phi.measured)
         with self.assertRaises(grouser.InputError):
-            grouser.measure_soil("sand.toml", "soil", options)
+            grouser.measure_soil("sand.toml", "soil", [*options, "--bin", "4"])
 
 
 if __name__ == "__main__":
