@@ -452,7 +452,7 @@ class SoilTests(FolderTest):
         self.assertAlmostEqual(plates["large"].breadth / plates["small"].breadth, 1.5)
         self.assertGreaterEqual(plates["small"].pressure.max(), 19000)
         again = grouser.measure_soil("sand.toml", "soil", options)  # a finished folder is opened, nothing is measured
-        self.assertEqual(again["phi"].measured, phi.measured)
+        self.assertEqual(again["phi"].measured.value, phi.measured.value)
         with self.assertRaises(grouser.InputError):
             grouser.measure_soil("sand.toml", "soil", [*options, "--bin", "4"])
 
