@@ -71,6 +71,10 @@ template <class T> struct BasicLaw {
   BasicPlasticity<T> plastic{};
   /// Linear, of one mass: share of both dashpots against a grain that never moves [-], for the restitution asked for.
   T fixedShare{1};
+  /// A power of two near one over the contact's typical force [1/N]. Forces and torques are multiplied by it before
+  /// they are squared: a float holds neither the squares of those of micrometre grains nor of those beyond 1e19 N. It
+  /// changes no other bits; scaledFor() in strongest_force.hpp sets it.
+  T squareScale{1};
 
   template <class U> BasicLaw<U> as() const {
     const auto u = [](T value) { return static_cast<U>(value); };
@@ -88,7 +92,8 @@ template <class T> struct BasicLaw {
             u(pullPerRadius),
             u(pullPerArea),
             plastic.template as<U>(),
-            u(fixedShare)};
+            u(fixedShare),
+            u(squareScale)};
   }
   /// The same with elastic contacts.
   BasicLaw elastic() const {
@@ -121,10 +126,6 @@ using ContactLaw = BasicLaw<double>;
 
 using base::ScalarOf;
 using base::squareRoot;
-
-/// Forces [N] and torques [N m] are multiplied by this factor before they are squared: squares of those of micrometre
-/// grains would underflow a float (1e-38). A power of two changes no other bits; forces up to 1e12 N stay in range.
-inline constexpr float kSquareScale = 0x1p24f;
 
 /// Two surfaces in touch, seen from side i; with SIMD numbers, as many pairs as there are lanes. The normal points from
 /// i to j.
@@ -254,26 +255,18 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   shear += slip * base::broadcast<T>(dt);
   base::Vec3<T> tangential = shear * -c.tangentialStiffness - slip * c.tangentialDamping;
   const T limit = law.friction * (pressing > zero ? pressing : zero);
-  const base::Vec3<T> scaled = tangential * base::broadcast<T>(kSquareScale);
-  const T scaledLimit = limit * Scalar(kSquareScale), size2 = dot(scaled, scaled), limit2 = scaledLimit * scaledLimit;
+  const base::Vec3<T> scaled = tangential * base::broadcast<T>(law.squareScale);
+  const T scaledLimit = limit * law.squareScale, size2 = dot(scaled, scaled), limit2 = scaledLimit * scaledLimit;
   const auto slides = size2 > limit2;
   if (base::any(slides)) {
     // Sliding: the force lies on Coulomb's cone.
     tangential = base::select(slides, tangential * (scaledLimit / squareRoot(size2)), tangential);
-    if (!hertz) {
-      // The spring is as long as it would hold that force.
-      if (law.tangentialStiffness > 0)
-        shear = base::select(slides, tangential * (Scalar(-1) / c.tangentialStiffness), shear);
-      else
-        shear = base::select(slides, base::Vec3<T>{}, shear);
-    } else {
-      // Where contacts begin, k_t is as small as one likes, and a spring that took over the dashpot's force would be
-      // as long: it is shortened only where it is beyond the cone alone.
-      const T scaledStiffness = c.tangentialStiffness * Scalar(kSquareScale);
-      const T spring2 = scaledStiffness * scaledStiffness * dot(shear, shear);
-      if (const auto beyond = slides & (spring2 > limit2); base::any(beyond))
-        shear = base::select(beyond, shear * (scaledLimit / squareRoot(spring2)), shear);
-    }
+    // The spring is shortened only where it is beyond the cone by itself: one that took over the dashpot's force would
+    // be stretched without work.
+    const T scaledStiffness = c.tangentialStiffness * law.squareScale;
+    const T spring2 = scaledStiffness * scaledStiffness * dot(shear, shear);
+    if (const auto beyond = slides & (spring2 > limit2); base::any(beyond))
+      shear = base::select(beyond, shear * (scaledLimit / squareRoot(spring2)), shear);
   }
   // A force at the rim of a sphere speeds the slip up by 1 + 5/2 of what it does to the centres: slip + 7/2 F h is the
   // slip in the middle of the step.

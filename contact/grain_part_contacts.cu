@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/for_each_group.cuh"
 #include "contact/grain_part_kernel.cuh"
+#include "contact/strongest_force.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -123,8 +124,8 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
     : exec_(exec), comm_(comm), model_(model), partCount_(parts.size()), rolling_(false), crushes_(materials.crush()),
       features_(0) {
   std::vector<BasicLaw<float>> laws;
-  for (const ContactLaw& law : materials.laws) laws.push_back(law.as<float>());
-  if (laws.empty()) laws.push_back(model.law.as<float>());
+  for (const ContactLaw& law : materials.laws) laws.push_back(scaledFor(law, model.radius).as<float>());
+  if (laws.empty()) laws.push_back(scaledFor(model.law, model.radius).as<float>());
   for (const BasicLaw<float>& law : laws) features_ |= law.features(), allHertz_ = allHertz_ && law.hertz;
   rolling_ = (features_ & kRollingFriction) != 0;
   laws_ = base::Array<BasicLaw<float>>(exec, laws);

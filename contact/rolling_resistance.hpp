@@ -15,13 +15,12 @@ template <class T> struct RollingMotion {
 
 /// Of a sphere on what never moves.
 template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return ScalarOf<T>(1.4) * mass * radius * radius; }
-/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2). The scale keeps the product of both inertias in
-/// the range of a float for radii from 1 um to 10 m.
+/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2). The product of both inertias may leave the range
+/// of a float; this form stays in it and is symmetric to the last bit.
 template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T radiusJ) {
-  constexpr float kScale = 0x1p28f;
-  const T i = rollingInertia(massI, radiusI) * ScalarOf<T>(kScale),
-          j = rollingInertia(massJ, radiusJ) * ScalarOf<T>(kScale);
-  return i * j / (i + j) * (ScalarOf<T>(1) / ScalarOf<T>(kScale));
+  const T i = rollingInertia(massI, radiusI), j = rollingInertia(massJ, radiusJ);
+  const T larger = i > j ? i : j, smaller = i > j ? j : i;
+  return larger * (smaller / (i + j));
 }
 
 /// Stiffness of the rolling spring [N m/rad].
@@ -48,18 +47,18 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarO
                                                           base::Vec3<T>& angle, T& dissipated,
                                                           const StiffnessChange<T>* change = nullptr) {
   using Scalar = ScalarOf<T>;
-  constexpr Scalar kScale = Scalar(kSquareScale); // torques and energies below are scaled by it
+  const Scalar scale = law.squareScale; // of the torques and energies below
   const T zero{};
   if (law.rollingFriction <= 0) return angle = {};
   const base::Vec3<T> rolling = m.spin - m.normal * dot(m.spin, m.normal);
-  const T stiffness = rollingStiffness(law, normalStiffness, m.radius) * kScale, inertia = m.inertia * kScale;
+  const T stiffness = rollingStiffness(law, normalStiffness, m.radius) * scale, inertia = m.inertia * scale;
   angle -= m.normal * dot(angle, m.normal);
   T taken{};
   if (change) taken = stiffness * dot(angle, angle) * change->taken, angle *= change->kept;
   const T storedBefore = stiffness * dot(angle, angle);
   angle += rolling * base::broadcast<T>(dt);
   const base::Vec3<T> spring = angle * -stiffness;
-  const T limit = law.rollingFriction * m.radius * (pressing > zero ? pressing : zero) * kScale;
+  const T limit = law.rollingFriction * m.radius * (pressing > zero ? pressing : zero) * scale;
   const T limit2 = limit * limit, size2 = dot(spring, spring);
   const auto slides = size2 > limit2;
   // Below the limit the dashpot fills the torque up to it.
@@ -79,8 +78,8 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarO
     const T lost = dot(held, rolling) * dt + Scalar(0.5) * (stiffness * dot(angle, angle) - storedBefore);
     given = slides ? lost : given;
   }
-  dissipated -= (given - taken) * (Scalar(1) / kScale);
-  return torque * base::broadcast<T>(Scalar(1) / kScale);
+  dissipated -= (given - taken) * (Scalar(1) / scale);
+  return torque * base::broadcast<T>(Scalar(1) / scale);
 }
 
 } // namespace grouser::contact

@@ -3,6 +3,8 @@
 
 #include "contact/contact_law.hpp"
 
+#include <cmath>
+
 namespace grouser::contact {
 
 /// Force [N] of a linear contact pressed to the middle of a grain, or of a Hertz contact to the overlap d where
@@ -10,6 +12,13 @@ namespace grouser::contact {
 /// bits of those sums depend.
 inline double strongestForce(const ContactLaw& law, double radius, double hertz) {
   return law.stiffness * radius * (law.hertz ? hertz * radius : 1.0);
+}
+/// The law with its squareScale for grains of `radius` [m].
+inline ContactLaw scaledFor(ContactLaw law, double radius) {
+  int exponent = 0;
+  std::frexp(strongestForce(law, radius, 0.1), &exponent);
+  law.squareScale = std::ldexp(1.0, -exponent);
+  return law;
 }
 /// `hertz` of forces, a fifth of the radius, and of energies, a hundredth.
 inline constexpr double kForcePress = 0.1, kEnergyPress = 1e-3;

@@ -179,10 +179,11 @@ template <class Target> struct PatchFriction {
       shear += slip * timeStep;
       const double dashpot = law.relaxation * stiffness;
       base::Vec3d force = shear * -stiffness - slip * dashpot;
-      const double limit = law.friction * weight, size = norm(force);
+      const double limit = law.friction * weight, size = norm(force), spring = stiffness * norm(shear);
       if (size > limit) {
         force *= limit / size;
-        shear = force * (-1 / stiffness);
+        // A spring that took over the dashpot's force would be stretched without work.
+        if (spring > limit) shear *= limit / spring;
       }
       // Work put in, less what the spring has gained.
       dissipated -= dot(force, slip) * timeStep + 0.5 * (stiffness * dot(shear, shear) - storedBefore);

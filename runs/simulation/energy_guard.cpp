@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace grouser::simulation {
 
@@ -28,7 +27,6 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   x.given = std::min(-taken, -taken - x.lost);
   x.taken = taken;
   x.heat = taken - std::min(0.0, now.dissipated.ofGrains() - last_.ofGrains);
-  x.rubbed = now.dissipated.friction - last_.rubbed;
   x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
   x.neverAlarms = neverAlarms(now, held, kSpringShare * std::fabs(now.elastic - last_.elastic));
   return x;
@@ -45,8 +43,7 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
   if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMostChurned * x.moved + x.neverAlarms)
     return found("the steps have made", -x.lost);
   if (x.given > kMostGiven * x.moved + x.neverAlarms)
-    return slidingGives(now, held) ? found("sliding contacts have made", x.given)
-                                   : found("steps too long for dampers have let these make", x.given);
+    return found("steps too long for dampers have let these make", x.given);
   return judgeHeat(now, held);
 }
 
@@ -67,27 +64,17 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
   return {};
 }
 
-bool EnergyGuard::slidingGives(const Ledger& now, double held) const {
-  const Exchange x = since(now, held);
-  return x.given > kMostGiven * x.moved + x.neverAlarms && -x.rubbed > 0.5 * x.given;
-}
-
 void EnergyGuard::look(const Ledger& now) {
-  last_ = {now.integrationError,
-           now.turnover,
-           now.dissipated.total(),
-           now.driveWork,
-           now.elastic,
-           now.dissipated.friction,
-           now.dissipated.ofGrains()};
+  last_ = {now.integrationError, now.turnover, now.dissipated.total(),
+           now.driveWork,        now.elastic,  now.dissipated.ofGrains()};
   mostInGrains_ = std::max(mostInGrains_, std::fabs(now.grainElastic));
 }
 
 void EnergyGuard::restore(const std::vector<double>& saved) {
-  if (saved.size() != 6 && saved.size() != 8)
+  if (saved.size() != 7)
     throw base::InputError("the checkpoint keeps another energy guard; resume with the program that was run");
-  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5], -std::numeric_limits<double>::infinity()};
-  if (saved.size() == 8) last_.ofGrains = saved[6], mostInGrains_ = saved[7];
+  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5]};
+  mostInGrains_ = saved[6];
 }
 
 } // namespace grouser::simulation

@@ -66,7 +66,6 @@ public:
     double given{};       ///< by dampers and not lost by the steps; negative where they take
     double taken{};       ///< dissipated
     double heat{};        ///< the same, but what grains seem to give does not lessen it
-    double rubbed{};      ///< taken by sliding; negative where it gives
     double neverAlarms{}; ///< rounding, what is small beside the whole run, and what springs hide
     /// Of what was exchanged, what counts of `energy` [-].
     double share(double energy) const { return moved > 0 && energy > neverAlarms ? (energy - neverAlarms) / moved : 0; }
@@ -75,17 +74,14 @@ public:
   Exchange since(const Ledger& now, double held) const;
   /// What is wrong since the last look, in words; empty where nothing is.
   std::string judge(const Ledger& now, double held) const;
-  /// Whether it is sliding that has given most of what dampers seem to give: the spring of a contact that slides is as
-  /// long as it would bear Coulomb's force, and so takes over the force of its tangential dashpot, whatever the step.
-  bool slidingGives(const Ledger& now, double held) const;
   /// Remembers `now` for the next judgement.
   void look(const Ledger& now);
 
   std::vector<double> save() const {
     return {last_.error,   last_.turnover, last_.dissipated, last_.driveWork,
-            last_.elastic, last_.rubbed,   last_.ofGrains,   mostInGrains_};
+            last_.elastic, last_.ofGrains, mostInGrains_};
   }
-  /// Throws base::InputError where it is not what save() gave, or gave before it knew of the last two.
+  /// Throws base::InputError where it is not what save() gave.
   void restore(const std::vector<double>& saved);
 
 private:
@@ -93,7 +89,7 @@ private:
   std::string judgeHeat(const Ledger& now, double held) const;
 
   struct Look {
-    double error{}, turnover{}, dissipated{}, driveWork{}, elastic{}, rubbed{}, ofGrains{}; ///< [J]
+    double error{}, turnover{}, dissipated{}, driveWork{}, elastic{}, ofGrains{}; ///< [J]
   };
   Look last_;
   double mostInGrains_ = 0; ///< greatest |Ledger::grainElastic| that was looked at [J]

@@ -13,15 +13,6 @@
 
 namespace grouser::simulation {
 
-namespace {
-
-/// Below the limit of stability no step is short enough for that.
-const char* const kSlidingGives = "their springs take over the force of tangential dashpots: lower "
-                                  "tangential_damping_ratio or raise restitution; a smaller time_step helps only above "
-                                  "the limit of stability";
-
-} // namespace
-
 Simulation::Simulation(setup::SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, BedCache* beds, SphereCache* spheres)
     : setup_(std::move(setup)), exec_(exec), comm_(comm) {
@@ -269,11 +260,8 @@ std::string Simulation::causeOf(const terrain::GrainFault& fault) {
   if (fault.fault != Fault::overlap && fault.fault != Fault::speed && fault.fault != Fault::through) return {};
   const Ledger now = ledger();
   if (const std::string verdict = energyVerdict(now); !verdict.empty())
-    return verdict + (guard_.slidingGives(now, energyHeld(now))
-                          ? std::string("; ") + kSlidingGives
-                          : fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller "
-                                        "time_step{}",
-                                        timeStep(), impactNote(now)));
+    return verdict + fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step{}",
+                                 timeStep(), impactNote(now));
   const PressedGrain grain = pressed(fault.id);
   if (fault.fault == Fault::speed)
     return grain.fallsFreely(setup_.gravity)
@@ -331,7 +319,6 @@ void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
-  if (guard_.slidingGives(now, energyHeld(now))) remedy = kSlidingGives;
   if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
   if (mechanism_)
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;

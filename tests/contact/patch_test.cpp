@@ -111,5 +111,31 @@ TEST(PlateOnPlate, ChangingAreaGivesNoEnergy) {
   EXPECT_LT(worst, 0.03 * stored) << "one step of " << n << "; the tilt turns the pull by 4 mrad";
 }
 
+TEST(PlateOnPlate, PulledFastAndPushedBackSlowlyGivesNoEnergy) {
+  // Fast, the dashpot alone is beyond Coulomb's limit while the spring is hardly stretched.
+  PlateOnPlate bench(0.005, 0.1);
+  bench.model.law.relaxation = 0.1;
+  bench.contacts = std::make_unique<PartPartContacts>(bench.exec, bench.model,
+                                                      std::vector<const base::SphereSet*>{&bench.small, &bench.large},
+                                                      std::vector<int>{0, 1}, std::vector<PartPair>{{0, 1}});
+  const double overlap = 1e-4, reach = 1e-5;
+  double x = 0, work = 0, dissipated = 0;
+  const auto slide = [&](double way, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      x += way / steps;
+      bench.step({x, 0, 0.03 - overlap}, {way / steps / bench.model.timeStep, 0, 0});
+      work += bench.force(0).x * way / steps;
+      const double now = bench.contacts->ledger().dissipated;
+      EXPECT_GE(now, dissipated * (1 - 1e-9)) << "step " << k;
+      dissipated = now;
+    }
+  };
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    work = 0;
+    slide(reach, 3), slide(-reach, 300);
+  }
+  EXPECT_LT(work, 0);
+}
+
 } // namespace
 } // namespace grouser::contact::testing

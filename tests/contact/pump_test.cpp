@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A contact that is sheared and rolled to and fro while its load varies takes work at every phase and never gives any.
 #include "base/math.hpp"
+#include "contact/strongest_force.hpp"
 #include "contact_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@ namespace grouser::contact::testing {
 namespace {
 
 using base::Vec3d;
+using base::Vec3f;
 
 constexpr double kRadius = 0.01, kMass = 0.01, kDepth = 1e-4; // a hundredth of the radius
 
@@ -130,6 +132,51 @@ TEST(Pump, AShearedAndRolledContactUnderAVaryingLoadNeverDoesWork) {
             ASSERT_GE(w.rolling, -rounding) << each.name << ", swing " << depth << ", phase " << phase;
             ASSERT_GE(w.normal, -rounding) << each.name << ", swing " << depth << ", phase " << phase;
           }
+}
+
+TEST(Pump, ASurfacePulledFastAndPushedBackSlowlyNeverGivesWork) {
+  // Fast, the dashpot alone is beyond Coulomb's limit while the spring is hardly stretched; slow, the spring is all.
+  constexpr double kLength = 2e-5;
+  for (const Named& each : laws())
+    for (const int fast : {2, 20, 200})
+      for (const double overlap : {1e-5, 1e-4, 3e-4}) {
+        const double dt = 1e-7;
+        Vec3d shear;
+        BasicPlasticState<double> plastic;
+        double work = 0, turnover = 0;
+        const auto slide = [&](double way, int steps) {
+          for (int k = 0; k < steps; ++k) {
+            const Vec3d slid{way / steps, 0, 0};
+            const auto r = contactForce<kGeneral>(each.law, {{0, 0, -1}, overlap, slid * (1 / dt), kMass, kRadius}, dt,
+                                                  shear, &plastic);
+            turnover += std::fabs(dot(r.force, slid));
+            ASSERT_GE(r.rubbed, -1e-12 * turnover) << each.name << ", " << fast << " steps, overlap " << overlap;
+            work -= dot(r.force, slid);
+          }
+        };
+        slide(-kLength, 20000); // the springs are at what the path leaves behind
+        for (int cycle = 0; cycle < 3; ++cycle) {
+          if (cycle == 2) work = 0;
+          slide(kLength, fast), slide(-kLength, 20000);
+        }
+        EXPECT_GE(work, -1e-9 * turnover) << each.name << ", " << fast << " steps, overlap " << overlap;
+      }
+}
+
+TEST(Pump, LargeForcesAndSmallOnesObeyCoulomb) {
+  // Single precision holds squares of forces from 1e-19 to 1e19 N only.
+  for (const double radius : {1e-6, 1e-3, 1.0, 100.0, 1000.0}) {
+    BasicLaw<double> law = hertz<double>();
+    law.rootDamping = law.tangentialRootDamping = 0;
+    const BasicLaw<float> single = scaledFor(law, radius).as<float>();
+    for (const double share : {1e-8, 1e-4, 0.1}) {
+      Vec3f shear{static_cast<float>(share * radius), 0, 0}; // far beyond the limit
+      const BasicContactGeometry<float> touch{
+          {0, 0, -1}, static_cast<float>(share * radius), {}, 1, static_cast<float>(radius)};
+      const auto r = contactForce<kGeneral>(single, touch, 1e-9f, shear);
+      EXPECT_NEAR(r.force.x / r.force.z, -0.5, 1e-6) << "radius " << radius << " m, overlap " << share << " radii";
+    }
+  }
 }
 
 TEST(Pump, WhatAHertzContactTakesIsBookedToAnErrorThatFallsWithTheStep) {

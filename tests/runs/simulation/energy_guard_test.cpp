@@ -72,17 +72,6 @@ TEST(EnergyGuard, WhereDampersGiveWhatTheStepsLoseNothingIsMade) {
   EXPECT_NE(guard.judge(l, 0).find("dampers have let these make 0.4 J"), std::string::npos) << guard.judge(l, 0);
 }
 
-TEST(EnergyGuard, SlidingThatGivesIsCalledSo) {
-  EnergyGuard guard;
-  guard.look(books(0, 0));
-  Ledger l = books(0, 10);
-  l.dissipated.damping = 1, l.dissipated.friction = -1.5;
-  EXPECT_NE(guard.judge(l, 0).find("sliding contacts have made 0.5 J"), std::string::npos) << guard.judge(l, 0);
-  EXPECT_TRUE(guard.slidingGives(l, 0));
-  l.dissipated.damping = -0.5, l.dissipated.friction = 0;
-  EXPECT_FALSE(guard.slidingGives(l, 0));
-}
-
 TEST(EnergyGuard, WorkOfDrivesBeforeTheLastLookHidesNothing) {
   EnergyGuard guard;
   Ledger l = books(0, 0);
@@ -229,9 +218,6 @@ TEST(EnergyGuard, IsRestored) {
     EXPECT_EQ(a.judge(l, 0), b.judge(l, 0));
   }
   EXPECT_THROW(b.restore({1, 2}), base::InputError);
-  EnergyGuard older; // from a checkpoint of before it knew what grains had dissipated
-  older.restore({5, 1000, 0, 7, 30, 0});
-  EXPECT_EQ(a.judge(l, 0), older.judge(l, 0));
 }
 
 /// A heap of `number` grains in a box, with `more` keys of the material.

@@ -115,30 +115,31 @@ const char* const kEuler = "integrator = \"symplectic_euler\"\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Grains, SoundScenes,
-    ::testing::Values(Sound{"Gas", run(0.2, kNoGravity) + soil(1, 0) + floor() + walls(0.04) +
-                                       plane("[0, 0, 0.08]", "[0, 0, -1]") +
-                                       grains({25, 0.04, 0, 0.08, "0.005", "velocity = [1, 0.4, 0.2]\n"})},
-                      Sound{"RoughGas", run(0.2, kNoGravity) + soil(1, 0.5) + floor() + walls(0.04) +
-                                            plane("[0, 0, 0.08]", "[0, 0, -1]") +
-                                            grains({25, 0.04, 0, 0.08, "0.005", "velocity = [1, 0.4, 0.2]\n"})},
-                      Sound{"Heap", heap(0.2, soil(0.5, 0.5))}, Sound{"ElasticHeap", heap(0.3, soil(1, 0.9))},
-                      Sound{"LossyHeap", heap(0.06, soil(0.05, 0.9), {40})},
-                      Sound{"Attraction", heap(0.08, soil(0, 0.5, "attraction = true\n"), {40})},
-                      Sound{"Cohesion", heap(0.2, soil(0.5, 0.5, "cohesion = 0.1\n"))},
-                      Sound{"Rolling", heap(0.15, soil(0.5, 0.5, "rolling_friction = 0.3\n"))},
-                      Sound{"Hertz", heap(0.2, hertz(0.5, 0.5))},
-                      Sound{"HertzFasterThanSaid",
-                            heap(0.1, hertz(0.8, 0.3, "1e8"), {40, 0.03, 0, 0.07, "0.005", "velocity = [0, 0, -2]\n"})},
-                      Sound{"Mixture", heap(0.1, soil(0.5, 0.5) + soil(0.8, 0.3, "density = 7800\n", "5e4", "steel"),
-                                            {30, 0.03, 0, 0.05, "0.003", "radius_to = 0.007\n"}) +
-                                           grains({20, 0.03, 0.05, 0.08, "0.004", "", "steel"})},
-                      Sound{"Stack", run(0.3) + soil(0.5, 0.5) + floor() + grain("[0, 0, 0.005]") +
-                                         grain("[0, 0, 0.015]") + grain("[0, 0, 0.025]") + grain("[0, 0, 0.035]") +
-                                         grain("[0, 0, 0.045]") + grain("[0, 0, 0.055]") + grain("[0, 0, 0.065]") +
-                                         grain("[0, 0, 0.075]") + grain("[0, 0, 0.085]") + grain("[0, 0, 0.095]") +
-                                         grain("[0, 0, 0.105]") + grain("[0, 0, 0.115]")},
-                      Sound{"Bounce", run(0.5) + soil(1, 0.5) + floor() +
-                                          grain("[0, 0, 0.1]", "velocity = [1, 0, 0]\nspin = [0, -100, 0]\n")}),
+    ::testing::Values(
+        Sound{"Gas", run(0.2, kNoGravity) + soil(1, 0) + floor() + walls(0.04) + plane("[0, 0, 0.08]", "[0, 0, -1]") +
+                         grains({25, 0.04, 0, 0.08, "0.005", "velocity = [1, 0.4, 0.2]\n"})},
+        Sound{"RoughGas", run(0.2, kNoGravity) + soil(1, 0.5) + floor() + walls(0.04) +
+                              plane("[0, 0, 0.08]", "[0, 0, -1]") +
+                              grains({25, 0.04, 0, 0.08, "0.005", "velocity = [1, 0.4, 0.2]\n"})},
+        Sound{"Heap", heap(0.2, soil(0.5, 0.5))}, Sound{"ElasticHeap", heap(0.3, soil(1, 0.9))},
+        Sound{"LossyHeap", heap(0.06, soil(0.05, 0.9), {40})},
+        Sound{"HeapOfStrongTangentialDashpots", heap(0.1, soil(0.02, 1.5, "tangential_damping_ratio = 1\n"), {40})},
+        Sound{"Attraction", heap(0.08, soil(0, 0.5, "attraction = true\n"), {40})},
+        Sound{"Cohesion", heap(0.2, soil(0.5, 0.5, "cohesion = 0.1\n"))},
+        Sound{"Rolling", heap(0.15, soil(0.5, 0.5, "rolling_friction = 0.3\n"))},
+        Sound{"Hertz", heap(0.2, hertz(0.5, 0.5))},
+        Sound{"HertzFasterThanSaid",
+              heap(0.1, hertz(0.8, 0.3, "1e8"), {40, 0.03, 0, 0.07, "0.005", "velocity = [0, 0, -2]\n"})},
+        Sound{"Mixture", heap(0.1, soil(0.5, 0.5) + soil(0.8, 0.3, "density = 7800\n", "5e4", "steel"),
+                              {30, 0.03, 0, 0.05, "0.003", "radius_to = 0.007\n"}) +
+                             grains({20, 0.03, 0.05, 0.08, "0.004", "", "steel"})},
+        Sound{"Stack", run(0.3) + soil(0.5, 0.5) + floor() + grain("[0, 0, 0.005]") + grain("[0, 0, 0.015]") +
+                           grain("[0, 0, 0.025]") + grain("[0, 0, 0.035]") + grain("[0, 0, 0.045]") +
+                           grain("[0, 0, 0.055]") + grain("[0, 0, 0.065]") + grain("[0, 0, 0.075]") +
+                           grain("[0, 0, 0.085]") + grain("[0, 0, 0.095]") + grain("[0, 0, 0.105]") +
+                           grain("[0, 0, 0.115]")},
+        Sound{"Bounce",
+              run(0.5) + soil(1, 0.5) + floor() + grain("[0, 0, 0.1]", "velocity = [1, 0, 0]\nspin = [0, -100, 0]\n")}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(
