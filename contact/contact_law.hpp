@@ -136,6 +136,7 @@ template <class T> struct BasicContactGeometry {
   T effectiveMass;                        ///< m_i m_j / (m_i + m_j) [kg]
   T effectiveRadius{};                    ///< R_i R_j / (R_i + R_j) [m]; for Hertz, cohesion and rolling
   T dampingShare = base::broadcast<T>(1); ///< of both dashpots' coefficients [-]: see BasicLaw::fixedShare
+  T pullShare = base::broadcast<T>(1);    ///< of the pull of cohesion [-]
   bool crushes{false}; ///< the overlap stays as it is while the surfaces approach: the grain gives way (crushing.hpp)
 };
 using ContactGeometry = BasicContactGeometry<float>;
@@ -235,7 +236,7 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   T normalForce = elastic + dashpot;
   T pressing = normalForce;
   if constexpr (kMayYield) pressing += adhesion;
-  if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pull(touch.effectiveRadius);
+  if (kFeatures & (kCohesion | kGeneral)) normalForce -= law.pull(touch.effectiveRadius) * touch.pullShare;
   const T halfStepPerMass = Scalar(0.5) * dt / touch.effectiveMass;
   BasicReaction<T> reaction{
       n * -normalForce, dashpot * (approach - normalForce * halfStepPerMass) * dt, zero, pressing, c.normalStiffness,

@@ -100,12 +100,13 @@ private:
       books.add(kSlipped, wholeQuanta(q * static_cast<double>(lost.slipped)));
   }
 
+  /// `share`: of dashpots and of cohesion, where this contact bears a part of one [-].
   GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap,
-                             BoundaryLoad<Real>& sum, Losses& lost) const {
+                             BoundaryLoad<Real>& sum, Losses& lost, Real share = 1) const {
     const Vec normal = -outward; // from the grain to the wall
     const Vec arm = normal * (grain.size.radius - overlap);
-    const contact::BasicContactGeometry<Real> touch{normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass,
-                                                    grain.size.radius};
+    const contact::BasicContactGeometry<Real> touch{
+        normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass, grain.size.radius, share, share};
     const Reaction reaction = react(grain, boundary, touch, grain.w, nullptr, sum, lost);
     sum.force += reaction.force;
     if (has(contact::kFriction)) sum.torque += cross(arm, reaction.force);
@@ -118,9 +119,7 @@ private:
     if (d.floor.clearOf(grain.x, radius)) return 0;
     Feet feet;
     FeetSearch(d.floor, grain.x, radius).run(feet);
-    if (feet.tooMany)
-      base::atomicMin64(&d.flags->fault,
-                        static_cast<std::uint64_t>(Fault::rough) << 56 | d.id[d.nearBoundary[grain.place]]);
+    const FeetLoads loads(feet, radius, lawOf(grain, d.wallCount).hertz);
     int place[Feet::kMost];
     const std::uint32_t floorBits = (1u << Feet::kMost) - 1;
     float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
@@ -128,11 +127,13 @@ private:
     here.before = takePlaces(feet, grain.before >> d.wallCount & floorBits, normals, place) << d.wallCount;
     std::uint32_t now = 0;
     for (int k = 0; k < feet.count; ++k) {
-      const Real overlap = static_cast<Real>(radius - feet.foot[k].distance);
+      const Real overlap = static_cast<Real>(loads.overlap(k));
       if (overlap <= 0) continue;
       const Vec normal = feet.foot[k].normal.template as<Real>();
       now |= 1u << (d.wallCount + place[k]);
-      touchFixed(here, d.wallCount + place[k], normal, overlap, sum, lost);
+      touchFixed(here, d.wallCount + place[k], normal, overlap, sum, lost, static_cast<Real>(loads.share(k)));
+      const Real deep = static_cast<Real>(radius - feet.foot[k].distance);
+      sum.deepest = deep > sum.deepest ? deep : sum.deepest;
       if (normals) storeVector(normals + 3 * place[k], feet.foot[k].normal.template as<float>());
     }
     return now;
@@ -176,10 +177,14 @@ private:
     return now;
   }
 
+  GROUSER_HD const contact::BasicLaw<Real>& lawOf(const Grain& grain, int boundary) const {
+    return f.boundaryLaws[d.lawOf(boundary) * d.materials + grain.size.material];
+  }
+
   /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
   GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
                             const Vec& spin, const base::Mat3d* turned, BoundaryLoad<Real>& sum, Losses& lost) const {
-    const contact::BasicLaw<Real>& law = f.boundaryLaws[d.lawOf(boundary) * d.materials + grain.size.material];
+    const contact::BasicLaw<Real>& law = lawOf(grain, boundary);
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory() ? d.historyOf(grain.place, boundary, Kernel::historyWidth()) : nullptr;
     Vec shear{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/math.hpp"
 #include "terrain/height_field.hpp"
 
 #if defined(__CUDACC__)
@@ -18,9 +19,10 @@ inline constexpr std::uint8_t kInHollow = 2;   ///< the cell is part of such a h
 /// All places where a sphere touches a height field.
 struct Feet {
   static constexpr int kMost = 8;
-  FootPoint foot[kMost]; ///< the first `count`, in the order of the cells; the nearest is among them in any case
+  FootPoint foot[kMost]; ///< the first `count`; of more than kMost those with the highest rises between them
+  /// Largest distance of the centre from the ground on the straight way from one foot to another [m].
+  double between[kMost][kMost];
   int count{0};
-  bool tooMany{false};
 
   GROUSER_HD const FootPoint& nearest() const {
     int k = 0;
@@ -28,6 +30,66 @@ struct Feet {
       if (foot[l].distance < foot[k].distance) k = l;
     return foot[k];
   }
+};
+
+/// What each foot bears. Feet between which the ground leaves the sphere are contacts of their own. Where the ground
+/// between two feet stays inside the sphere they are one contact that has two lowest points (a gentle valley, the steps
+/// of an 8-bit map): both together then bear what one would bear at that rise less. So the normal force is the slope of
+/// an energy, sum of u(overlap of each foot) - sum of u(overlap where two contacts become one), and has no jumps.
+class FeetLoads {
+public:
+  /// `hertz`: whether forces grow with the overlap's power 1.5; else they are linear.
+  GROUSER_HD FeetLoads(const Feet& feet, double radius, bool hertz) : hertz_(hertz) {
+    int contact[Feet::kMost];
+    for (int k = 0; k < feet.count; ++k)
+      contact[k] = k, overlap_[k] = radius - feet.foot[k].distance, force_[k] = force(overlap_[k]);
+    for (;;) {
+      double rise = radius;
+      int a = -1, b = -1;
+      for (int i = 0; i < feet.count; ++i)
+        for (int j = 0; j < i; ++j)
+          if (contact[i] != contact[j] && feet.between[i][j] < rise) rise = feet.between[i][j], a = j, b = i;
+      if (a < 0) break;
+      merge(contact, contact[a], contact[b], feet.count, radius - rise);
+    }
+    for (int k = 0; k < feet.count; ++k) {
+      const double full = force(overlap_[k]);
+      share_[k] = full > 0 ? force_[k] / full : 1;
+      if (share_[k] == 1) continue;
+      const double root = hertz_ ? base::cubeRoot(share_[k]) : 1;
+      overlap_[k] *= hertz_ ? root * root : share_[k];
+    }
+  }
+
+  GROUSER_HD double share(int foot) const { return share_[foot]; }     ///< of its force alone [-]
+  GROUSER_HD double overlap(int foot) const { return overlap_[foot]; } ///< with which it bears that force [m]
+  GROUSER_HD int merges() const { return merges_; }
+  GROUSER_HD double merged(int merge) const { return merged_[merge]; } ///< overlap where two contacts become one [m]
+
+private:
+  GROUSER_HD double force(double overlap) const { return hertz_ && overlap > 0 ? overlap * sqrt(overlap) : overlap; }
+
+  /// Takes the force at `overlap`, where contacts `a` and `b` become one, off both: by the roots of what each bears
+  /// beyond it, so that in a crease it points from the bottom of the crease, and one that vanishes bears nothing.
+  GROUSER_HD void merge(int (&contact)[Feet::kMost], int a, int b, int count, double overlap) {
+    const double common = force(overlap);
+    double of[2] = {};
+    for (int k = 0; k < count; ++k)
+      if (contact[k] == a || contact[k] == b) of[contact[k] == b] += force_[k];
+    const double least = 1e-12 * (of[0] + of[1]);
+    const double beyondA = of[0] > common ? of[0] - common : 0, beyondB = of[1] > common ? of[1] - common : 0;
+    const double rootA = sqrt(beyondA + least), partA = rootA / (rootA + sqrt(beyondB + least));
+    const double scaleA = (beyondA + partA * common) / of[0], scaleB = (beyondB + (1 - partA) * common) / of[1];
+    for (int k = 0; k < count; ++k) {
+      if (contact[k] == a) force_[k] *= scaleA;
+      if (contact[k] == b) force_[k] *= scaleB, contact[k] = a;
+    }
+    merged_[merges_++] = overlap;
+  }
+
+  bool hertz_;
+  int merges_{0};
+  double overlap_[Feet::kMost], force_[Feet::kMost], share_[Feet::kMost], merged_[Feet::kMost];
 };
 
 /// Finds the local minima of the distance between a sphere's centre and the surface that are less than the radius. Away
@@ -50,7 +112,7 @@ public:
     // Where other feet are possible only a true minimum is one.
     const Vec3d aside = p_ - first.point - first.normal * first.distance;
     if (v_.interpolation != Interpolation::bilinear && first.distance < radius_ && base::norm(aside) < same_)
-      feet.foot[feet.count++] = first;
+      put(first, feet.count++, feet);
     side_ = p_.z < v_.height(p_.x, p_.y) ? -1 : 1;
     const int i0 = v_.cellX(p_.x - radius_), i1 = v_.cellX(p_.x + radius_);
     const int j0 = v_.cellY(p_.y - radius_), j1 = v_.cellY(p_.y + radius_);
@@ -202,34 +264,70 @@ private:
     return side_ * foot.distance < radius_;
   }
 
-  /// Two that lie in one place, or with no rise between them (in a hollow as round as the sphere), are one.
-  GROUSER_HD bool isSame(const FootPoint& a, const FootPoint& b) const {
-    if (base::norm(a.point - b.point) < same_) return true;
-    const double farther = a.distance > b.distance ? a.distance : b.distance;
-    const double most = (farther > 0 ? farther : -farther) + 1e-6 * radius_;
-    constexpr int kPlaces = 16;
-    for (int k = 1; k < kPlaces; ++k) {
-      const Vec3d between = a.point + (b.point - a.point) * (static_cast<double>(k) / kPlaces);
-      if (squaredDistance(between.x, between.y, v_.height(between.x, between.y)) > most * most) return false;
-    }
-    return true;
+  /// At `share` of the straight way from one point to another, above or below it [m2].
+  GROUSER_HD double squaredDistanceAt(const Vec3d& from, const Vec3d& way, double share) const {
+    const Vec3d at = from + way * share;
+    return squaredDistance(at.x, at.y, v_.height(at.x, at.y));
   }
 
+  /// Looks at places along the way, then narrows the largest down by thirds.
+  GROUSER_HD double largestBetween(const FootPoint& a, const FootPoint& b) const {
+    constexpr int kPlaces = 16, kThirds = 12;
+    const Vec3d way = b.point - a.point;
+    const double farther = a.distance > b.distance ? a.distance : b.distance;
+    double most = farther * farther, at = -1;
+    for (int k = 1; k < kPlaces; ++k)
+      if (const double here = squaredDistanceAt(a.point, way, 1.0 / kPlaces * k); here > most)
+        most = here, at = 1.0 / kPlaces * k;
+    if (at < 0) return farther;
+    double low = at - 1.0 / kPlaces, high = at + 1.0 / kPlaces;
+    for (int k = 0; k < kThirds; ++k) {
+      const double third = (high - low) / 3, below = squaredDistanceAt(a.point, way, low + third),
+                   above = squaredDistanceAt(a.point, way, high - third);
+      most = below > most ? below : most, most = above > most ? above : most;
+      (below < above ? low : high) = below < above ? low + third : high - third;
+    }
+    return sqrt(most);
+  }
+
+  /// Of two in one place, and below the ground, the nearer one stays.
   GROUSER_HD void add(const FootPoint& found, Feet& feet) const {
-    int farthest = 0;
-    for (int k = 0; k < feet.count; ++k) {
-      if (side_ < 0 || isSame(found, feet.foot[k])) {
-        if (side_ * (found.distance - feet.foot[k].distance) < -1e-6 * radius_) feet.foot[k] = found;
+    for (int k = 0; k < feet.count; ++k)
+      if (side_ < 0 || base::norm(found.point - feet.foot[k].point) < same_) {
+        if (side_ * (found.distance - feet.foot[k].distance) < -1e-6 * radius_) put(found, k, feet);
         return;
       }
-      if (feet.foot[k].distance > feet.foot[farthest].distance) farthest = k;
+    if (feet.count < Feet::kMost)
+      put(found, feet.count++, feet);
+    else
+      replaceLeast(found, feet);
+  }
+
+  GROUSER_HD void put(const FootPoint& found, int place, Feet& feet) const {
+    feet.foot[place] = found;
+    for (int k = 0; k < feet.count; ++k)
+      if (k != place) feet.between[k][place] = feet.between[place][k] = largestBetween(found, feet.foot[k]);
+  }
+
+  /// Drops the foot with the lowest rise to one that is nearer, which may be the new one.
+  GROUSER_HD void replaceLeast(const FootPoint& found, Feet& feet) const {
+    double toFound[Feet::kMost], least = 1e300;
+    int dropped = -1; // the new one
+    for (int k = 0; k < feet.count; ++k) {
+      toFound[k] = largestBetween(found, feet.foot[k]);
+      if (feet.foot[k].distance <= found.distance && toFound[k] - found.distance < least)
+        least = toFound[k] - found.distance;
     }
-    if (feet.count < Feet::kMost) {
-      feet.foot[feet.count++] = found;
-      return;
-    }
-    feet.tooMany = true;
-    if (found.distance < feet.foot[farthest].distance) feet.foot[farthest] = found;
+    for (int k = 0; k < feet.count; ++k)
+      for (int l = -1; l < feet.count; ++l) {
+        const double other = l < 0 ? found.distance : feet.foot[l].distance;
+        const double rise = (l < 0 ? toFound[k] : feet.between[k][l]) - feet.foot[k].distance;
+        if (k != l && other <= feet.foot[k].distance && rise < least) least = rise, dropped = k;
+      }
+    if (dropped < 0) return;
+    feet.foot[dropped] = found;
+    for (int k = 0; k < feet.count; ++k)
+      if (k != dropped) feet.between[k][dropped] = feet.between[dropped][k] = toFound[k];
   }
 
   const HeightFieldView& v_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/grain_faults.hpp"
 
-#include "terrain/feet_search.hpp"
 #include "terrain/grain_system.hpp"
 
 #include <fmt/format.h>
@@ -42,12 +41,6 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
         fault, id,
         fmt::format("{} moves at {:.4g} m/s, more than half the neighbour list's skin in one step", where, found[3]),
         "use a smaller time_step or a larger skin");
-  case Fault::rough:
-    throw GrainFault(
-        fault, id,
-        fmt::format("{} touches the height-map in more than {} places: the map is too rough for its grains", where,
-                    Feet::kMost),
-        "use smaller grains, a smoother map, or terrain.floor = \"flat\" below a bed");
   default:
     throw GrainFault(fault, id, where + " has a velocity that is no number", "use a smaller time_step");
   }

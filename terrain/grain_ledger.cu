@@ -153,8 +153,20 @@ private:
                                : nullptr;
     const std::uint32_t before = touched >> d.wallCount & ((1u << Feet::kMost) - 1);
     const std::uint32_t goOn = takePlaces(feet, before, normals, place) << d.wallCount;
-    for (int k = 0; k < feet.count; ++k)
-      measureBoundary(i, d.wallCount + place[k], goOn, radius - feet.foot[k].distance, size, held);
+    const Law& law = f.boundaryLaws[d.lawOf(d.wallCount) * d.materials + size.material];
+    const FeetLoads loads(feet, radius, law.hertz);
+    for (int k = 0; k < feet.count; ++k) {
+      const double overlap = radius - feet.foot[k].distance;
+      measureBoundary(i, d.wallCount + place[k], goOn, loads.overlap(k), size, held);
+      held.deepest = overlap > held.deepest ? overlap : held.deepest;
+      if (loads.merges() > 0) held.elastic += alone(law, overlap, radius) - alone(law, loads.overlap(k), radius);
+    }
+    for (int m = 0; m < loads.merges(); ++m) held.elastic -= alone(law, loads.merged(m), radius);
+  }
+
+  /// Of the normal spring alone [J]: see FeetLoads.
+  GROUSER_HD static double alone(const Law& law, double overlap, double radius) {
+    return contact::storedEnergy(law, overlap, radius, base::Vec3<Real>{});
   }
 
   /// `touched`: bits of the boundaries whose contacts have a history.

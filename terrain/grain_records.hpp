@@ -29,15 +29,7 @@ struct Crossings {
 };
 
 /// What stops a run; the smallest key (code, then grain id) is kept.
-enum class Fault : std::uint64_t {
-  notANumber = 1,
-  through = 2,
-  overlap = 3,
-  speed = 4,
-  range = 5,
-  rough = 6,
-  none = 255
-};
+enum class Fault : std::uint64_t { notANumber = 1, through = 2, overlap = 3, speed = 4, range = 5, none = 255 };
 inline constexpr std::uint64_t kNoFault = ~std::uint64_t{0}; ///< in StepFlags
 
 /// Raised by the kernels of a step, read by the next step of a batch and by the host after the last one.

@@ -153,7 +153,6 @@ TEST_P(OnEveryGround, OnNoise_FindsWhatADenseSearchFinds) {
       Feet feet;
       FeetSearch(searched.view(), p, radius).run(feet);
       const std::vector<double> dense = denseMinima(field.view(), p, radius, 100);
-      ASSERT_FALSE(feet.tooMany);
       ASSERT_GT(feet.count, 0);
       for (const double d : dense) {
         bool found = false;
@@ -193,6 +192,103 @@ TEST_P(OnEveryGround, CentreDeepBelowTheGround_IsStillFelt) {
     const Feet feet = feetOf(rough, {random(k, 0, 0.3, 1.7), random(k, 1, -0.7, 0.7), random(k, 2, -0.5, -0.05)}, 0.06);
     ASSERT_EQ(feet.count, 1);
     EXPECT_LT(feet.foot[0].distance, 0);
+  }
+}
+
+/// Feet on flanks of slope 1 that meet in a crease, the centre `off` beside its plane of symmetry.
+Feet feetInCrease(double radius, double overlap, double off, double slope) {
+  const HeightField valley =
+      fieldOf(Interpolation::bilinear, 41, 5, [&](double x, double) { return slope * std::fabs(x - 1); });
+  const double along = std::sqrt(1 + slope * slope);
+  return feetOf(valley, {1 + off, 0.1, (radius - overlap) * along}, radius);
+}
+
+TEST(FeetLoads, OfFeetApart_AreThoseOfTheirOverlaps) {
+  const Feet feet = feetInCrease(0.1, 1e-3, 0, 1);
+  for (const bool hertz : {false, true}) {
+    const FeetLoads loads(feet, 0.1, hertz);
+    EXPECT_EQ(loads.merges(), 0);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(loads.share(k), 1);
+      EXPECT_NEAR(loads.overlap(k), 1e-3, 1e-12);
+    }
+  }
+}
+
+TEST(FeetLoads, InAGentleCrease_AreTheSlopeOfTheirEnergy) {
+  // The bottom of the crease lies 4e-4 of 1e-3 m overlap above both feet's depth: two feet of one contact.
+  const double radius = 0.1, slope = std::sqrt(8e-3), rise = 1e-5, step = 2e-4;
+  for (const bool hertz : {false, true})
+    for (const double off : {0.0, 1e-3, 4e-3, 7e-3, 8.5e-3}) {
+      const auto energy = [&](double x, double overlap) {
+        const Feet feet = feetInCrease(radius, overlap, x, slope);
+        const FeetLoads loads(feet, radius, hertz);
+        const auto u = [&](double depth) {
+          return hertz ? 0.4 * depth * depth * std::sqrt(depth) : 0.5 * depth * depth;
+        };
+        double sum = 0;
+        for (int k = 0; k < feet.count; ++k) sum += u(radius - feet.foot[k].distance);
+        for (int m = 0; m < loads.merges(); ++m) sum -= u(loads.merged(m));
+        return sum;
+      };
+      const Feet feet = feetInCrease(radius, 1e-3, off, slope);
+      ASSERT_EQ(feet.count, 2) << off;
+      const FeetLoads loads(feet, radius, hertz);
+      EXPECT_EQ(loads.merges(), 1);
+      Vec3d force;
+      for (int k = 0; k < 2; ++k) {
+        const double depth = loads.overlap(k);
+        force += feet.foot[k].normal * (hertz ? depth * std::sqrt(depth) : depth);
+      }
+      const double along = std::sqrt(1 + slope * slope);
+      const double up = (energy(off, 1e-3 + rise) - energy(off, 1e-3 - rise)) / (2 * rise * along);
+      const double aside = -(energy(off + step, 1e-3) - energy(off - step, 1e-3)) / (2 * step);
+      // The direction of the crease's bottom lies between the normals, to the square of the angle between them.
+      EXPECT_NEAR(force.z, up, 3e-3 * up) << off << (hertz ? " hertz" : "");
+      EXPECT_NEAR(force.x, aside, 3e-3 * up) << off << (hertz ? " hertz" : "");
+    }
+}
+
+TEST(FeetLoads, OnTheStepsOfAnEightBitMap_AreThoseOfOneContact) {
+  // A dish of 10 m radius in steps of 0.4 mm, 30 pixels on the sphere's radius.
+  const double radius = 0.3, steps = 0.1 / 255;
+  const HeightField dish = fieldOf(Interpolation::monotone, 201, 201, [&](double x, double y) {
+    return std::floor(((x - 1) * (x - 1) + y * y) / 20 / steps + 0.5) * steps;
+  });
+  const SearchedHeightField searched(Exec{}, dish, radius);
+  int several = 0;
+  for (int k = 0; k < 200; ++k) {
+    Vec3d p{random(k, 0, 0.3, 1.7), random(k, 1, -0.7, 0.7), 0};
+    double low = 0, high = 1;
+    const double overlap = 1e-2 * radius;
+    for (int b = 0; b < 40; ++b) {
+      p.z = 0.5 * (low + high);
+      FootPoint foot;
+      (deepestFoot(searched.view(), p, radius, foot) && radius - foot.distance > overlap ? low : high) = p.z;
+    }
+    Feet feet;
+    FeetSearch(searched.view(), p, radius).run(feet);
+    const FeetLoads loads(feet, radius, false);
+    double up = 0;
+    for (int f = 0; f < feet.count; ++f) up += loads.overlap(f) * feet.foot[f].normal.z;
+    several += feet.count > 1;
+    EXPECT_GT(up, 0.97 * overlap) << feet.count << " feet";
+    EXPECT_LT(up, 1.05 * overlap) << feet.count << " feet"; // the steps' edges are apart by their kink
+  }
+  EXPECT_GT(several, 50);
+}
+
+TEST_P(OnEveryGround, SphereInACone_TouchesAllAround) {
+  // A ring of more minima than there are places.
+  const double radius = 0.15;
+  const HeightField cone = fieldOf(GetParam(), 201, 201, [](double x, double y) { return std::hypot(x - 1, y); });
+  for (const double overlap : {1e-3, 1e-2}) {
+    const Feet feet = feetOf(cone, {1, 0, radius * std::sqrt(2.0) - overlap}, radius);
+    EXPECT_GE(feet.count, 4);
+    const FeetLoads loads(feet, radius, false);
+    Vec3d sum;
+    for (int k = 0; k < feet.count; ++k) sum += feet.foot[k].normal * loads.overlap(k);
+    EXPECT_LT(std::hypot(sum.x, sum.y), 0.25 * sum.z) << overlap;
   }
 }
 
