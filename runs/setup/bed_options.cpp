@@ -89,10 +89,13 @@ std::optional<Edge> steepestEdge(const terrain::HeightField& surface, double sma
 
 terrain::HeightField readSurface(const scene::Scene& scene) { return readGround(scene).surface; }
 
-std::optional<terrain::HeightField> rigidFloor(const scene::Scene& scene) {
+std::optional<terrain::HeightField> floorShape(const scene::Scene& scene) {
   if (!scene.terrain) return {};
-  terrain::HeightField surface = readSurface(scene);
-  return scene.terrain->granular() ? terrain::planBed(surface, bedOptions(scene)).floor : std::move(surface);
+  const scene::Terrain& t = *scene.terrain;
+  if (!t.granular()) return readSurface(scene);
+  if (t.floor == terrain::FloorShape::flat)
+    return terrain::HeightField::flat({0, t.size[0], -0.5 * t.size[1], 0.5 * t.size[1]}, 0);
+  return terrain::planBed(readSurface(scene), bedOptions(scene)).floor;
 }
 
 TerrainRemarks terrainRemarks(const scene::Scene& scene) {
