@@ -92,10 +92,8 @@ terrain::HeightField readSurface(const scene::Scene& scene) { return readGround(
 std::optional<terrain::HeightField> floorShape(const scene::Scene& scene) {
   if (!scene.terrain) return {};
   const scene::Terrain& t = *scene.terrain;
-  if (!t.granular()) return readSurface(scene);
-  if (t.floor == terrain::FloorShape::flat)
-    return terrain::HeightField::flat({0, t.size[0], -0.5 * t.size[1], 0.5 * t.size[1]}, 0);
-  return terrain::planBed(readSurface(scene), bedOptions(scene)).floor;
+  if (!t.granular() || t.floor == terrain::FloorShape::follow) return readSurface(scene);
+  return terrain::HeightField::flat({0, t.size[0], -0.5 * t.size[1], 0.5 * t.size[1]}, 0);
 }
 
 TerrainRemarks terrainRemarks(const scene::Scene& scene) {

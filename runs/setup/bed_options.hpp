@@ -14,8 +14,8 @@ namespace grouser::setup {
 /// The ground's surface as the height-map says. Throws InputError where that cannot be read.
 terrain::HeightField readSurface(const scene::Scene& scene);
 
-/// The rigid floor that grains touch: the ground, or what a bed lies on; a flat one at any height, without reading the
-/// height-map. Empty without terrain.
+/// The rigid floor that grains touch, at any height: the ground, or below a bed its shape or a plane, for which the
+/// height-map is not read. Empty without terrain.
 std::optional<terrain::HeightField> floorShape(const scene::Scene& scene);
 
 /// What may surprise in a valid height-map.
