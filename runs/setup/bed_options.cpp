@@ -10,41 +10,41 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
-#include <utility>
 
 namespace grouser::setup {
 
 namespace {
 
-/// The picture, and the surface through its pixels.
-struct Ground {
-  terrain::Heightmap map;
-  terrain::HeightField surface;
-};
-
-Ground readGround(const scene::Scene& scene) {
-  const scene::Terrain& t = *scene.terrain;
-  terrain::HeightmapPlacement placement;
-  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
-  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
-  placement.interpolation = t.interpolation;
+/// What `read` returns of the scene's height-map; its errors name the key.
+template <class Read> auto ofHeightmap(const scene::Scene& scene, const Read& read) {
   try {
-    terrain::Heightmap map = terrain::loadHeightmap(t.heightmap);
-    terrain::HeightField surface = terrain::heightFieldOf(map, placement);
-    return {std::move(map), std::move(surface)};
+    return read();
   } catch (const base::InputError& error) {
     scene.fail("terrain", "heightmap", fmt::format("is of no use: {}", error.what()));
   }
 }
 
+terrain::Heightmap readMap(const scene::Scene& scene) {
+  return ofHeightmap(scene, [&] { return terrain::loadHeightmap(scene.terrain->heightmap); });
+}
+
+terrain::HeightField surfaceOf(const scene::Scene& scene, const terrain::Heightmap& map) {
+  const scene::Terrain& t = *scene.terrain;
+  terrain::HeightmapPlacement placement;
+  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
+  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
+  placement.interpolation = t.interpolation;
+  return ofHeightmap(scene, [&] { return terrain::heightFieldOf(map, placement); });
+}
+
 /// A steep place of a surface.
-struct Edge {
+struct SteepPlace {
   double slope, x, y; ///< [-], [m]
 };
 
-Edge steepestInCell(const terrain::HeightFieldView& surface, int i, int j) {
+SteepPlace steepestInCell(const terrain::HeightFieldView& surface, int i, int j) {
   constexpr int kParts = 4; // with the cell's corners and the middles of its sides, where single pixels are steepest
-  Edge worst{};
+  SteepPlace worst{};
   for (int b = 0; b <= kParts; ++b)
     for (int a = 0; a <= kParts; ++a) {
       const double x = surface.xMin + (i + double(a) / kParts) * surface.dx,
@@ -70,16 +70,16 @@ double riseAbout(const terrain::HeightFieldView& surface, int i, int j, double r
 }
 
 /// The steepest edge that grains can be pressed through: steeper than 63 degrees, and higher than a tenth of a radius.
-std::optional<Edge> steepestEdge(const terrain::HeightField& surface, double smallestRadius) {
+std::optional<SteepPlace> steepestEdge(const terrain::HeightField& surface, double smallestRadius) {
   constexpr double kSteep = 2; // [-]
   const double least = 0.1 * smallestRadius;
   const terrain::HeightFieldView view = surface.view();
-  Edge worst{kSteep, 0, 0};
+  SteepPlace worst{kSteep, 0, 0};
   if (surface.bounds().slope <= kSteep) return {};
   for (int j = 0; j + 1 < surface.rows(); ++j)
     for (int i = 0; i + 1 < surface.columns(); ++i) {
       if (surface.boundsOfCell(i, j).slope <= worst.slope) continue;
-      const Edge here = steepestInCell(view, i, j);
+      const SteepPlace here = steepestInCell(view, i, j);
       if (here.slope > worst.slope && riseAbout(view, i, j, least) > least) worst = here;
     }
   return worst.slope > kSteep ? std::optional(worst) : std::nullopt;
@@ -87,7 +87,7 @@ std::optional<Edge> steepestEdge(const terrain::HeightField& surface, double sma
 
 } // namespace
 
-terrain::HeightField readSurface(const scene::Scene& scene) { return readGround(scene).surface; }
+terrain::HeightField readSurface(const scene::Scene& scene) { return surfaceOf(scene, readMap(scene)); }
 
 std::optional<terrain::HeightField> floorShape(const scene::Scene& scene) {
   if (!scene.terrain) return {};
@@ -98,17 +98,17 @@ std::optional<terrain::HeightField> floorShape(const scene::Scene& scene) {
 
 TerrainRemarks terrainRemarks(const scene::Scene& scene) {
   if (!scene.terrain) return {};
-  const Ground ground = readGround(scene);
+  const terrain::Heightmap map = readMap(scene);
   const std::string name = fmt::format("terrain.heightmap = {}", scene.terrain->heightmap);
   TerrainRemarks remarks;
-  if (ground.map.colour)
+  if (map.colour)
     remarks.notes.push_back(name + " is a picture in colour: heights follow its luminance, 0.2126 red + 0.7152 green + "
                                    "0.0722 blue; save it in grey if that is not meant");
-  if (ground.map.transparent)
+  if (map.transparent)
     remarks.notes.push_back(name + " has transparent pixels: heights follow their colour, alpha is ignored; save the "
                                    "picture without an alpha channel");
   if (!scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return remarks;
-  if (const std::optional<Edge> edge = steepestEdge(ground.surface, bedOptions(scene).smallestRadius()))
+  if (const std::optional<SteepPlace> edge = steepestEdge(surfaceOf(scene, map), bedOptions(scene).smallestRadius()))
     remarks.warnings.push_back(fmt::format(
         "the floor below the bed follows {}, which rises by {:.3g} m a metre ({:.0f} degrees) at ({:.4g}, {:.4g}) m: "
         "grains can be pressed through such an edge while the bed settles; set terrain.floor = \"flat\", or spread "
