@@ -65,13 +65,28 @@ std::uint32_t wordAt(const std::vector<stbi_uc>& bytes, std::size_t at) {
   return word;
 }
 
+// Places in a PNG: its first chunk must be the header, IHDR.
+constexpr std::size_t kHeaderTypeAt = 12, kWidthAt = 16, kHeightAt = 20, kDepthAt = 24, kColourTypeAt = 25,
+                      kInterlacedAt = 28;
+
+std::string chunkType(const std::vector<stbi_uc>& bytes, std::size_t at) {
+  std::string type(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                   bytes.begin() + static_cast<std::ptrdiff_t>(at + 4));
+  std::replace_if(
+      type.begin(), type.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return type;
+}
+
+bool isPngWithoutHeader(const std::vector<stbi_uc>& bytes) {
+  return isPng(bytes) && (bytes.size() < kWidthAt || chunkType(bytes, kHeaderTypeAt) != "IHDR");
+}
+
 /// Columns and rows as the head of a PNG says (the decoder does not tell why it takes no large ones); 0 of another
 /// file.
 std::pair<std::int64_t, std::int64_t> sizeOfPng(const std::vector<stbi_uc>& bytes) {
-  constexpr std::size_t kWidth = 16, kHeight = 20, kEnd = 24; // places in the first chunk, IHDR
-  if (bytes.size() < kEnd || !isPng(bytes)) return {0, 0};
+  if (bytes.size() < kDepthAt || !isPng(bytes)) return {0, 0};
   constexpr std::uint32_t kMost = 0x7FFFFFFF; // the format's limit
-  return {std::min(wordAt(bytes, kWidth), kMost), std::min(wordAt(bytes, kHeight), kMost)};
+  return {std::min(wordAt(bytes, kWidthAt), kMost), std::min(wordAt(bytes, kHeightAt), kMost)};
 }
 
 /// CRC-32 of ISO/IEC 15948, annex D.
@@ -86,48 +101,99 @@ std::uint32_t crcOf(const stbi_uc* bytes, std::size_t count) {
   return ~crc;
 }
 
-/// Whether the pixels' stream, in zlib's format, ends with the Adler-32 checksum of what it unpacks to (RFC 1950).
-bool isSound(const std::vector<char>& stream) {
-  int count = 0;
-  const std::unique_ptr<char, FreePixels> unpacked(
-      stbi_zlib_decode_malloc(stream.data(), static_cast<int>(stream.size()), &count));
-  if (!unpacked || stream.size() < 4) return false;
-  constexpr std::uint32_t kPrime = 65521;
-  std::uint32_t a = 1, b = 0;
-  for (int k = 0; k < count; ++k) {
-    a = (a + static_cast<unsigned char>(unpacked.get()[k])) % kPrime;
-    b = (b + a) % kPrime;
-  }
-  const std::vector<stbi_uc> tail(stream.end() - 4, stream.end());
-  return (b << 16 | a) == wordAt(tail, 0);
-}
-
-/// Names a damaged chunk of a PNG, since the decoder checks no checksums: " (wrong checksum of chunk IDAT at byte 41)".
-/// Empty for sound files and other formats.
-std::string damagedChunk(const std::vector<stbi_uc>& bytes) {
-  constexpr std::size_t kAround = 12; // length, type and checksum of a chunk
-  if (!isPng(bytes)) return {};
-  std::vector<char> stream;
-  for (std::size_t at = std::size(kSignature); at + kAround <= bytes.size();) {
-    const std::size_t length = wordAt(bytes, at);
-    const std::string type(bytes.begin() + static_cast<std::ptrdiff_t>(at + 4),
-                           bytes.begin() + static_cast<std::ptrdiff_t>(at + 8));
-    if (length > bytes.size() - at - kAround) break;
-    if (crcOf(&bytes[at + 4], length + 4) != wordAt(bytes, at + 8 + length))
-      return fmt::format(" (wrong checksum of chunk {} at byte {})", type, at);
-    if (type == "IDAT")
-      stream.insert(stream.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at + 8),
-                    bytes.begin() + static_cast<std::ptrdiff_t>(at + 8 + length));
-    if (type == "IEND") return isSound(stream) ? "" : " (wrong checksum of the pixels)";
-    at += length + kAround;
-  }
-  return " (no end mark)";
-}
-
 /// " (bad file)": what the decoder says to its last failure; empty where it says nothing.
 std::string decodersReason() {
   const char* reason = stbi_failure_reason();
   return reason && *reason ? fmt::format(" ({})", reason) : "";
+}
+
+/// Chunks of a PNG that its pixels follow from, besides its header.
+struct PngPixels {
+  std::vector<char> stream;      ///< of all chunks IDAT, in zlib's format
+  std::size_t colours{0};        ///< of the palette
+  std::size_t transparencyAt{0}; ///< byte where the type of chunk tRNS stands; 0: there is none
+};
+
+/// What the pixels of a PNG unpack to: a filter and the samples of each row; of interlaced ones in seven pictures.
+std::int64_t unpackedBytes(const std::vector<stbi_uc>& bytes) {
+  struct Part {
+    std::int64_t x, y, dx, dy; ///< first column and row, and the distances to the next
+  };
+  constexpr Part kParts[] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                             {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}, {0, 0, 1, 1}};
+  constexpr int kSamples[] = {1, 0, 3, 1, 2, 0, 4}; // of a pixel, by colour type
+  const auto [columns, rows] = sizeOfPng(bytes);
+  const bool interlaced = bytes[kInterlacedAt] != 0;
+  std::int64_t total = 0;
+  for (int k = interlaced ? 0 : 7; k < (interlaced ? 7 : 8); ++k) {
+    const Part& p = kParts[k];
+    const std::int64_t across = (columns - p.x + p.dx - 1) / p.dx, down = (rows - p.y + p.dy - 1) / p.dy;
+    if (across > 0) total += down * (1 + (across * kSamples[bytes[kColourTypeAt]] * bytes[kDepthAt] + 7) / 8);
+  }
+  return total;
+}
+
+/// The decoder copies colours beyond the palette from memory that was never set. It decodes the numbers of the colours
+/// as levels of grey where the header names that colour type.
+std::string paletteFault(std::vector<stbi_uc> bytes, const PngPixels& pixels) {
+  constexpr int kGrey = 0, kPalette = 3;
+  const int most = (1 << bytes[kDepthAt]) - 1;
+  if (bytes[kColourTypeAt] != kPalette || pixels.colours > static_cast<std::size_t>(most)) return {};
+  bytes[kColourTypeAt] = kGrey;
+  if (pixels.transparencyAt > 0) bytes[pixels.transparencyAt] = 'x'; // of a palette: no chunk that grey may have
+  int columns = 0, rows = 0, channels = 0;
+  const std::unique_ptr<stbi_uc, FreePixels> levels(
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &columns, &rows, &channels, 1));
+  if (!levels) return decodersReason();
+  const stbi_uc* const end = levels.get() + static_cast<std::ptrdiff_t>(columns) * rows;
+  const std::size_t highest =
+      static_cast<std::size_t>(*std::max_element<const stbi_uc*>(levels.get(), end)) * most / 255;
+  if (highest < pixels.colours) return {};
+  return fmt::format(" (a pixel has colour {}, the palette ends at {})", highest,
+                     static_cast<std::int64_t>(pixels.colours) - 1);
+}
+
+/// Compares the stream with its Adler-32 checksum (RFC 1950) and with the header.
+std::string pixelFault(const std::vector<stbi_uc>& bytes, const PngPixels& pixels) {
+  if (pixels.stream.size() < 4) return " (no pixels)";
+  int count = 0;
+  const std::unique_ptr<char, FreePixels> unpacked(
+      stbi_zlib_decode_malloc(pixels.stream.data(), static_cast<int>(pixels.stream.size()), &count));
+  constexpr std::uint32_t kPrime = 65521;
+  std::uint32_t a = 1, b = 0;
+  for (int k = 0; unpacked && k < count; ++k) {
+    a = (a + static_cast<unsigned char>(unpacked.get()[k])) % kPrime;
+    b = (b + a) % kPrime;
+  }
+  const std::vector<stbi_uc> tail(pixels.stream.end() - 4, pixels.stream.end());
+  if (!unpacked || (b << 16 | a) != wordAt(tail, 0)) return " (wrong checksum of the pixels)";
+  if (const std::int64_t announced = unpackedBytes(bytes); count != announced)
+    return fmt::format(" ({} bytes of pixels, the header announces {})", count, announced);
+  return paletteFault(bytes, pixels);
+}
+
+/// The fault of a damaged PNG, since the decoder checks no checksums: " (wrong checksum of chunk IDAT at byte 41)".
+/// Empty for sound files and other formats. The header must be one that the decoder accepts.
+std::string pngFault(const std::vector<stbi_uc>& bytes) {
+  constexpr std::size_t kAround = 12; // length, type and checksum of a chunk
+  if (!isPng(bytes)) return {};
+  PngPixels pixels;
+  for (std::size_t at = std::size(kSignature); at + kAround <= bytes.size();) {
+    const std::size_t length = wordAt(bytes, at), from = at + 8;
+    const std::string type = chunkType(bytes, at + 4);
+    if (length > bytes.size() - at - kAround)
+      return fmt::format(" (chunk {} at byte {} announces {} bytes, more than follow)", type, at, length);
+    if (crcOf(&bytes[at + 4], length + 4) != wordAt(bytes, from + length))
+      return fmt::format(" (wrong checksum of chunk {} at byte {})", type, at);
+    if (type == "IDAT")
+      pixels.stream.insert(pixels.stream.end(), bytes.begin() + static_cast<std::ptrdiff_t>(from),
+                           bytes.begin() + static_cast<std::ptrdiff_t>(from + length));
+    if (type == "PLTE") pixels.colours = length / 3;
+    if (type == "tRNS") pixels.transparencyAt = at + 4;
+    if (type == "IEND") return pixelFault(bytes, pixels);
+    at += length + kAround;
+  }
+  return " (no end mark)";
 }
 
 /// The decoder fills what is missing of a JPEG with grey: its end mark must be there.
@@ -174,6 +240,8 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
   if (bytes.size() > 0x7FFFFFFF) fail("larger than 2 GiB; give a smaller picture");
   const int size = static_cast<int>(bytes.size());
 
+  if (isPngWithoutHeader(bytes))
+    fail("the picture is damaged or cut short (its first chunk is not IHDR); save or copy it again");
   if (const auto [columns, rows] = sizeOfPng(bytes); columns * rows > kMaxPixels)
     fail(fmt::format("{} x {} pixels; at most 2^28 can be taken, give a smaller picture", columns, rows));
 
@@ -190,13 +258,13 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
 
   const std::size_t count = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
   const bool deep = stbi_is_16_bit_from_memory(bytes.data(), size);
-  const std::string damage = isCutShort(bytes) ? " (no end mark)" : damagedChunk(bytes);
+  const std::string damage = isCutShort(bytes) ? " (no end mark)" : pngFault(bytes);
   const auto decode = [&](auto load, int white) {
     auto* const decoded = load(bytes.data(), size, &map.columns, &map.rows, &channels, 0);
     const std::unique_ptr<std::remove_pointer_t<decltype(decoded)>, FreePixels> pixels(decoded);
     if (!pixels || !damage.empty())
       fail(fmt::format("{} announced, but the picture is damaged or cut short{}; save or copy it again", dimensions,
-                       pixels ? damage : decodersReason()));
+                       damage.empty() ? decodersReason() : damage));
     map.colour = isColour(pixels.get(), count, channels);
     map.transparent = isTransparent(pixels.get(), count, channels, white);
     map.brightness = brightnessOf(pixels.get(), count, channels, white);

@@ -25,8 +25,8 @@ struct Heightmap {
 /// lossy: for lack of a better source).
 /// Colour becomes luminance Y = 0.2126 R + 0.7152 G + 0.0722 B of the stored values (weights of ITU-R BT.709); alpha is
 /// ignored. No gamma is applied: the value of a pixel is proportional to height.
-/// InputError: no such file, not a picture, damaged (a PNG's checksums are checked), cut short, fewer than 2 pixels a
-/// side, or more than 2^28 pixels.
+/// InputError: no such file, not a picture, damaged (of a PNG: checksums, amount of pixels and colours beyond the
+/// palette), cut short, fewer than 2 pixels a side, or more than 2^28 pixels.
 Heightmap loadHeightmap(const std::filesystem::path& file);
 
 /// Where a height-map lies in the world.

@@ -131,8 +131,9 @@ std::string porosityWarning(const simulation::Simulation& simulation) {
 }
 
 void warnOfTerrain(const scene::Scene& scene) {
-  for (const std::string& warning : setup::terrainWarnings(scene)) support::tell("WARNING: {}\n", warning);
-  for (const std::string& note : setup::terrainNotes(scene)) support::tell("grouser: note: {}\n", note);
+  const setup::TerrainRemarks remarks = setup::terrainRemarks(scene);
+  for (const std::string& warning : remarks.warnings) support::tell("WARNING: {}\n", warning);
+  for (const std::string& note : remarks.notes) support::tell("grouser: note: {}\n", note);
 }
 
 } // namespace grouser::commands

@@ -42,7 +42,7 @@ std::string porosityWarning(double wanted, const terrain::BedStructure& bed, con
 /// The same for the bed of a run; empty without a requested porosity.
 std::string porosityWarning(const simulation::Simulation& simulation);
 
-/// Prints what setup::terrainWarnings() and terrainNotes() say of the height-map.
+/// Prints setup::terrainRemarks().
 void warnOfTerrain(const scene::Scene& scene);
 
 } // namespace grouser::commands

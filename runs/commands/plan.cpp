@@ -11,6 +11,7 @@
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/drive_length.hpp"
+#include "runs/setup/free_surface_notes.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -292,10 +293,12 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
     text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
                         "(docs/step_limits.md)\n",
                         base::roundedDown(calm, 4));
-  for (const std::string& warning : setup::terrainWarnings(scene)) text += fmt::format("\nWARNING: {}\n", warning);
-  for (const std::string& note : setup::terrainNotes(scene)) text += fmt::format("\nnote: {}\n", note);
+  const setup::TerrainRemarks remarks = setup::terrainRemarks(scene);
+  for (const std::string& warning : remarks.warnings) text += fmt::format("\nWARNING: {}\n", warning);
+  for (const std::string& note : remarks.notes) text += fmt::format("\nnote: {}\n", note);
   for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nwarning: {}\n", warning);
   for (const std::string& note : setup::meshNotes(scene)) text += fmt::format("\nnote: {}\n", note);
+  for (const std::string& note : setup::freeSurfaceNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   if (!scene.mechanism.empty()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nwarning: {}\n", warning);

@@ -2,6 +2,7 @@
 #include "runs/commands/run_warnings.hpp"
 
 #include "runs/setup/drive_length.hpp"
+#include "runs/setup/free_surface_notes.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/support/tell.hpp"
@@ -16,6 +17,7 @@ void warnOf(const scene::Scene& scene, const simulation::Simulation& simulation)
     if (const std::string warning = spheredecomp::protrusionWarning(cut); !warning.empty())
       support::tell("WARNING: {}\n", warning);
   for (const std::string& note : setup::meshNotes(scene)) support::tell("grouser: note: {}\n", note);
+  for (const std::string& note : setup::freeSurfaceNotes(scene)) support::tell("grouser: note: {}\n", note);
   if (!simulation.mechanism()) return;
   if (const std::string warning = setup::tensionStepWarningAtStart(scene, simulation.timeStep()); !warning.empty())
     support::tell("grouser: warning: {}\n", warning);

@@ -6,59 +6,115 @@
 #include "runs/scene/bed_radii.hpp"
 #include "terrain/heightmap.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 
 namespace grouser::setup {
 
-terrain::HeightField readSurface(const scene::Scene& scene) {
-  const scene::Terrain& t = *scene.terrain;
-  terrain::HeightmapPlacement placement;
-  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
-  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
-  placement.interpolation = t.interpolation;
+namespace {
+
+/// What `read` returns of the scene's height-map; its errors name the key.
+template <class Read> auto ofHeightmap(const scene::Scene& scene, const Read& read) {
   try {
-    return terrain::heightFieldOf(terrain::loadHeightmap(t.heightmap), placement);
+    return read();
   } catch (const base::InputError& error) {
     scene.fail("terrain", "heightmap", fmt::format("is of no use: {}", error.what()));
   }
 }
 
-std::vector<std::string> terrainNotes(const scene::Scene& scene) {
-  if (!scene.terrain) return {};
-  const terrain::Heightmap map = terrain::loadHeightmap(scene.terrain->heightmap);
-  const std::string name = fmt::format("terrain.heightmap = {}", scene.terrain->heightmap);
-  std::vector<std::string> notes;
-  if (map.colour)
-    notes.push_back(name + " is a picture in colour: heights follow its luminance, 0.2126 red + 0.7152 green + 0.0722 "
-                           "blue; save it in grey if that is not meant");
-  if (map.transparent)
-    notes.push_back(name + " has transparent pixels: heights follow their colour, alpha is ignored; save the picture "
-                           "without an alpha channel");
-  return notes;
+terrain::Heightmap readMap(const scene::Scene& scene) {
+  return ofHeightmap(scene, [&] { return terrain::loadHeightmap(scene.terrain->heightmap); });
 }
 
-std::vector<std::string> terrainWarnings(const scene::Scene& scene) {
+terrain::HeightField surfaceOf(const scene::Scene& scene, const terrain::Heightmap& map) {
+  const scene::Terrain& t = *scene.terrain;
+  terrain::HeightmapPlacement placement;
+  placement.sizeX = t.size[0], placement.sizeY = t.size[1];
+  placement.black = t.heightRange[0], placement.white = t.heightRange[1];
+  placement.interpolation = t.interpolation;
+  return ofHeightmap(scene, [&] { return terrain::heightFieldOf(map, placement); });
+}
+
+/// A steep place of a surface.
+struct SteepPlace {
+  double slope, x, y; ///< [-], [m]
+};
+
+SteepPlace steepestInCell(const terrain::HeightFieldView& surface, int i, int j) {
+  constexpr int kParts = 4; // with the cell's corners and the middles of its sides, where single pixels are steepest
+  SteepPlace worst{};
+  for (int b = 0; b <= kParts; ++b)
+    for (int a = 0; a <= kParts; ++a) {
+      const double x = surface.xMin + (i + double(a) / kParts) * surface.dx,
+                   y = surface.yMin + (j + double(b) / kParts) * surface.dy;
+      const terrain::SurfaceJet s = surface.jet(x, y);
+      const double slope = std::sqrt(s.hx * s.hx + s.hy * s.hy);
+      if (slope > worst.slope) worst = {slope, x, y};
+    }
+  return worst;
+}
+
+/// How much pixels differ in height within `reach` of a cell [m].
+double riseAbout(const terrain::HeightFieldView& surface, int i, int j, double reach) {
+  const int across = static_cast<int>(std::min<double>(reach / surface.dx, surface.columns)),
+            along = static_cast<int>(std::min<double>(reach / surface.dy, surface.rows));
+  double lowest = surface.heights[static_cast<std::size_t>(j) * surface.columns + i], highest = lowest;
+  for (int b = std::max(0, j - along); b <= std::min(surface.rows - 1, j + 1 + along); ++b)
+    for (int a = std::max(0, i - across); a <= std::min(surface.columns - 1, i + 1 + across); ++a) {
+      const double h = surface.heights[static_cast<std::size_t>(b) * surface.columns + a];
+      lowest = std::min(lowest, h), highest = std::max(highest, h);
+    }
+  return highest - lowest;
+}
+
+/// The steepest edge that grains can be pressed through: steeper than 63 degrees, and higher than a tenth of a radius.
+std::optional<SteepPlace> steepestEdge(const terrain::HeightField& surface, double smallestRadius) {
   constexpr double kSteep = 2; // [-]
-  if (!scene.terrain || !scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return {};
-  const terrain::HeightField surface = readSurface(scene);
-  if (surface.bounds().slope <= kSteep) return {};
+  const double least = 0.1 * smallestRadius;
   const terrain::HeightFieldView view = surface.view();
-  double steepest = 0, x = 0, y = 0;
+  SteepPlace worst{kSteep, 0, 0};
+  if (surface.bounds().slope <= kSteep) return {};
   for (int j = 0; j + 1 < surface.rows(); ++j)
     for (int i = 0; i + 1 < surface.columns(); ++i) {
-      const double atX = view.xMin + (i + 0.5) * view.dx, atY = view.yMin + (j + 0.5) * view.dy;
-      const terrain::SurfaceJet s = view.jet(atX, atY);
-      const double slope = std::sqrt(s.hx * s.hx + s.hy * s.hy);
-      if (slope > steepest) steepest = slope, x = atX, y = atY;
+      if (surface.boundsOfCell(i, j).slope <= worst.slope) continue;
+      const SteepPlace here = steepestInCell(view, i, j);
+      if (here.slope > worst.slope && riseAbout(view, i, j, least) > least) worst = here;
     }
-  if (steepest <= kSteep) return {};
-  return {fmt::format(
-      "the floor below the bed follows terrain.heightmap = {}, which rises by {:.3g} m a metre ({:.0f} degrees) at "
-      "({:.4g}, {:.4g}) m: grains can be pressed through such an edge while the bed settles; set terrain.floor = "
-      "\"flat\", or spread the edge over more pixels",
-      scene.terrain->heightmap, steepest, base::atan2(steepest, 1.0) * 180 / base::kPi, x, y)};
+  return worst.slope > kSteep ? std::optional(worst) : std::nullopt;
+}
+
+} // namespace
+
+terrain::HeightField readSurface(const scene::Scene& scene) { return surfaceOf(scene, readMap(scene)); }
+
+std::optional<terrain::HeightField> floorShape(const scene::Scene& scene) {
+  if (!scene.terrain) return {};
+  const scene::Terrain& t = *scene.terrain;
+  if (!t.granular() || t.floor == terrain::FloorShape::follow) return readSurface(scene);
+  return terrain::HeightField::flat({0, t.size[0], -0.5 * t.size[1], 0.5 * t.size[1]}, 0);
+}
+
+TerrainRemarks terrainRemarks(const scene::Scene& scene) {
+  if (!scene.terrain) return {};
+  const terrain::Heightmap map = readMap(scene);
+  const std::string name = fmt::format("terrain.heightmap = {}", scene.terrain->heightmap);
+  TerrainRemarks remarks;
+  if (map.colour)
+    remarks.notes.push_back(name + " is a picture in colour: heights follow its luminance, 0.2126 red + 0.7152 green + "
+                                   "0.0722 blue; save it in grey if that is not meant");
+  if (map.transparent)
+    remarks.notes.push_back(name + " has transparent pixels: heights follow their colour, alpha is ignored; save the "
+                                   "picture without an alpha channel");
+  if (!scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return remarks;
+  if (const std::optional<SteepPlace> edge = steepestEdge(surfaceOf(scene, map), bedOptions(scene).smallestRadius()))
+    remarks.warnings.push_back(fmt::format(
+        "the floor below the bed follows {}, which rises by {:.3g} m a metre ({:.0f} degrees) at ({:.4g}, {:.4g}) m: "
+        "grains can be pressed through such an edge while the bed settles; set terrain.floor = \"flat\", or spread "
+        "the edge over more pixels",
+        name, edge->slope, base::atan2(edge->slope, 1.0) * 180 / base::kPi, edge->x, edge->y));
+  return remarks;
 }
 
 namespace {

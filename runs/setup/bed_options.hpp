@@ -5,6 +5,7 @@
 #include "terrain/bed.hpp"
 #include "terrain/height_field.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,16 @@ namespace grouser::setup {
 /// The ground's surface as the height-map says. Throws InputError where that cannot be read.
 terrain::HeightField readSurface(const scene::Scene& scene);
 
-/// Notes on a valid height-map that may surprise: colour, transparent pixels.
-std::vector<std::string> terrainNotes(const scene::Scene& scene);
-/// A floor below a bed that follows a map with edges so steep that the bed may not settle on it: place and slope.
-std::vector<std::string> terrainWarnings(const scene::Scene& scene);
+/// The rigid floor that grains touch, at any height: the ground, or below a bed its shape or a plane, for which the
+/// height-map is not read. Empty without terrain.
+std::optional<terrain::HeightField> floorShape(const scene::Scene& scene);
+
+/// What may surprise in a valid height-map.
+struct TerrainRemarks {
+  std::vector<std::string> warnings; ///< edges so steep that a bed may not settle on them: place and slope
+  std::vector<std::string> notes;    ///< colour, transparent pixels
+};
+TerrainRemarks terrainRemarks(const scene::Scene& scene);
 
 /// How the scene's bed is laid.
 terrain::BedOptions bedOptions(const scene::Scene& scene);

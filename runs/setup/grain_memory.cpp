@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_memory.hpp"
 
+#include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_model.hpp"
 #include "runs/setup/placement.hpp"
 #include "terrain/grains.hpp"
@@ -11,20 +12,20 @@ namespace grouser::setup {
 
 namespace {
 
-/// As the grains of the scene will have them. Where walls and floor are is not known yet, and does not matter.
+/// As the grains of the scene will have them. Where walls and floor are does not matter.
 struct Traits {
   unsigned features; ///< of the laws, grains and boundaries
   terrain::GrainLayout layout;
   terrain::Precision precision;
 };
-Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds) {
+Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds, const std::optional<terrain::HeightField>& floor) {
   const terrain::Rectangle area = terrainArea(scene).value_or(terrain::Rectangle{});
-  std::optional<terrain::HeightField> floor;
-  if (scene.terrain) floor = terrain::HeightField::flat(area, 0);
   terrain::Boundaries boundaries;
   const terrain::GrainModel model = grainModel(scene, kinds, 0, surroundingsOf(scene, floor, area), boundaries);
   const unsigned features = terrain::featuresOf(model, boundaries, kinds.many());
-  return {features, terrain::layoutOf(features, boundaries.count(model.radius), model.materials.count()),
+  return {features,
+          terrain::layoutOf(features, boundaries.count(model.radius), model.materials.count(),
+                            boundaries.floorPlaces(model.radius)),
           model.precision};
 }
 
@@ -46,7 +47,8 @@ double shareAtBoundaries(const scene::Scene& scene) {
 
 /// Of a grain that may touch a boundary: its place, what they do to it in a step, and springs.
 double bytesAtBoundaries(const Traits& traits) {
-  const auto springs = static_cast<double>(traits.layout.boundaries * traits.layout.historyWidth());
+  const auto springs =
+      static_cast<double>(traits.layout.boundaries * traits.layout.historyWidth() + 3 * traits.layout.places);
   const double load = traits.precision == terrain::Precision::single ? sizeof(terrain::BoundaryLoad<float>)
                                                                      : sizeof(terrain::BoundaryLoad<double>);
   const double fromSurfaces = traits.features & terrain::kSurfaces ? sizeof(base::Vec3d) : 0;
@@ -57,7 +59,9 @@ double bytesAtBoundaries(const Traits& traits) {
 
 unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds) {
   const bool parts = scene.vehicle || !scene.meshes.empty();
-  return traitsOf(scene, kinds).features | (parts ? terrain::kLoads : 0u);
+  std::optional<terrain::HeightField> anyFloor; // features do not depend on its shape
+  if (scene.terrain) anyFloor = terrain::HeightField::flat({0, 1, 0, 1}, 0);
+  return traitsOf(scene, kinds, anyFloor).features | (parts ? terrain::kLoads : 0u);
 }
 
 GrainMemory grainMemory(const scene::Scene& scene) {
@@ -65,7 +69,7 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   // those of them that touch.
   constexpr double kPlaces = 8, kContacts = 4;
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
-  const Traits traits = traitsOf(scene, grainKinds(scene));
+  const Traits traits = traitsOf(scene, grainKinds(scene), floorShape(scene));
   const terrain::GrainLayout& layout = traits.layout;
   const double history = static_cast<double>(layout.historyWidth()) * sizeof(float);
   terrain::GrainLayout bare = layout; // without boundaries

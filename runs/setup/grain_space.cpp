@@ -4,8 +4,10 @@
 #include "base/position.hpp"
 #include "base/rounded.hpp"
 #include "runs/scene/bed_radii.hpp"
+#include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
+#include "terrain/feet_search.hpp"
 #include "terrain/grains.hpp"
 
 #include <fmt/format.h>
@@ -72,18 +74,22 @@ public:
 
   void boundaries() const {
     constexpr std::size_t kMost = 32; // bits of a mask
-    std::size_t ofTerrain = 0;
-    if (scene_.terrain) ofTerrain = 1;
+    std::size_t walls = 0;
     if (scene_.terrain && scene_.terrain->granular() && scene_.terrain->walls)
-      ofTerrain += (scene_.run.periodic[0] ? 0u : 2u) + (scene_.run.periodic[1] ? 0u : 2u);
-    std::size_t count = ofTerrain;
+      walls = (scene_.run.periodic[0] ? 0u : 2u) + (scene_.run.periodic[1] ? 0u : 2u);
+    const std::size_t floor = floorPlaces(kMost - std::min(kMost, walls + surfaces()));
+    std::string others;
+    if (floor > 0) others = ", floor and walls of the terrain among them";
+    if (floor > 1) others += fmt::format(" (the floor as {}, since it has hollows tighter than the grains)", floor);
+    std::size_t count = floor + walls;
     const auto add = [&](const char* list, std::size_t sections) {
       count += sections;
       if (count > kMost)
         scene_.fail(list, sections - 1, "",
                     fmt::format("is one of {} or more planes, boxes and cylinders{}; grains can meet at most {}: leave "
-                                "some out, or join several in one [[mesh]]",
-                                count, ofTerrain > 0 ? ", floor and walls of the terrain among them" : "", kMost));
+                                "some out, or join several in one [[mesh]]{}",
+                                count, others, kMost,
+                                floor > 1 && scene_.terrain->granular() ? ", or set terrain.floor = \"flat\"" : ""));
     };
     add("plane", scene_.planes.size()), add("box", scene_.boxes.size()), add("cylinder", scene_.cylinders.size());
   }
@@ -105,6 +111,14 @@ public:
   }
 
 private:
+  std::size_t surfaces() const { return scene_.planes.size() + scene_.boxes.size() + scene_.cylinders.size(); }
+  /// Contacts that a grain may have with the floor. Its height-map is read only where there is no `room` for the most.
+  std::size_t floorPlaces(std::size_t room) const {
+    if (!scene_.terrain || room >= terrain::Feet::kMost) return scene_.terrain ? 1 : 0;
+    terrain::Boundaries around;
+    around.floor = floorShape(scene_);
+    return static_cast<std::size_t>(around.floorPlaces(kinds_.largest));
+  }
   void radius(const char* list, std::size_t k, const char* key, double smallest) const {
     constexpr double kSmallest = 1e-12; // [m]; no unit of places resolves a hundred-millionth of much less
     if (smallest < kSmallest)

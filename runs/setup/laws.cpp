@@ -161,6 +161,15 @@ double contactTime(const ContactLaw& law, double effectiveMass, double effective
   return quicker * contact::hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).duration;
 }
 
+double restitutionOf(const ContactLaw& law, double effectiveMass, double movedMass) {
+  const double more = std::sqrt(effectiveMass / movedMass); // damping over that which is critical for the moved mass
+  if (law.hertz)
+    return contact::hertzRestitutionOf(more * law.rootDamping / (2 * std::sqrt(1.5 * law.stiffness)), law.attraction);
+  const double zeta = law.rootDamping > 0 ? law.rootDamping / (2 * std::sqrt(law.stiffness))
+                                          : law.damping / (2 * std::sqrt(law.stiffness / effectiveMass));
+  return contact::restitutionOf(more * zeta, law.attraction);
+}
+
 double rayleighTimeOf(const scene::Material& m, double radius) {
   if (!m.hertzian()) return std::numeric_limits<double>::infinity();
   return contact::rayleighTime(radius, m.density, shearModulus(m), *m.poisson);

@@ -29,6 +29,10 @@ contact::Coefficients<double> stiffest(const contact::ContactLaw& law, double ef
 /// Duration of the undamped contact [s]; of a Hertz one at `speed` [m/s].
 double contactTime(const contact::ContactLaw& law, double effectiveMass, double effectiveRadius, double speed);
 
+/// Rebound over impact speed [-] that the law's dashpot makes where bodies of another effective mass meet, `movedMass`
+/// [kg], than the one that its damping follows from.
+double restitutionOf(const contact::ContactLaw& law, double effectiveMass, double movedMass);
+
 /// Time of a Rayleigh wave along half a grain of a hertz material [s]; infinite for a linear one.
 double rayleighTimeOf(const scene::Material& material, double radius);
 

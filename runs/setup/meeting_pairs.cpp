@@ -3,7 +3,6 @@
 
 #include "base/math.hpp"
 #include "base/sphere.hpp"
-#include "contact/restitution.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"
@@ -18,15 +17,6 @@
 namespace grouser::setup {
 
 namespace {
-
-/// Rebound over impact speed that the law's dashpot gives.
-double restitutionOf(const contact::ContactLaw& law, double effectiveMass) {
-  if (law.hertz)
-    return contact::hertzRestitutionOf(law.rootDamping / (2 * std::sqrt(1.5 * law.stiffness)), law.attraction);
-  const double zeta = law.rootDamping > 0 ? law.rootDamping / (2 * std::sqrt(law.stiffness))
-                                          : law.damping / (2 * std::sqrt(law.stiffness / effectiveMass));
-  return contact::restitutionOf(zeta, law.attraction);
-}
 
 /// Where only one of the two has something, the mixing rule makes nothing of it.
 std::vector<std::string> switchedOff(const scene::Material& a, const scene::Material& b,
@@ -69,7 +59,7 @@ private:
     MeetingPair pair{kind.material, partner, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
     if (surface) pair.law = surface->with(pair.law);
     pair.stiffness = pair.law.hertz ? 0.75 * pair.law.stiffness : pair.law.stiffness;
-    pair.restitution = restitutionOf(pair.law, mass);
+    pair.restitution = restitutionOf(pair.law, mass, mass);
     const double effectiveRadius = share * kind.smallest;
     pair.cohesion = pair.law.pull(effectiveRadius) / (2 * base::kPi * effectiveRadius);
     pair.off = switchedOff(scene_.material(kind.material), scene_.material(partner), pair.law);

@@ -3,6 +3,7 @@
 
 #include "assets/generator_heightmaps/shapes.hpp"
 #include "base/error.hpp"
+#include "tests/png_fixture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,61 +20,7 @@ namespace {
 
 using namespace grouser::terrain;
 using grouser::base::InputError;
-using Bytes = std::string;
-
-void append32(Bytes& to, std::uint32_t v) {
-  for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<char>(v >> shift));
-}
-
-std::uint32_t crc32(const Bytes& bytes) {
-  std::uint32_t crc = 0xFFFFFFFFu;
-  for (const unsigned char byte : bytes) {
-    crc ^= byte;
-    for (int k = 0; k < 8; ++k) crc = (crc >> 1) ^ ((crc & 1) ? 0xEDB88320u : 0);
-  }
-  return ~crc;
-}
-
-void appendChunk(Bytes& png, const Bytes& type, const Bytes& data) {
-  append32(png, static_cast<std::uint32_t>(data.size()));
-  png += type + data;
-  append32(png, crc32(type + data));
-}
-
-enum ColourType { kGrey = 0, kRgb = 2, kGreyAlpha = 4, kRgba = 6 };
-
-/// A PNG by the letter of its specification (ISO/IEC 15948), uncompressed; `samples` row by row, channels side by side.
-Bytes png(int columns, int rows, int bits, ColourType colour, const std::vector<int>& samples) {
-  Bytes header;
-  append32(header, columns), append32(header, rows);
-  header += {static_cast<char>(bits), static_cast<char>(colour), 0, 0, 0};
-
-  Bytes scanlines;
-  const std::size_t perRow = samples.size() / rows;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    if (s % perRow == 0) scanlines.push_back(0); // no filter
-    if (bits == 16) scanlines.push_back(static_cast<char>(samples[s] >> 8));
-    scanlines.push_back(static_cast<char>(samples[s]));
-  }
-  const auto length = static_cast<std::uint16_t>(scanlines.size());
-  Bytes zlib{0x78,
-             0x01,
-             0x01,
-             static_cast<char>(length),
-             static_cast<char>(length >> 8),
-             static_cast<char>(~length),
-             static_cast<char>(~length >> 8)};
-  std::uint32_t a = 1, b = 0; // Adler-32
-  for (const unsigned char byte : scanlines) a = (a + byte) % 65521, b = (b + a) % 65521;
-  zlib += scanlines;
-  append32(zlib, b << 16 | a);
-
-  Bytes file = "\x89PNG\r\n\x1a\n";
-  appendChunk(file, "IHDR", header);
-  appendChunk(file, "IDAT", zlib);
-  appendChunk(file, "IEND", "");
-  return file;
-}
+using namespace grouser::pngs;
 
 class HeightmapFile : public ::testing::Test {
 protected:
@@ -155,6 +102,56 @@ TEST_F(HeightmapFile, WrongChecksumOfThePixels_IsFoundUnderASoundChunk) {
   appendChunk(bad, "IDAT", stream);
   appendChunk(bad, "IEND", "");
   EXPECT_NE(errorOf(bad).find("wrong checksum of the pixels"), std::string::npos) << errorOf(bad);
+}
+
+TEST_F(HeightmapFile, ColourBeyondThePalette_IsRefused) {
+  Bytes two; // colours, black and white; of one byte of alpha
+  appendChunk(two, "PLTE", Bytes(3, '\0') + Bytes(3, '\xFF'));
+  Bytes transparent = two;
+  appendChunk(transparent, "tRNS", "\x7F");
+  const Bytes fits{0, 0, 1, 0, 1, 0}, beyond{0, 0, 1, 0, 2, 0};
+  const Bytes fitsInFourBits{0, 0x01, 0, 0x10}, beyondInFourBits{0, 0x01, 0, 0x20};
+  const Bytes differences{0, 1, 0, 1, 1, 0}, sums{0, 1, 1, 1, 1, 1}; // filter 1 adds the pixel to the left
+  const Bytes eight = headerOf(2, 2, 8, kPalette), four = headerOf(2, 2, 4, kPalette);
+  for (const Bytes& chunks : {two, transparent}) {
+    EXPECT_EQ(load(pngOf(eight, fits, chunks)).brightness, (std::vector<double>{0, 1, 1, 0}));
+    EXPECT_EQ(load(pngOf(four, fitsInFourBits, chunks)).brightness, (std::vector<double>{0, 1, 1, 0}));
+    EXPECT_EQ(load(pngOf(eight, differences, chunks)).brightness, (std::vector<double>{1, 0, 1, 1}));
+    for (const Bytes& bad :
+         {pngOf(eight, beyond, chunks), pngOf(four, beyondInFourBits, chunks), pngOf(eight, sums, chunks)})
+      EXPECT_NE(errorOf(bad).find("(a pixel has colour 2, the palette ends at 1)"), std::string::npos) << errorOf(bad);
+  }
+}
+
+TEST_F(HeightmapFile, PixelsThatTheHeaderDoesNotAnnounce_AreRefused) {
+  const Bytes threeRows{0, 1, 2, 0, 3, 4, 0, 5, 6};
+  EXPECT_EQ(errorOf(pngOf(headerOf(2, 3, 8, kGrey), threeRows)), "no error");
+  for (const int rows : {2, 4}) {
+    const std::string message = errorOf(pngOf(headerOf(2, rows, 8, kGrey), threeRows));
+    EXPECT_NE(message.find(rows == 2 ? "(9 bytes of pixels, the header announces 6)" : "the header announces 12"),
+              std::string::npos)
+        << message;
+  }
+  // Interlaced, three of the seven pictures have pixels: (0, 0), (1, 0) and the second row.
+  const Bytes header = headerOf(2, 2, 8, kGrey, true), inParts{0, 10, 0, 20, 0, 30, 40};
+  EXPECT_EQ(load(pngOf(header, inParts)).at(1, 0), 20 / 255.0);
+  EXPECT_NE(errorOf(pngOf(header, inParts + '\x05')).find("the header announces 7"), std::string::npos);
+}
+
+TEST_F(HeightmapFile, DamagedPng_IsRefusedForItsOwnReason) {
+  const Bytes good = png(3, 3, 8, kGrey, {0, 10, 20, 30, 40, 50, 60, 70, 80});
+  Bytes longer = good, unnamed = good, empty = good.substr(0, 33);
+  longer[33] = '\xFF';  // the length of IDAT
+  unnamed.erase(8, 25); // IHDR
+  appendChunk(empty, "IEND", "");
+  const std::vector<std::pair<Bytes, std::string>> cases{
+      {longer, "(chunk IDAT at byte 33 announces 42781"}, // 255 * 2^24 and its own length
+      {unnamed, "(its first chunk is not IHDR)"},
+      {empty, "(no pixels)"},
+      {good.substr(0, good.size() - 5), "(no end mark)"},
+      {good.substr(0, good.size() - 12), "(no end mark)"}};
+  for (const auto& [bytes, cause] : cases)
+    EXPECT_NE(errorOf(bytes).find("damaged or cut short " + cause), std::string::npos) << errorOf(bytes);
 }
 
 TEST_F(HeightmapFile, TransparentPixelsAreKnown_AndOpaqueOnesAreNone) {

@@ -6,9 +6,12 @@
 #include "runs/setup/provenance.hpp"
 
 #include "base/error.hpp"
+#include "tests/png_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -25,41 +28,70 @@ protected:
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// A scene with a bed on assets/heightmaps/step.png.
-  static scene::Scene bed(const std::string& more, const char* map = "heightmaps/step.png") {
+  static scene::Scene bed(const std::string& more, const char* map = "heightmaps/step.png", double height = 0.12) {
     return parseScene("version = 1\n[run]\nduration = 1\n[material.soil]\nstiffness = 1e5\nfriction = 0.4\n"
                       "[terrain]\nheightmap = \"" +
-                          std::string(map) +
-                          "\"\nsize = [0.8, 0.8]\nheight_range = [0, 0.12]\nmaterial = \"soil\"\ngrain_radius = 0.02\n"
-                          "depth = 0.1\n" +
-                          more,
+                          std::string(map) + "\"\nsize = [0.8, 0.8]\nheight_range = [0, " + std::to_string(height) +
+                          "]\nmaterial = \"soil\"\ngrain_radius = 0.02\ndepth = 0.1\n" + more,
                       "bed.toml");
+  }
+  std::string written(const char* name, const std::string& bytes) {
+    const std::string file = (folder_ / name).string();
+    std::ofstream(file, std::ios::binary) << bytes;
+    return file;
+  }
+  /// A level picture of 61 x 61 pixels, some 13 mm apart in bed(), with one white pixel that `height` [m] makes higher.
+  scene::Scene spike(double height, const std::string& more) {
+    std::vector<int> pixels(61 * 61);
+    pixels[30 * 61 + 20] = 255;
+    const std::string file = written("spike.png", pngs::png(61, 61, 8, pngs::kGrey, pixels));
+    return bed(more, file.c_str(), height);
   }
   std::filesystem::path folder_;
 };
 
 TEST_F(TerrainNotes, SteepEdgeUnderABedThatFollowsIt_IsWarnedOf) {
-  const std::vector<std::string> warnings = terrainWarnings(bed(""));
+  const std::vector<std::string> warnings = terrainRemarks(bed("")).warnings;
   ASSERT_EQ(warnings.size(), 1u);
   for (const char* part : {"step.png", "m a metre", "degrees", ") m", "terrain.floor = \"flat\""})
     EXPECT_NE(warnings.front().find(part), std::string::npos) << warnings.front();
-  EXPECT_TRUE(terrainWarnings(bed("floor = \"flat\"\n")).empty());
-  EXPECT_TRUE(terrainWarnings(bed("", "heightmaps/hills.png")).empty());
+  EXPECT_TRUE(terrainRemarks(bed("floor = \"flat\"\n")).warnings.empty());
+  EXPECT_TRUE(terrainRemarks(bed("", "heightmaps/hills.png")).warnings.empty());
+}
+
+TEST_F(TerrainNotes, SinglePixelsAreWarnedOfBySlopeAtTheirSides) {
+  const double spacing = 0.8 / 60;
+  for (const double slope : {1.9, 2.1, 2.5, 2.8, 4.0})
+    for (const bool cubic : {true, false}) {
+      // A cubic is 3/2 as steep midway between two pixels as the line; bilinear cells slope both ways at the top.
+      const double height = slope * spacing / (cubic ? 1.5 : std::sqrt(2.0));
+      const TerrainRemarks remarks = terrainRemarks(spike(height, cubic ? "" : "interpolation = \"bilinear\"\n"));
+      ASSERT_EQ(remarks.warnings.size(), slope > 2 ? 1u : 0u) << slope;
+      if (slope < 2) continue;
+      const std::string rise = fmt::format("rises by {:.3g} m a metre", slope);
+      EXPECT_NE(remarks.warnings.front().find(rise), std::string::npos) << remarks.warnings.front();
+    }
+}
+
+TEST_F(TerrainNotes, EdgesOfASmallPartOfARadiusAreNotWarnedOf) {
+  // Pixels as near as makes the spike's slope 3, whatever its height.
+  const auto warnings = [&](double height) {
+    scene::Scene scene = spike(height, "");
+    scene.terrain->size = {0.8 * height / 0.0267, 0.8 * height / 0.0267};
+    return terrainRemarks(scene).warnings.size();
+  };
+  EXPECT_EQ(warnings(0.02 * 0.02), 0u);
+  EXPECT_EQ(warnings(0.15 * 0.02), 1u);
 }
 
 TEST_F(TerrainNotes, ColourIsNoted) {
-  // Red, black, black, blue.
-  const unsigned char picture[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
-                                   0x44, 0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02, 0x08, 0x02, 0x00, 0x00,
-                                   0x00, 0xfd, 0xd4, 0x9a, 0x73, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x44, 0x41, 0x54, 0x78,
-                                   0xda, 0x63, 0xf8, 0xcf, 0x80, 0x00, 0xff, 0x01, 0x0e, 0x00, 0x01, 0xff, 0xe7, 0x01,
-                                   0x62, 0x0a, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-  const std::string file = (folder_ / "colour.png").string();
-  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(picture), sizeof picture);
-  const std::vector<std::string> notes = terrainNotes(bed("", file.c_str()));
+  const std::string file =
+      written("colour.png", pngs::png(2, 2, 8, pngs::kRgb, {255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255}));
+  const std::vector<std::string> notes = terrainRemarks(bed("", file.c_str())).notes;
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes.front().find("colour.png is a picture in colour"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("luminance"), std::string::npos);
-  EXPECT_TRUE(terrainNotes(bed("")).empty());
+  EXPECT_TRUE(terrainRemarks(bed("")).notes.empty());
 }
 
 TEST_F(TerrainNotes, InterpolationIsMonotoneUnlessTheSceneSaysOtherwise) {
