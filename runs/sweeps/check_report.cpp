@@ -171,9 +171,8 @@ std::vector<CaseCost> costsOf(const CheckRecord& record) {
     if (!output::hasEnded(record.outcomes[r].status)) continue;
     const RunManifest manifest(record.folder / record.runs.plan.runs[r].name);
     Taken& of = taken[record.runs.caseOf[r]];
-    const double whole = manifest.stepsOverTimed();
-    of.wall.push_back(whole * manifest.number("wall_time_s"));
-    of.cpu.push_back(whole * manifest.figure("cpu_steps_s"));
+    of.wall.push_back(manifest.wallTime());
+    of.cpu.push_back(manifest.stepsOverTimed() * manifest.figure("cpu_steps_s"));
     of.steps.push_back(manifest.number("steps"));
   }
   std::vector<CaseCost> costs;
