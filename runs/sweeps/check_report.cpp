@@ -55,7 +55,8 @@ Json errorJson(const AxisError& e, const CheckFigure& f) {
 }
 
 bool isInconclusive(const CheckResults& results, const CheckFigure& f) {
-  return !results.doubt.empty() || studies::isInconclusive({f.value.value, f.bar});
+  const bool isNothing = f.value.value == 0 && f.bar == 0; // in all runs
+  return (!results.doubt.empty() && !isNothing) || studies::isInconclusive({f.value.value, f.bar});
 }
 
 Json figureJson(const CheckFigure& f, const CheckResults& results) {
