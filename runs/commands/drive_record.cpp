@@ -44,7 +44,7 @@ std::string incompleteText(const scene::Scene& scene, const simulation::Simulati
                      drove ? fmt::format("drove {:.2g} teeth, fewer than {:g}", teeth, setup::kFewestTeeth)
                            : "never drove",
                      when, drove ? ", and its figures are inconclusive" : "",
-                     rig->ended().empty() ? "raise run.duration" : "let [stop] end the run later");
+                     rig->ended().empty() ? setup::longerDriveRemedy(scene) : "let [stop] end the run later");
 }
 
 void describeDrive(const scene::Scene& scene, const simulation::Simulation& simulation, double teeth,

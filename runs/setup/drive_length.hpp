@@ -17,6 +17,9 @@ bool asksToDrive(const scene::Scene& scene);
 /// torques decide.
 double teethAsked(const scene::Scene& scene);
 
+/// The setting that lets a vehicle drive farther, as the end of a message.
+std::string longerDriveRemedy(const scene::Scene& scene);
+
 /// Warns before a run whose vehicle cannot pass kFewestTeeth in its duration; empty where it can.
 std::string shortDriveWarning(const scene::Scene& scene);
 
