@@ -71,13 +71,13 @@ std::string shortDriveWarning(const scene::Scene& scene) {
   if (!asksToDrive(scene)) return {};
   const double teeth = teethAsked(scene);
   if (teeth >= kFewestTeeth) return {};
-  constexpr double kNone = 0.01; // a ramp that has just begun
-  return fmt::format(
-      "the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; {}",
-      teeth >= kNone ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives", scene.driver.driveBegins(),
-      scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,
-      teeth >= kNone ? fmt::format(", and figures from fewer than {:g} teeth are inconclusive", kFewestTeeth) : "",
-      longerDriveRemedy(scene));
+  return fmt::format("the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; {}",
+                     teeth >= kLeastTeeth ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
+                     scene.driver.driveBegins(), scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,
+                     teeth >= kLeastTeeth
+                         ? fmt::format(", and figures from fewer than {:g} teeth are inconclusive", kFewestTeeth)
+                         : "",
+                     longerDriveRemedy(scene));
 }
 
 } // namespace grouser::setup

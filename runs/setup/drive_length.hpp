@@ -10,6 +10,9 @@ namespace grouser::setup {
 /// Teeth that a track must pass before means over them count: torque, speed and slip ripple with each tooth [-].
 inline constexpr double kFewestTeeth = 2;
 
+/// Below this a vehicle has not driven: its ramp has just begun [-].
+inline constexpr double kLeastTeeth = 0.01;
+
 /// Whether the driver turns the sprockets. A vehicle that is only set down, or drawn by its hitch, need not drive.
 bool asksToDrive(const scene::Scene& scene);
 
