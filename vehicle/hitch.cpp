@@ -25,7 +25,16 @@ Hitch::Hitch(const HitchOptions& options) : options_(options) {
     throw base::InputError("hitch: stiffness must be above 0, and damping not below");
 }
 
-double Hitch::towedSpeed() const { return options_.kind == HitchKind::sled ? norm(motion_) : speed_; }
+double Hitch::towedSpeed() const {
+  switch (options_.kind) {
+  case HitchKind::sled:
+    return norm(motion_);
+  case HitchKind::speed:
+    return speed_;
+  default:
+    return 0;
+  }
+}
 
 void Hitch::takeHold(const HitchMotion& m) {
   holds_ = true;

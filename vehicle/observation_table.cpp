@@ -27,7 +27,7 @@ struct VectorField {
 constexpr VectorField kVectorFields[] = {
     {"position", "m", "middle of the sprockets' axle line", {"x", "y", "z"}, &Observation::position},
     {"velocity", "m/s", "of the chassis' centre of mass", {"x", "y", "z"}, &Observation::velocity},
-    {"ground_force", "N", "of the ground on all shoes", {"forward", "left", "up"}, &Observation::groundForce},
+    {"ground_force", "N", "of the ground on all bodies", {"forward", "left", "up"}, &Observation::groundForce},
 };
 
 constexpr VehicleField kVehicleFields[] = {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <optional>
 
 namespace grouser::vehicle {
 namespace {
@@ -16,11 +17,10 @@ namespace {
 using base::Vec3d;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStandardGravity = 9.80665;
-/// Below this a sprocket stands and slip has no meaning [rad/s].
-constexpr double kStanding = 1e-6;
 /// Tracks run above, and a hull on standing tracks slides above [m/s]; a hull that was set down swings by less.
 constexpr double kRuns = 1e-4, kSlides = 0.01;
+/// Above this the tracks of a vehicle that went the other way have turned round [m/s]; one that stalls rocks by less.
+constexpr double kTurnedRound = 0.01;
 /// Slack and stretch move the track against the sprocket by less than half a pitch; three quarters is on the way to a
 /// skip.
 constexpr double kSkip = 0.75;
@@ -30,12 +30,20 @@ double continued(double angle, double last) {
   return angle + 2 * base::kPi * std::floor((last - angle) / (2 * base::kPi) + 0.5);
 }
 
+/// Against gravity; world z where there is none.
+Vec3d upOf(const Vec3d& gravity) {
+  const double g = base::norm(gravity);
+  return g > 0 ? gravity * (-1 / g) : Vec3d{0, 0, 1};
+}
+
 /// Does the ground carry more than half of the weight?
-bool stands(const Assembly& vehicle, const GroundLoads& ground) {
-  double up = 0;
+bool stands(const Assembly& vehicle, const GroundLoads& ground, const Vec3d& gravity) {
+  const Vec3d up = upOf(gravity);
+  double carried = 0;
   for (std::size_t body = 0; body < ground.force.size(); ++body)
-    if (static_cast<int>(body) != vehicle.chassis) up += ground.force[body].z; // on its hull the tracks hang
-  return up > 0.5 * vehicle.mass * kStandardGravity;
+    if (static_cast<int>(body) != vehicle.chassis)
+      carried += base::dot(ground.force[body], up); // on it the tracks hang
+  return carried > 0.5 * vehicle.mass * base::norm(gravity);
 }
 
 } // namespace
@@ -81,9 +89,8 @@ bool onGroundRun(const Assembly& vehicle, int track, int shoe, const multibody::
   return p_V.x >= rear_V.x && p_V.x <= front_V.x && p_V.z < std::min(rear_V.z, front_V.z);
 }
 
-double carryingLoad(const Assembly& vehicle) {
-  return 0.01 * vehicle.mass * kStandardGravity /
-         (static_cast<double>(vehicle.tracks.size()) * vehicle.wrap.counts.ground);
+double carryingLoad(const Assembly& vehicle, double gravity) {
+  return 0.01 * vehicle.mass * gravity / (static_cast<double>(vehicle.tracks.size()) * vehicle.wrap.counts.ground);
 }
 
 double sidewaysShift(const Assembly& vehicle, int track, const multibody::State& state) {
@@ -94,14 +101,14 @@ double wheelLift(const Assembly& vehicle, int track, const multibody::State& sta
   return mostLifted(vehicle, track, state).gap;
 }
 
-double suspendedSag(const VehicleSpec& spec) {
-  const double span = spec.idler.x, load = spec.shoe.mass / spec.shoe.pitch * kStandardGravity;
+double suspendedSag(const VehicleSpec& spec, double gravity) {
+  const double span = spec.idler.x, load = spec.shoe.mass / spec.shoe.pitch * gravity;
   // The tensioner holds two strands, both nearly along its slide.
   return load * span * span / (8 * 0.5 * std::max(spec.idler.preload, 1.0));
 }
 
 Observer::Observer(const Assembly& vehicle, const ObserverOptions& options)
-    : vehicle_(&vehicle), stone_(options.stone), heading_(options.heading) {
+    : vehicle_(&vehicle), stone_(options.stone), gravity_(options.gravity), heading_(options.heading) {
   for (int i = 0; i < static_cast<int>(vehicle.tracks.size()); ++i)
     travel_.emplace_back(vehicle, i, options.averageTeeth);
   driven_.resize(vehicle.tracks.size());
@@ -128,32 +135,40 @@ Observer::Attitude Observer::attitude(const multibody::State& state) const {
           continued(base::atan2(left.z, up.z), roll_)};
 }
 
-/// Means of one track since restartMeans(); before the first update, values of the state.
-Observer::DriveSums Observer::means(int track, const multibody::State& state) const {
-  const multibody::JointReading& sprocket = state.joint[vehicle_->tracks[track].sprocketJoint];
-  if (updates_ == 0)
-    return {sprocket.driveForce, sprocket.driveForce * sprocket.rate, sprocket.rate,
-            trackSpeed(*vehicle_, track, state)};
-  const DriveSums& sums = driven_[track];
-  return {sums.torque / updates_, sums.power / updates_, sums.rate / updates_, sums.speed / updates_};
+/// Means of each track since restartMeans(); before the first update, values of the state.
+std::vector<Observer::DriveSums> Observer::means(const multibody::State& state) const {
+  std::vector<DriveSums> means = driven_;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const multibody::JointReading& sprocket = state.joint[vehicle_->tracks[i].sprocketJoint];
+    DriveSums& m = means[i];
+    if (updates_ > 0)
+      m = {m.torque / updates_, m.power / updates_, m.rate / updates_, m.speed / updates_};
+    else
+      m = {sprocket.driveForce, sprocket.driveForce * sprocket.rate, sprocket.rate,
+           trackSpeed(*vehicle_, static_cast<int>(i), state)};
+  }
+  return means;
 }
 
-/// 1 forward, -1 backward; 0 where the tracks run against each other.
-int Observer::direction(const multibody::State& state) const {
-  const auto signOf = [](double speed, double least) { return speed > least ? 1 : speed < -least ? -1 : 0; };
-  bool forward = false, backward = false;
-  double hull = 0;
-  for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
-    const DriveSums mean = means(i, state);
-    const int sign = signOf(mean.rate * vehicle_->spec.pitchRadius(), kRuns);
-    forward = forward || sign > 0, backward = backward || sign < 0, hull += mean.speed;
+/// 1 forward, -1 backward; 0 where the tracks run against each other; none where too little moves to tell. `sums` of
+/// the tracks over some `updates`.
+std::optional<int> Observer::motion(const std::vector<DriveSums>& sums, double updates) const {
+  double most = 0, least = 0, hull = 0; // [m/s]
+  for (const DriveSums& track : sums) {
+    const double run = track.rate / updates * vehicle_->spec.pitchRadius();
+    most = std::max(most, run), least = std::min(least, run);
+    hull += track.speed / updates / static_cast<double>(sums.size());
   }
+  const bool forward = most > kRuns, backward = least < -kRuns;
   if (forward && backward) return 0;
-  if (forward || backward) return forward ? 1 : -1;
-  return signOf(hull / static_cast<double>(vehicle_->tracks.size()), kSlides) < 0 ? -1 : 1;
+  const double speed = forward ? most : backward ? least : hull;
+  const double enough = !forward && !backward ? kSlides : way_ * speed < 0 ? kTurnedRound : kRuns;
+  if (!(std::fabs(speed) > enough)) return {};
+  return speed > 0 ? 1 : -1;
 }
 
 void Observer::restartMeans() {
+  if (const int way = updates_ > 0 ? motion(driven_, updates_).value_or(0) : 0; way != 0) way_ = way;
   driven_.assign(driven_.size(), {});
   updates_ = 0;
 }
@@ -161,7 +176,8 @@ void Observer::restartMeans() {
 std::string Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
   // A track that hangs free, or whose load is not known, may sag off its wheels; and wheels roll over stones.
   const double allowed =
-      vehicle_->spec.shoe.hornHeight + stone_ + (stands(*vehicle_, ground) ? 0.0 : suspendedSag(vehicle_->spec));
+      vehicle_->spec.shoe.hornHeight + stone_ +
+      (stands(*vehicle_, ground, gravity_) ? 0.0 : suspendedSag(vehicle_->spec, base::norm(gravity_)));
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
     if (std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty()) return thrown;
     if (!(std::fabs(travel_[i].skipped()) <= kSkip))
@@ -180,12 +196,14 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
   const Travel& travel = travel_[track];
   TrackObservation o;
   const double padArea = 4 * spec.shoe.halfLength * spec.shoe.padHalfWidth;
-  const double carrying = carryingLoad(*vehicle_);
+  const double carrying = carryingLoad(*vehicle_, base::norm(gravity_));
+  const Vec3d up = upOf(gravity_);
   for (std::size_t i = 0; i < t.shoes.size(); ++i) {
     const base::Pose& pose = state.pose[t.shoes[i]];
     const bool known = !ground.force.empty();
     const Vec3d force = known ? ground.force[t.shoes[i]] : Vec3d{};
-    const bool carries = known && force.z > carrying && onGroundRun(*vehicle_, track, static_cast<int>(i), state);
+    const bool carries =
+        known && base::dot(force, up) > carrying && onGroundRun(*vehicle_, track, static_cast<int>(i), state);
     const double height = padHeight(spec.shoe, pose);
     o.padHeight.push_back(height);
     o.onGround.push_back(carries ? 1 : 0);
@@ -203,7 +221,7 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
   const multibody::JointReading& slide = state.joint[t.slideJoint];
   o.sprocketSpeed = sprocket.rate;
   o.driveTorque = sprocket.driveForce;
-  const DriveSums mean = means(track, state);
+  const DriveSums mean = means(state)[static_cast<std::size_t>(track)];
   o.meanTorque = mean.torque, o.drivePower = mean.power;
   for (const int arm : t.armJoints) o.armAngle.push_back(state.joint[arm].position);
   o.idlerForce = slide.springForce;
@@ -242,7 +260,7 @@ Observation Observer::observe(const multibody::State& state, const GroundLoads& 
     const Vec3d forward{base::cos(o.heading), base::sin(o.heading), 0};
     o.groundForce = {base::dot(sum, forward), base::dot(sum, Vec3d{-forward.y, forward.x, 0}), sum.z};
   }
-  const int way = direction(state);
+  const int way = motion(means(state), 1).value_or(way_ < 0 ? -1 : 1);
   const double sign = way < 0 ? -1 : 1, rise = surface ? riseAhead(state, surface) : 0;
   o.along.forward = sign / std::sqrt(1 + rise * rise), o.along.up = o.along.forward * rise;
   o.grossTraction = sign * torque / vehicle_->spec.pitchRadius();
@@ -270,23 +288,22 @@ std::vector<double> Observer::save() const {
   for (const DriveSums& sums : driven_) flat.push_back(sums.torque), flat.push_back(sums.power);
   flat.push_back(updates_);
   for (const DriveSums& sums : driven_) flat.push_back(sums.rate), flat.push_back(sums.speed);
-  flat.push_back(heading_), flat.push_back(roll_);
+  flat.push_back(heading_), flat.push_back(roll_), flat.push_back(way_);
   return flat;
 }
 
 void Observer::restore(const std::vector<double>& flat) {
   const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
-  const std::size_t former = each * travel_.size() + 2 * driven_.size() + 1; // does not know of directions and turns
-  if (flat.size() != former && flat.size() != former + 2 * driven_.size() + 2)
-    throw base::InputError("observers: the checkpoint is of another vehicle");
+  if (flat.size() != save().size())
+    throw base::InputError("observers: the checkpoint is of another vehicle, or of an earlier version of the program; "
+                           "begin the run anew with --force");
   const auto place = [&](std::size_t i) { return flat.begin() + static_cast<std::ptrdiff_t>(i * each); };
   for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i].restore({place(i), place(i + 1)});
   const double* sums = flat.data() + each * travel_.size();
   for (DriveSums& driven : driven_) driven = {sums[0], sums[1]}, sums += 2;
   updates_ = *sums++;
-  if (flat.size() == former) return;
   for (DriveSums& driven : driven_) driven.rate = sums[0], driven.speed = sums[1], sums += 2;
-  heading_ = sums[0], roll_ = sums[1];
+  heading_ = sums[0], roll_ = sums[1], way_ = static_cast<int>(sums[2]);
 }
 
 } // namespace grouser::vehicle

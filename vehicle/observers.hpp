@@ -7,10 +7,15 @@
 #include "vehicle/ground_plane.hpp"
 #include "vehicle/travel.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace grouser::vehicle {
+
+inline constexpr double kStandardGravity = 9.80665; ///< [m/s2]
+/// Below this a sprocket stands and slip has no meaning [rad/s].
+inline constexpr double kStanding = 1e-6;
 
 /// What the ground did to the bodies: force on each body of the model, world components [N]. Empty: not known.
 /// Best the mean over the output interval (impulse over time): on grains the force of a single step flickers, and with
@@ -77,6 +82,7 @@ struct ObserverOptions {
   int averageTeeth = 1; ///< tooth passages of one mean
   double stone{};       ///< [m] thickest that may lie between a road wheel and its plates and is no thrown track
   double heading{};     ///< [rad] with which the vehicle was set down: the series of headings begins within pi of it
+  base::Vec3d gravity{0, 0, -kStandardGravity}; ///< of the run [m/s2]; loads count against it
 };
 
 /// Watches a vehicle: update() after every step, observe() when there is something to be written.
@@ -90,9 +96,10 @@ public:
   ///
   /// Traction, thrust and resistance are stated in the direction of motion, along the ground: along the tangent of
   /// groundPlane() that lies over the hull's heading, forward where the tracks run forward since restartMeans(),
-  /// backward where they run backward. Where they stand (locked, on a slope) the hull's own motion counts; where
-  /// nothing moves, and where the tracks run against each other (a pivot turn), forward, and of the latter there is no
-  /// resistance to motion along the heading.
+  /// backward where they run backward. Where they stand (locked, on a slope) the hull's own motion counts. The last
+  /// direction stays where nothing moves and while the tracks run the other way by less than 0.01 m/s (a vehicle that
+  /// stalls rocks); before the first it is forward, and where the tracks run against each other (a pivot turn), of
+  /// which there is no resistance to motion along the heading.
   Observation observe(const multibody::State& state, const GroundLoads& ground, const SurfaceHeight& surface) const;
   /// The alarm alone, cheap enough for every step or every few: "" while all is well.
   std::string alarm(const multibody::State& state, const GroundLoads& ground) const;
@@ -112,8 +119,8 @@ private:
     double torque = 0, power = 0; ///< [N m], [W]
     double rate = 0, speed = 0;   ///< of the sprocket [rad/s] and of the hull at the track [m/s]
   };
-  DriveSums means(int track, const multibody::State& state) const;
-  int direction(const multibody::State& state) const;
+  std::vector<DriveSums> means(const multibody::State& state) const;
+  std::optional<int> motion(const std::vector<DriveSums>& sums, double updates) const;
   struct Attitude {
     double heading, pitch, roll; ///< [rad]
   };
@@ -122,9 +129,11 @@ private:
 
   const Assembly* vehicle_;
   double stone_;                  ///< [m]
+  base::Vec3d gravity_;           ///< [m/s2]
   std::vector<DriveSums> driven_; ///< one a track
   double updates_ = 0;
   double heading_, roll_ = 0; ///< at the last update, counted on beyond whole turns [rad]
+  int way_ = 0;               ///< last direction of motion: 1 forward, -1 backward, 0 not yet any
   std::vector<Travel> travel_;
 };
 
@@ -146,8 +155,9 @@ double sinkage(const VehicleSpec& spec, const base::Pose& shoePose_W, const Surf
 /// Whether it carries load is another question.
 bool onGroundRun(const Assembly& vehicle, int track, int shoe, const multibody::State& state);
 
-/// Load from which on a shoe counts as carrying: 1 % of the vehicle's weight spread over the ground run [N].
-double carryingLoad(const Assembly& vehicle);
+/// Load from which on a shoe counts as carrying: 1 % of the vehicle's weight spread over the ground run [N]. `gravity`
+/// [m/s2].
+double carryingLoad(const Assembly& vehicle, double gravity);
 
 /// Largest distance of a shoe's middle from the track's plane [m].
 double sidewaysShift(const Assembly& vehicle, int track, const multibody::State& state);
@@ -156,7 +166,7 @@ double sidewaysShift(const Assembly& vehicle, int track, const multibody::State&
 double wheelLift(const Assembly& vehicle, int track, const multibody::State& state);
 
 /// How far the lower run of a vehicle that hangs free sags under its own weight, as a parabola between sprocket and
-/// idler: lambda g L^2 / (8 T) [m]. Such a gap under a wheel is no thrown track.
-double suspendedSag(const VehicleSpec& spec);
+/// idler: lambda g L^2 / (8 T) [m], with `gravity` [m/s2]. Such a gap under a wheel is no thrown track.
+double suspendedSag(const VehicleSpec& spec, double gravity);
 
 } // namespace grouser::vehicle

@@ -79,10 +79,11 @@ def _check_leaf(path: list[str], sections: dict[tuple[str, ...], list[str]]) -> 
         """With the names that the path has in it."""
         return [b if a in _ANY else a for a, b in zip(pattern, section)] if len(pattern) == len(section) else [*pattern]
 
-    # A key of this name in another section, or the section's name is wrong.
+    # The one key of this name in another section, else one of the section that was named, or that name is wrong.
     whole = [_dotted([*named(pattern), k]) for pattern, known in sections.items() for k in known]
     same = [word for word in whole if word.rpartition(".")[2] == key]
-    _refuse(path, same or whole)
+    own = [_dotted([*section, k]) for k in here]
+    _refuse(path, same if len(same) == 1 else own or same or whole)
 
 
 def _refuse(path: list[str], valid: list[str], what: str = "key") -> None:

@@ -41,7 +41,7 @@ class Quantity:
         return float(self.value)
 
     def __repr__(self) -> str:
-        """What it is, in one line: "slip [-]: 0.0729", "depth [m]: [24], 0 to 0.23, mean 0.115"."""
+        """What it is, in one line: "slip [-]: 0.0729", "depth [m]: [24], 0 to 0.23"."""
         return f"{self._told()}: {self._summary()}"
 
     def _summary(self) -> str:
@@ -54,7 +54,7 @@ class Quantity:
         if not there.size:
             return f"{list(value.shape)}, no number in it"
         unknown = value.size - there.size
-        return (f"{list(value.shape)}, {there.min():.4g} to {there.max():.4g}, mean {there.mean():.4g}"
+        return (f"{list(value.shape)}, {there.min():.4g} to {there.max():.4g}"
                 + (f", {unknown} of {value.size} are NaN" if unknown else ""))
 
     def __len__(self) -> int:
@@ -130,6 +130,11 @@ class Quantity:
         return whole._with(value, f"{left.name} {sign} {right.name}", bars)
 
 
+def _range(value: numpy.ndarray) -> str:
+    there = value[numpy.isfinite(value)]
+    return f"{there.min():.4g} to {there.max():.4g}" if there.size else "no number"
+
+
 def nearest(times: numpy.ndarray, time: float, what: str, where: object) -> int:
     """Place of the one of `times` nearest to `time` [s]. ValueError where there are none, or where `time` lies further
     beyond the first or the last than they are apart there; `what` has these times, in `where`."""
@@ -151,22 +156,28 @@ class Series(Quantity):
     labels: tuple[str, ...] = ()  #: of the columns, e.g. ("x", "y", "z"); empty: none, or one a shoe
 
     def _summary(self) -> str:
-        """Rows, from when to when, first and last value of one number a row, and least, mean and largest."""
+        """Rows, and from when to when; of one number a row the first, last, least, mean and largest; of named columns
+        the range of each; of one number a shoe the range of all."""
         rows = counted(len(self.value), "row")
         if not len(self.value):
             return rows
         rows += f" from {self.time[0]:.6g} to {self.time[-1]:.6g} s" if self.time is not None and len(self.time) else ""
-        if numpy.ndim(self.value) > 1:
-            width = numpy.shape(self.value)[1]
-            rows += f", columns {', '.join(self.labels)}" if self.labels else f" of {counted(width, 'column')}"
-        else:
+        several = numpy.ndim(self.value) > 1
+        if several and not self.labels:
+            rows += f" of {counted(numpy.shape(self.value)[1], 'column')}"
+        if not several:
             rows += f", first {self.value[0]:.4g}, last {self.value[-1]:.4g}"
         there = self.value[numpy.isfinite(self.value)]
         if not there.size:
             return f"{rows}, no number in it"
+        if not several:
+            rows += f", min {there.min():.4g}, mean {there.mean():.4g}, max {there.max():.4g}"
+        elif self.labels:
+            rows += "".join(f", {label} {_range(self.value[:, k])}" for k, label in enumerate(self.labels))
+        else:
+            rows += f", {_range(self.value)}"
         unknown = numpy.size(self.value) - there.size
-        return (f"{rows}, min {there.min():.4g}, mean {there.mean():.4g}, max {there.max():.4g}"
-                + (f", {unknown} of {numpy.size(self.value)} are NaN" if unknown else ""))
+        return rows + (f", {unknown} of {numpy.size(self.value)} are NaN" if unknown else "")
 
     def __getitem__(self, label: str | int | slice) -> Series | numpy.ndarray:
         """A column by its label: `run["vehicle.position"]["x"]`, as a series of the shape [rows]; KeyError names those

@@ -14,6 +14,9 @@ from .files import fields_of, read_csv
 from .run import Run
 from .series import Estimate, Quantity, counted, split_unit
 
+#: How the doubt of a run begins that names the figures which it is of; and the cell of one that the message tells.
+_TURNED, _SEE_MESSAGE = "direction of motion changes: ", "see message"
+
 #: Columns of summary.csv between the swept keys and the figures.
 _ABOUT = ("status", "message", "wall time [s]", "steps", "simulated time [s]")
 _BEHIND = ("state hash", "commit")
@@ -40,6 +43,11 @@ class SweepRun:
     state_hash: str
     folder: Path
 
+    def doubt(self, figure: str) -> str:
+        """Why this figure of the run is inconclusive; "" where it is sound."""
+        named = self.inconclusive.removeprefix(_TURNED)
+        return "" if named != self.inconclusive and figure not in named.split(", ") else self.inconclusive
+
     def open(self) -> Run:
         """Its results."""
         return Run(self.folder)
@@ -54,6 +62,16 @@ class SweepMean:
     mean: Estimate
     difference: Estimate  #: to the first combination, seed by seed, in the figure's unit
     inconclusive: str = ""  #: why the mean is, as over fewer than two teeth; "" where it is sound
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class _OfRuns(Quantity):
+    """A figure of all runs."""
+
+    doubtful: tuple[str, ...] = ()  #: names of the runs of which it is inconclusive
+
+    def _summary(self) -> str:
+        return super()._summary() + (f", inconclusive: {', '.join(self.doubtful)}" if self.doubtful else "")
 
 
 class _Means(dict[str, list[SweepMean]]):
@@ -79,17 +97,23 @@ class Sweep:
             self.units: dict[str, str] = dict(map(split_unit, figures))  #: {figure: unit}
             self.runs: list[SweepRun] = [
                 SweepRun(row["run"], {key: row[key] for key in self.keys}, row["status"], row["message"],
-                         row.get("inconclusive", ""), {split_unit(c)[0]: value_of(row[c]) for c in figures},
+                         row["message"] if row.get("inconclusive") == _SEE_MESSAGE else row.get("inconclusive", ""),
+                         {split_unit(c)[0]: value_of(row[c]) for c in figures},
                          row["state hash"], self.folder / row["run"]) for row in rows]
 
     def __repr__(self) -> str:
-        return f"<grouser.Sweep {self.folder}: {counted(len(self.runs), 'run')} over {', '.join(self.keys) or 'no key'}>"
+        told = f"{self.folder}: {counted(len(self.runs), 'run')} over {', '.join(self.keys) or 'no key'}"
+        for what, runs in (("incomplete", [run.name for run in self.runs if run.status == "incomplete"]),
+                           ("inconclusive", [run.name for run in self.runs if run.inconclusive and run.status != "incomplete"])):
+            told += f"; {what}: {', '.join(runs)}" if runs else ""
+        return f"<grouser.Sweep {told}>"
 
     def __getitem__(self, figure: str) -> Quantity:
-        """[runs] of a figure, NaN where a run has none. KeyError names the figures that there are."""
+        """[runs] of a figure, NaN where a run has none; inconclusive ones too, whose runs its text names. KeyError names the figures that there are."""
         if figure not in self.units:
             raise KeyError(f"{self.folder}: there is no figure {figure!r}; there are {', '.join(self.units)}")
-        return Quantity(numpy.array([run.figures[figure] for run in self.runs]), self.units[figure], "", figure)
+        return _OfRuns(numpy.array([run.figures[figure] for run in self.runs]), self.units[figure], "", figure,
+                       tuple(run.name for run in self.runs if run.doubt(figure)))
 
     def values(self, key: str) -> numpy.ndarray:
         """[runs] of a swept key: numbers where all are numbers, else texts. KeyError for one that was not swept."""

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/bed_warnings.hpp"
 
+#include "runs/commands/bed_text.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "terrain/packing_limits.hpp"
 
@@ -51,7 +52,9 @@ std::vector<std::string> bedWarnings(const scene::Scene& scene, const simulation
   bed.fixed = static_cast<std::int64_t>(grains->system().fixedCount);
   if (const auto& structure = simulation.ground().structure)
     bed.measured = structure->grains, bed.porosity = structure->porosity, bed.porosityError = structure->porosityError;
-  return bedWarnings(bed);
+  std::vector<std::string> warnings = bedWarnings(bed);
+  if (const std::string porosity = porosityWarning(simulation); !porosity.empty()) warnings.push_back(porosity);
+  return warnings;
 }
 
 std::vector<std::string> plannedBedWarnings(const scene::Scene& scene) {

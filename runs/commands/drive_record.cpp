@@ -33,7 +33,7 @@ std::string incompleteText(const scene::Scene& scene, const simulation::Simulati
   const simulation::VehicleRig* rig = simulation.vehicle();
   if (!rig || !setup::asksToDrive(scene)) return {};
   const std::optional<double> start = rig->driveStart();
-  const bool drove = start && *start < simulation.time();
+  const bool drove = start && *start < simulation.time() && teeth >= setup::kLeastTeeth;
   if (drove && teeth >= setup::kFewestTeeth) return {};
   const bool waited = simulation.setup().vehicle->driver.rest.has_value();
   const std::string when =
@@ -44,7 +44,7 @@ std::string incompleteText(const scene::Scene& scene, const simulation::Simulati
                      drove ? fmt::format("drove {:.2g} teeth, fewer than {:g}", teeth, setup::kFewestTeeth)
                            : "never drove",
                      when, drove ? ", and its figures are inconclusive" : "",
-                     rig->ended().empty() ? "raise run.duration" : "let [stop] end the run later");
+                     rig->ended().empty() ? setup::longerDriveRemedy(scene) : "let [stop] end the run later");
 }
 
 void describeDrive(const scene::Scene& scene, const simulation::Simulation& simulation, double teeth,

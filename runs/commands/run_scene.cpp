@@ -101,7 +101,6 @@ Caches cachesOf(const scene::Scene& scene, const RunRequest& options) {
 }
 
 void describeBuild(const simulation::Simulation& simulation, const base::Exec& exec, const Caches& kept) {
-  if (const std::string warning = porosityWarning(simulation); !warning.empty()) fmt::print("WARNING   {}\n", warning);
   fmt::print("device    {}\n", base::describe(exec));
   if (const auto& grains = simulation.ground().grains)
     fmt::print("grains    {}, {:.0f} bytes each\n", grainsText(*grains),

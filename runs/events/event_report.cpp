@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/events/event_report.hpp"
 
+#include "base/counted.hpp"
 #include "runs/studies/estimate.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/sweeps/run_manifest.hpp"
@@ -184,8 +185,13 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
     text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row), goText(row), row.why());
     if (row.unknown > 0)
       text += fmt::format("{:<18}{} of its runs failed for a cause that is not the vehicle's\n", "", row.unknown);
-    if (row.incomplete > 0) text += fmt::format("{:<18}{} of its runs are incomplete\n", "", row.incomplete);
-    if (row.pending > 0) text += fmt::format("{:<18}{} of its runs are still to be done\n", "", row.pending);
+    if (row.incomplete > 0)
+      text += fmt::format("{:<18}{}\n", "",
+                          base::counted(row.incomplete, "of its runs is incomplete", "of its runs are incomplete"));
+    if (row.pending > 0)
+      text += fmt::format(
+          "{:<18}{}\n", "",
+          base::counted(row.pending, "of its runs is still to be done", "of its runs are still to be done"));
     for (const FigureOverSeeds& f : row.figures)
       text += fmt::format("{:<18}  {:<50} {}{}\n", "", f.name,
                           f.runs > 1 ? studies::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),

@@ -11,6 +11,7 @@ import pathlib
 
 import drawing
 
+DOUBTFUL = {"markerfacecolor": "none"}
 AXES = {"depth": ("s", "C1"), "width": ("D", "C2"), "floor": ("v", "C3"), "grain_size": ("^", "C4"),
         "spheres": ("P", "C5"), "precision": ("*", "C6")}
 MOST = 6
@@ -21,16 +22,37 @@ def share(number, value):
     return None if number is None or not value else abs(number) / abs(value)
 
 
+def is_doubtful(figure):
+    """Whether a figure is marked inconclusive; what is 0 in all runs is sure."""
+    return bool(figure.get("inconclusive")) and not figure["value"] == figure["bar"] == 0
+
+
+def ticks_between(low, high, most=5):
+    """Places with room for their numbers on a logarithmic axis: of 1, 2, 5 or 1 a decade, or few even ones."""
+    for digits in ((1, 2, 5), (1,)):
+        places = [digit * 10.0**power for power in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+                  for digit in digits if low <= digit * 10.0**power <= high]
+        if 2 <= len(places) <= most:
+            return places
+    if len(places) > most:
+        return places[::math.ceil(len(places) / most)]
+    return [float(f"{low * (high / low)**share:.2g}") for share in (0.1, 0.5, 0.9)]
+
+
 def panel(axis, figure, check, costs):
-    value = figure["value"]
+    value, doubtful = figure["value"], is_doubtful(figure)
+    incomplete = {case["name"] for case in check["cases"] if case["status"] == "incomplete"}
     cost = {case["name"]: case for case in costs["cases"]}
     base = cost["base"]["wall_s"]
     steps = [(cost[name]["wall_s"], share(bar, value), name)
              for name, bar in zip(check["step_cases"], figure["bar_of_step"]) if share(bar, value)]
     steps.sort()
     if steps:
-        axis.plot([s[0] for s in steps], [s[1] for s in steps], "o-", color="C0", label="step, its error bar")
+        axis.plot([s[0] for s in steps], [s[1] for s in steps], "o-", color="C0", label="step, its error bar",
+                  markevery=[not doubtful and name not in incomplete for _, _, name in steps])
         for wall, error, name in steps:
+            if doubtful or name in incomplete:
+                axis.plot([wall], [error], "o", color="C0", **DOUBTFUL)
             axis.annotate(name.replace("step_", "").replace("_", " "), (wall, error), fontsize=7,
                           textcoords="offset points", xytext=(4, 4))
     of_axis = {case["axis"]: case["name"] for case in check["cases"]}
@@ -40,11 +62,12 @@ def panel(axis, figure, check, costs):
         marker, colour = AXES[error["axis"]]
         size, half = share(error["change"], value), share(error["half_width"], value)
         wall = cost[of_axis[error["axis"]]]["wall_s"]
+        look = DOUBTFUL if doubtful or of_axis[error["axis"]] in incomplete else {}
         if wall is None or not size:
             continue
         low = max(size - (half or 0), min(LEAST, size))
         axis.errorbar([wall], [size], yerr=[[size - low], [half or 0]], marker=marker,
-                      color=colour, capsize=3, linestyle="none", label=error["axis"].replace("_", " "))
+                      color=colour, capsize=3, linestyle="none", label=error["axis"].replace("_", " "), **look)
     for case in check["cases"]:
         if case["status"] in ("failed", "refused"):
             axis.plot([base * cost[case["name"]]["expected_over_base"]], [0.97], "x", color="red", markersize=9,
@@ -64,10 +87,11 @@ def panel(axis, figure, check, costs):
         axis.axhline(percent / 100, color="0.75", linewidth=0.8, zorder=0)
         axis.annotate(f"{percent} %", (1, percent / 100), fontsize=6, color="0.5", ha="right", va="bottom",
                       xycoords=axis.get_yaxis_transform())
-    for side in (axis.xaxis.set_major_formatter, axis.xaxis.set_minor_formatter):
-        side(lambda wall, _: f"{wall:g}")
+    axis.set_xticks(ticks_between(*axis.get_xlim()))
+    axis.xaxis.set_major_formatter(lambda wall, _: f"{wall:g}")
+    axis.xaxis.set_minor_formatter(lambda wall, _: "")
     axis.tick_params(axis="x", which="both", labelsize=7)
-    axis.set_title(figure["name"], fontsize=9)
+    axis.set_title(figure["name"] + (" (inconclusive)" if doubtful else ""), fontsize=9)
     axis.grid(True, which="major", color="0.93")
 
 
@@ -94,7 +118,9 @@ def draw(check_path, costs_path):
         panels[row * columns].set_ylabel("error over value [-]")
     for axis in panels[:len(figures)][-columns:]:
         axis.set_xlabel("wall time of a run [s]")
-    figure.suptitle(f"{pathlib.PurePath(check['scene']).name}: error against run time", fontsize=10)
+    doubts = "; open: inconclusive or incomplete" if any(map(is_doubtful, figures)) or any(
+        case["status"] == "incomplete" for case in check["cases"]) else ""
+    figure.suptitle(f"{pathlib.PurePath(check['scene']).name}: error against run time{doubts}", fontsize=10)
     drawing.legend_below(figure, panels[:len(figures)])
     return figure
 

@@ -85,7 +85,7 @@ def heights(run):
             axis.plot(run.time, numpy.where(on_ground, height, numpy.nan), color=colour, **CARRYING, label=f"shoe {shoe}")
     whole.set_ylabel("pad height [m]")
     figure.suptitle(f"Four consecutive shoes of the {side} track", fontsize=11)
-    shown = whole.get_legend_handles_labels()[0] + key_of((("in ground contact", CARRYING), ("off the ground", OFF_GROUND)))
+    shown = whole.get_legend_handles_labels()[0] + key_of((("in ground contact", CARRYING), ("not in ground contact", OFF_GROUND)))
     whole.legend(handles=shown, ncol=6, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     if has_close:
         panels[-1].set_ylim(low, high)

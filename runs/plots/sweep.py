@@ -4,6 +4,8 @@
 Sinkage, slip, torque and tension over the first swept key, one line for each combination of the others; from intervals
 with bars, half of the 95 % interval over the seeds to either side.
 """
+import math
+
 import drawing
 
 # (axis label, factor, columns with their line style and name, which stand above the panel where there are two)
@@ -13,8 +15,8 @@ PANELS = (
     ("drive torque, both sprockets [N m]", 1, (("drive torque [N m]", "-", ""),)),
     ("track tension [N]", 1, (("tension mean [N]", "-", "mean"), ("tension peak [N]", "--", "peak"))),
 )
-NOTES = {False: "Means over the steady part of each run",
-         True: "Means over the steady part, with 95 % intervals over the seeds"}
+NOTE = "Means over the steady part"
+OF_OTHER_FIGURES = "direction of motion changes: "  # how a doubt begins that is of none of these panels
 
 
 def number(text):
@@ -25,7 +27,8 @@ def number(text):
 
 
 def points(path):
-    """Swept keys, and [(values of the keys, {figure: (mean, half width)})]."""
+    """Swept keys, [(values of the keys, {figure: (mean, half width, whether it is inconclusive)})], and whether means are
+    over seeds. A half width that is not known is NaN."""
     table = drawing.rows(path)
     names = list(table[0])
     found = {}
@@ -33,13 +36,19 @@ def points(path):
         keys = names[:names.index("figure")]
         for row in table:
             if number(row["mean"]) is not None:
-                pair = number(row["mean"]), number(row["half width"]) or 0.0
-                found.setdefault(tuple(row[key] for key in keys), {})[row["figure"]] = pair
+                half = number(row["half width"])
+                one = number(row["mean"]), half if half is not None and math.isfinite(half) else math.nan, is_doubtful(row)
+                found.setdefault(tuple(row[key] for key in keys), {})[row["figure"]] = one
         return keys, list(found.items()), True
     keys = names[1:names.index("status")]
-    return keys, [(tuple(row[key] for key in keys), {name: (number(text), 0.0) for name, text in row.items()
-                                                     if number(text) is not None})
-                  for row in table if row["status"] == "finished"], False
+    return keys, [(tuple(row[key] for key in keys), {name: (number(text), math.nan, is_doubtful(row))
+                                                     for name, text in row.items() if number(text) is not None})
+                  for row in table if row["status"] in ("finished", "incomplete")], False
+
+
+def is_doubtful(row):
+    doubt = row.get("inconclusive") or ""
+    return row.get("status") == "incomplete" or bool(doubt) and not doubt.startswith(OF_OTHER_FIGURES)
 
 
 def curves(keys, rows):
@@ -50,8 +59,16 @@ def curves(keys, rows):
     return [(", ".join(f"{k} = {v}" for k, v in zip(keys[1:], values)), some) for values, some in found.items()]
 
 
+def note(rows, seeds):
+    """What the picture shows, and how what is not sure stands in it."""
+    shown = [figures[column] for _, figures in rows for _, _, columns in PANELS for column, _, _ in columns if column in figures]
+    text = NOTE + (" of each run" if not seeds else ", with 95 % intervals over the seeds"
+                   if any(math.isfinite(half) for _, half, _ in shown) else ", without intervals: one seed each")
+    return text + ("; crosses: inconclusive" if any(doubtful for _, _, doubtful in shown) else "")
+
+
 def draw(path):
-    keys, rows, intervals = points(path)
+    keys, rows, seeds = points(path)
     if not any(column in figures for _, figures in rows for _, _, columns in PANELS for column, _, _ in columns):
         return None
     keys, rows = keys or ["all runs"], [(values or ("",), figures) for values, figures in rows]
@@ -63,14 +80,15 @@ def draw(path):
     for axis, (label, factor, columns) in zip(panels, PANELS):
         for index, (name, some) in enumerate(curves(keys, rows)):
             for column, style, part in columns:
-                line = sorted((place[values[0]], factor * figures[column][0], factor * figures[column][1])
-                              for values, figures in some if column in figures)
-                if not line:
-                    continue
-                x, y, half = zip(*line)
-                axis.errorbar(x, y, yerr=half if intervals else None, capsize=3, marker="o",
-                              markersize=4, linestyle=style if numeric else "none", color=f"C{index % 10}",
-                              markerfacecolor=None if style == "-" else "none", label=name if style == "-" and name else None)
+                found = sorted((place[values[0]], factor * figures[column][0], factor * figures[column][1], figures[column][2])
+                               for values, figures in some if column in figures)
+                sound = [point[:3] for point in found if not point[3]], {
+                    "marker": "o", "markersize": 4, "linestyle": style if numeric else "none",
+                    "markerfacecolor": None if style == "-" else "none", "label": name if style == "-" and name else None}
+                doubtful = [point[:3] for point in found if point[3]], {"marker": "x", "markersize": 5, "linestyle": "none"}
+                for line, look in filter(lambda part: part[0], (sound, doubtful)):
+                    x, y, half = zip(*line)
+                    axis.errorbar(x, y, yerr=half if any(map(math.isfinite, half)) else None, capsize=3, color=f"C{index % 10}", **look)
         axis.set_ylabel(label)
         if len(columns) > 1:
             axis.set_title(", ".join(f"{'filled' if style == '-' else 'open'}: {part}" for _, style, part in columns), fontsize=8)
@@ -80,7 +98,7 @@ def draw(path):
     for axis in panels[2:]:
         axis.set_xlabel(keys[0])
     panels[0].invert_yaxis()
-    figure.suptitle(NOTES[intervals], fontsize=9)
+    figure.suptitle(note(rows, seeds), fontsize=9)
     drawing.legend_below(figure, panels)
     return figure
 

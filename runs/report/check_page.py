@@ -156,10 +156,10 @@ def error_over_time(made, check, cost):
 
 
 def runs_of(check, case):
-    """Folders of the runs of a case that have finished."""
+    """Folders of the runs of a case that have ended."""
     plain = check.folder / case["name"]  # without seeds
     return [plain if plain.is_dir() and not seeded.is_dir() else seeded for run in case["runs"]
-            if run.get("status", "finished") == "finished"
+            if run.get("status", "finished") in ("finished", "incomplete")
             for seeded in [check.folder / f"{case['name']},seed={run['seed']}"]]
 
 

@@ -94,12 +94,15 @@ def term(name, about=""):
     return f'<span class="term" title="{esc(words)}">{text}</span>' if words else text
 
 
+INCONCLUSIVE = ' <span class="bad">inconclusive</span>'
+
+
 def figure_with_bar(value, half, unit="", name="", inconclusive=False):
     """The same, marked where it is inconclusive, as where the bar is larger than the value: then not even its sign is
-    sure."""
+    sure. What is 0 in all runs is sure."""
     wide = None not in (value, half) and math.isfinite(half) and half > abs(value)
-    mark = ' <span class="bad">inconclusive</span>' if wide or inconclusive and value is not None else ""
-    return with_bar(value, half, unit, name) + mark
+    known = value is not None and not value == half == 0
+    return with_bar(value, half, unit, name) + (INCONCLUSIVE if wide or inconclusive and known else "")
 
 
 def table(headings, rows, caption="", numeric=()):

@@ -227,8 +227,9 @@ def figures(run, options):
     if not rows:
         return f'<p>{esc(told["note"])}</p>' if told.get("note") else ""
     words = part_told(run, told.get("steady_from")) + definitions.note(values)
-    if told.get("inconclusive"):
-        words = f'<strong class="bad">Inconclusive: {esc(told["inconclusive"])}.</strong> {words}'
+    if doubt := told.get("inconclusive"):
+        reason = "see the warning at the top" if doubt == run.manifest.get("incomplete") else doubt
+        words = f'<strong class="bad">Inconclusive: {esc(reason)}.</strong> {words}'
     if check:
         words += (f" Error bars: of the last check of this scene, in <code>{esc(check['folder'])}</code>, commit "
                   f"<code>{esc(check['check']['program']['commit'])}</code>, over its own seeds.")
@@ -308,7 +309,7 @@ def provenance(run):
             ("ranks", esc(m.get("ranks", ""))), ("begun", esc(m.get("started", ""))), ("ended", esc(m.get("ended", ""))),
             ("steps", number_text(m.get("steps"))),
             ("simulated time", number(m["simulated_time_s"], "s", "simulated_time_s") if "simulated_time_s" in m else ""),
-            ("wall time", number(m["wall_time_s"], "s", "wall_time_s") if "wall_time_s" in m else ""),
+            ("wall time", wall_time(m)),
             ("state hash", f"<code>{esc(m['state_hash'])}</code>" if "state_hash" in m else ""),
             ("input files", ", ".join(f"{esc(what)} <code>{esc(mark)}</code>" for what, _, mark in inputs))]
     soils = [(f"soil of {material}", f"{esc(use['soil'])}, {esc(use['file'])} <code>{esc(use['hash'])}</code>, grains of "
@@ -317,6 +318,17 @@ def provenance(run):
     files = table(["file", "bytes"], [[f"<code>{esc(name)}</code>", str(f["bytes"])]
                                       for name, f in m.get("files", {}).items()], numeric=(1,))
     return facts(rows + soils) + folded("Files of the run", files)
+
+
+def wall_time(manifest):
+    """Of all steps: a run that went on has measured that of its last part."""
+    if "wall_time_s" not in manifest:
+        return ""
+    steps, before = manifest.get("steps", 0), manifest.get("figures", {}).get("resumed_at_step", 0)
+    if not 0 < before < steps:
+        return number(manifest["wall_time_s"], "s", "wall_time_s")
+    return (f'{number(manifest["wall_time_s"] * steps / (steps - before), "s", "wall_time_s")}, by that of the steps since '
+            f"step {before:.0f}, at which it was resumed")
 
 
 def number_text(value):
@@ -360,6 +372,8 @@ def page(folder, options):
     made = pages.Page(f"{run.folder.resolve().name} (run)", "run", folder)
     if run.status != "finished":
         made.warnings.append(f"<p>{esc(ENDED.get(run.status, run.status))} {esc(why_ended(run.manifest))}</p>")
+    if warnings := run.manifest.get("bed_warnings"):
+        made.warnings.append(f"<p>WARNING: {esc(warnings)}</p>")
     made.section("figures", "Figures", figures(run, options) + folded("Constants of the run", constants(run)))
     made.section("space", "In space", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([

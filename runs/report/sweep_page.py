@@ -102,15 +102,22 @@ def across_of(sweep, program):
 
 
 def curves_of(sweep, name, place, curve):
-    """{curve: points by place} of a figure: means over the seeds with their bars, or a point for each run."""
-    groups = {}
+    """{curve: points by place} of a figure: means over the seeds with their bars, or a point for each run; and how many
+    are left out, since too little was driven. Means whose bars are wider than they are large are drawn with these."""
+    groups, left_out = {}, 0
     for mean in sweep.means.get(name, []):
         half = mean.mean.half_width
+        if mean.inconclusive and not mean.mean.inconclusive:
+            left_out += math.isfinite(mean.mean.value)
+            continue
         groups.setdefault(curve(mean.keys), []).append(
             (place(mean.keys), mean.mean.value, half if math.isfinite(half) else math.nan))
-    for run in sweep.runs if not groups else []:
+    for run in sweep.runs if name not in sweep.means else []:
+        if run.doubt(name):
+            left_out += math.isfinite(run.figures[name])
+            continue
         groups.setdefault(curve(run.keys), []).append((place(run.keys), run.figures[name]))
-    return {label: sorted(p for p in points if math.isfinite(p[1])) for label, points in groups.items()}
+    return {label: sorted(p for p in points if math.isfinite(p[1])) for label, points in groups.items()}, left_out
 
 
 def plots(made, sweep, program):
@@ -119,19 +126,23 @@ def plots(made, sweep, program):
         return ""
     axis, place, curve, words = across
     told = "Mean over the seeds; bar: its 95 % interval." if sweep.means else "A point for each run; no bars: one run each."
-    inner = []
+    inner, hidden = [], []
     for name in lively(sweep):
-        groups = curves_of(sweep, name, place, curve)
+        groups, left_out = curves_of(sweep, name, place, curve)
         drawn = [(label if len(groups) > 1 else name, *map(list, zip(*points)))
                  for label, points in list(groups.items())[:MOST_CURVES] if points]
+        if left_out and not drawn:
+            hidden.append(esc(definitions.label(name)))
         if drawn:
             alone = sum(math.isnan(half) for _, _, _, *halves in drawn for half in (halves[0] if halves else ()))
             more = f" No bar where one seed alone has ended: {alone} of the points." if alone else ""
             more += f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
+            more += f" Left out, since inconclusive: {counted(left_out, 'point')}." if left_out else ""
             label = definitions.label(name)
             inner.append(made.plot(label[:1].upper() + label[1:], axis, f"{label} [{sweep.units[name]}]", drawn,
                                    told + words + more, marks=True, whole=bool(words), about=definitions.definition(name)))
-    return f'<div class="plots">{"".join(inner)}</div>' if inner else ""
+    note = f"<p>Not drawn, since all of it is inconclusive: {', '.join(hidden)}.</p>" if hidden else ""
+    return note + (f'<div class="plots">{"".join(inner)}</div>' if inner else "")
 
 
 def means_table(sweep):
@@ -169,11 +180,15 @@ def runs_table(sweep, faults):
         doubt = f"Inconclusive: {run.inconclusive}" if run.inconclusive and run.inconclusive != run.message else ""
         return esc(" ".join(filter(None, (run.message, doubt)))) + (f' <strong class="fault">Files: {esc(fault)}</strong>' if fault else "")
 
+    def figure(run, name):
+        doubtful = run.doubt(name) and math.isfinite(run.figures[name])
+        return number(run.figures[name], "", f"{run.name} {name}") + (pages.INCONCLUSIVE if doubtful else "")
+
     names = [n for n in sweep.units if numpy.isfinite(sweep[n].value).any()]
     has_words = faults or any(run.message or run.inconclusive for run in sweep.runs)
     rows = [[run_name(run.name), *(esc(v) for v in run.keys.values()), esc(run.status),
              *([message(run)] if has_words else []),
-             *(number(run.figures[n], "", f"{run.name} {n}") for n in names), f"<code>{esc(run.state_hash)}</code>"]
+             *(figure(run, n) for n in names), f"<code>{esc(run.state_hash)}</code>"]
             for run in sweep.runs]
     first = (3 if has_words else 2) + len(sweep.keys)
     headings = ["run", *sweep.keys, "status", *(["message"] if has_words else []),

@@ -20,6 +20,12 @@ bool anyIsNot0(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return v != 0; });
 }
 
+/// How much farther than the hull the outer track of a circle goes [-].
+double outerTrack(const scene::Driver& driver, const vehicle::VehicleSpec& spec) {
+  if (!driver.course || !driver.course->radius) return 1;
+  return 1 + spec.trackOffset / std::fabs(*driver.course->radius);
+}
+
 } // namespace
 
 bool asksToDrive(const scene::Scene& scene) {
@@ -40,26 +46,38 @@ double teethAsked(const scene::Scene& scene) {
   options.tensionRamp = options.weightRamp = options.driveStart = 0, options.driveRamp = d.rampOfDrive();
   options.speeds = {d.speeds().time, d.speeds().left, d.speeds().right};
   const vehicle::Driver driver(options);
+  const double outer = outerTrack(d, spec);
   constexpr int kParts = 2000;
   std::array<double, 2> turned{}; // [rad]
   for (int i = 0; i < kParts; ++i) {
     const double t = time * (i + 0.5) / kParts;
     std::array<double, 2> speed = driver.at(t).sprocketSpeed;
-    if (d.course) speed.fill(std::min(std::fabs(d.course->speed), d.course->acceleration * t) / spec.pitchRadius());
+    if (d.course)
+      speed.fill(std::min(std::fabs(d.course->speed), d.course->acceleration * t) * outer / spec.pitchRadius());
     for (std::size_t side = 0; side < 2; ++side) turned[side] += std::fabs(speed[side]) * time / kParts;
   }
   return std::max(turned[0], turned[1]) * spec.sprocket.teeth / (2 * base::kPi);
+}
+
+std::string longerDriveRemedy(const scene::Scene& scene) {
+  const auto& table = scene.driver.table;
+  const bool standsAtLast = table && table->left.back() == 0 && table->right.back() == 0;
+  return standsAtLast && scene.run.duration >= scene.driver.driveBegins() + table->time.back()
+             ? "raise the speeds or times of driver.table"
+             : "raise run.duration";
 }
 
 std::string shortDriveWarning(const scene::Scene& scene) {
   if (!asksToDrive(scene)) return {};
   const double teeth = teethAsked(scene);
   if (teeth >= kFewestTeeth) return {};
-  return fmt::format("the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; raise run.duration",
-                     teeth > 0 ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
+  return fmt::format("the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; {}",
+                     teeth >= kLeastTeeth ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
                      scene.driver.driveBegins(), scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,
-                     teeth > 0 ? fmt::format(", and figures from fewer than {:g} teeth are inconclusive", kFewestTeeth)
-                               : "");
+                     teeth >= kLeastTeeth
+                         ? fmt::format(", and figures from fewer than {:g} teeth are inconclusive", kFewestTeeth)
+                         : "",
+                     longerDriveRemedy(scene));
 }
 
 } // namespace grouser::setup

@@ -10,12 +10,18 @@ namespace grouser::setup {
 /// Teeth that a track must pass before means over them count: torque, speed and slip ripple with each tooth [-].
 inline constexpr double kFewestTeeth = 2;
 
+/// Below this a vehicle has not driven: its ramp has just begun [-].
+inline constexpr double kLeastTeeth = 0.01;
+
 /// Whether the driver turns the sprockets. A vehicle that is only set down, or drawn by its hitch, need not drive.
 bool asksToDrive(const scene::Scene& scene);
 
 /// Teeth that pass the faster sprocket by the end of the run [-] if it starts as early as it can; infinite where
 /// torques decide.
 double teethAsked(const scene::Scene& scene);
+
+/// The setting that lets a vehicle drive farther, as the end of a message.
+std::string longerDriveRemedy(const scene::Scene& scene);
 
 /// Warns before a run whose vehicle cannot pass kFewestTeeth in its duration; empty where it can.
 std::string shortDriveWarning(const scene::Scene& scene);

@@ -106,9 +106,10 @@ VehicleRig::VehicleRig(const setup::SimulationSetup& setup, const base::Exec& ex
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
-      observer_(std::make_unique<vehicle::Observer>(
-          assembly_,
-          vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone, .heading = setup.vehicle->place.heading})),
+      observer_(std::make_unique<vehicle::Observer>(assembly_,
+                                                    vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone,
+                                                                             .heading = setup.vehicle->place.heading,
+                                                                             .gravity = gravity_})),
       blows_(assembly_.mass * norm(gravity_)) {
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
                                                 setup.vehicle->soilMeetsShoesAlone, kept);
@@ -193,9 +194,9 @@ Vec3d VehicleRig::meanForceOn(std::size_t obstacle) const {
 std::string VehicleRig::judgeRest() {
   if (!driver_.waits() || !contacts_->onGround()) return {};
   const double g = norm(gravity_);
-  const Vec3d down = gravity_ * (1 / g);
+  const Vec3d down = g > 0 ? gravity_ * (1 / g) : Vec3d{0, 0, -1};
   return driver_.judge(state_.time, dot(state_.twist[assembly_.chassis].v, down),
-                       -dot(groundForce(alarmMeans_), down) / (assembly_.mass * g));
+                       g > 0 ? -dot(groundForce(alarmMeans_), down) / (assembly_.mass * g) : 0.0);
 }
 
 /// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.
@@ -267,7 +268,7 @@ std::string VehicleRig::alarm(std::int64_t step) {
   if (alarm.empty()) alarm = judgeTurns();
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
   if (alarm.empty()) alarm = judgeRest();
-  blows_.add(state_.time, groundForce(alarmMeans_).z);
+  if (const double g = norm(gravity_); g > 0) blows_.add(state_.time, -dot(groundForce(alarmMeans_), gravity_) / g);
   alarmMeans_.restart();
   stalledSteps_ = stalls() ? stalledSteps_ + kAlarmInterval : 0;
   ended_ = judgeEnd();

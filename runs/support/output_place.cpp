@@ -41,13 +41,14 @@ int writeFault(const fs::path& folder) {
   return fault;
 }
 
-/// The nearest folder above `whole` that exists. Throws where something else stands in the way.
+/// The nearest folder at or above `whole` that exists. Throws where something else stands in the way of `shown`.
 fs::path existingAbove(const fs::path& shown, const fs::path& whole, const std::string& option) {
   std::error_code error;
+  const fs::path itself = fs::absolute(shown, error).lexically_normal();
   fs::path there;
   for (const fs::path& part : whole) {
     const fs::path next = there / part;
-    const std::string what = next == whole || next / "" == whole ? "is" : next.string() + " is";
+    const std::string what = next == itself || next / "" == itself ? "is" : next.string() + " is";
     error.clear();
     const bool isThere = fs::exists(next, error);
     if (error) refuse(shown, fmt::format("cannot be made ({})", error.message()), option);
@@ -106,8 +107,8 @@ void requireFile(const fs::path& file, const std::string& option) {
   fs::path place = fs::absolute(file, error);
   if (fs::is_symlink(fs::symlink_status(place, error)))
     place = (place.parent_path() / fs::read_symlink(place, error)).lexically_normal();
-  const fs::path folder = place.parent_path();
-  if (!fs::is_directory(folder, error))
+  const fs::path folder = place.parent_path().lexically_normal();
+  if (existingAbove(file, folder, option) != folder)
     refuse(file, fmt::format("cannot be written, since there is no folder {}: make it", folder.string()), option);
   if (const int fault = writeFault(folder))
     refuse(file, fmt::format("cannot be written ({})", std::strerror(fault)), option);

@@ -130,8 +130,7 @@ private:
     make("check, first run");
     const fs::path folder = record_.folder / record_.runs.plan.runs[0].name;
     const RunManifest manifest(folder);
-    const double whole = manifest.stepsOverTimed();
-    const double wall = (std::isfinite(whole) ? whole : 1) * manifest.number("wall_time_s");
+    const double wall = manifest.wallTime();
     if (!output::hasEnded(record_.outcomes[0].status) || !std::isfinite(wall)) throwBaseFailed();
     made_.push_back(record_.runs.plan.runs[0].name);
     record_.runs = {{record_.runs.plan.scene, record_.runs.plan.keys, {}}, {}, {}, {}};

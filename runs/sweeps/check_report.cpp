@@ -55,7 +55,8 @@ Json errorJson(const AxisError& e, const CheckFigure& f) {
 }
 
 bool isInconclusive(const CheckResults& results, const CheckFigure& f) {
-  return !results.doubt.empty() || studies::isInconclusive({f.value.value, f.bar});
+  const bool isNothing = f.value.value == 0 && f.bar == 0; // in all runs
+  return (!results.doubt.empty() && !isNothing) || studies::isInconclusive({f.value.value, f.bar});
 }
 
 Json figureJson(const CheckFigure& f, const CheckResults& results) {
@@ -171,9 +172,8 @@ std::vector<CaseCost> costsOf(const CheckRecord& record) {
     if (!output::hasEnded(record.outcomes[r].status)) continue;
     const RunManifest manifest(record.folder / record.runs.plan.runs[r].name);
     Taken& of = taken[record.runs.caseOf[r]];
-    const double whole = manifest.stepsOverTimed();
-    of.wall.push_back(whole * manifest.number("wall_time_s"));
-    of.cpu.push_back(whole * manifest.figure("cpu_steps_s"));
+    of.wall.push_back(manifest.wallTime());
+    of.cpu.push_back(manifest.stepsOverTimed() * manifest.figure("cpu_steps_s"));
     of.steps.push_back(manifest.number("steps"));
   }
   std::vector<CaseCost> costs;

@@ -37,7 +37,7 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
       whole.parent_path());
   for (std::size_t i = 0; i < found.columns.size(); ++i)
     json["figures"].push_back({{"name", found.columns[i]}, {"value", jsonNumber(found.values.front()[i])}});
-  json["inconclusive"] = found.inconclusive.front();
+  json["inconclusive"] = found.doubtOf(std::size_t{0});
   json["steady_from"] = jsonNumber(steadyFrom(scene, manifest));
   if (const std::string check = keptCheckText(scene, manifest.text("inputs")); !check.empty())
     json["check"] = nlohmann::ordered_json::parse(check);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/sweeps/run_manifest.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -43,6 +44,11 @@ std::string RunManifest::commit() const {
 double RunManifest::stepsOverTimed() const {
   const double steps = number("steps"), before = figure("resumed_at_step");
   return before > 0 ? steps / (steps - before) : 1; // which is no number where it went on at its end
+}
+
+double RunManifest::wallTime() const {
+  const double whole = stepsOverTimed();
+  return (std::isfinite(whole) ? whole : 1) * number("wall_time_s");
 }
 
 } // namespace grouser::sweeps

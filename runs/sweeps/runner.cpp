@@ -125,6 +125,11 @@ std::string reason(int status, const fs::path& log) {
 /// Whether a signal has stopped a run, which may go on: exit code 128 + signal.
 bool hasStopped(int status) { return WIFEXITED(status) && WEXITSTATUS(status) > 128; }
 
+std::ptrdiff_t countEnded(const std::vector<SweepOutcome>& outcomes) {
+  return std::count_if(outcomes.begin(), outcomes.end(),
+                       [](const SweepOutcome& o) { return output::hasEnded(o.status); });
+}
+
 /// The runs of a sweep as processes, at most `jobs` at a time.
 class Runner {
 public:
@@ -172,8 +177,8 @@ public:
       if (progress_.due()) report();
     }
     if (todo_ > 0)
-      progress_.finish(fmt::format("{} of {} finished{}", countFinished(), base::counted(outcomes_.size(), "run"),
-                                   next < waiting_.size() ? "; call again for the others" : ""));
+      progress_.finish(
+          fmt::format("{}{}", endedText(outcomes_), next < waiting_.size() ? "; call again for the others" : ""));
   }
 
 private:
@@ -260,14 +265,9 @@ private:
     stopping_ = true;
     for (const auto& [process, run] : running_) kill(process, SIGTERM);
     while (!running_.empty()) reap();
-    if (countFinished() == static_cast<std::ptrdiff_t>(outcomes_.size())) return;
+    if (countEnded(outcomes_) == static_cast<std::ptrdiff_t>(outcomes_.size())) return;
     throw support::Stopped(signal, fmt::format("stopped by {} after {} of {} runs", support::StopSignals::name(signal),
-                                               countFinished(), outcomes_.size()));
-  }
-
-  std::ptrdiff_t countFinished() const {
-    return std::count_if(outcomes_.begin(), outcomes_.end(),
-                         [](const SweepOutcome& o) { return output::hasEnded(o.status); });
+                                               countEnded(outcomes_), outcomes_.size()));
   }
 
   void finish(std::size_t i, int status, double seconds) {
@@ -315,6 +315,13 @@ private:
 };
 
 } // namespace
+
+std::string endedText(const std::vector<SweepOutcome>& outcomes) {
+  const auto incomplete = std::count_if(outcomes.begin(), outcomes.end(),
+                                        [](const SweepOutcome& o) { return o.status == RunStatus::incomplete; });
+  return fmt::format("{} of {} {}", countEnded(outcomes), base::counted(outcomes.size(), "run"),
+                     incomplete > 0 ? fmt::format("ended, {} incomplete", incomplete) : "finished");
+}
 
 std::string identity(scene::Scene scene) {
   scene.run.device = support::DeviceChoice::automatic, scene.run.threads = 0;

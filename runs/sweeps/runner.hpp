@@ -29,6 +29,9 @@ using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;
 /// What decides the result of a run, as text: the resolved scene without device, threads and folder.
 std::string identity(scene::Scene scene);
 
+/// "2 of 3 runs finished"; "2 of 2 runs ended, 1 incomplete".
+std::string endedText(const std::vector<SweepOutcome>& outcomes);
+
 /// Runs what is not there yet, at most `jobs` at a time: in the order of the plan, but where several may go at a time
 /// and `seconds` sets no end, those with the most work first, since the longest would else be what all wait for
 /// (workOf). A run is left out when its folder holds a finished one of the same identity(), the same bytes of all files

@@ -23,8 +23,8 @@ std::string inconclusiveText(const SweepPlan& plan, const SweepFigures& figures)
   std::string first;
   std::size_t count = 0;
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
-    if (!figures.inconclusive[i].empty() && ++count == 1)
-      first = fmt::format("{}: {}", plan.runs[i].name, figures.inconclusive[i]);
+    if (const std::string doubt = figures.doubtOf(i); !doubt.empty() && ++count == 1)
+      first = fmt::format("{}: {}", plan.runs[i].name, doubt);
   if (count == 0) return {};
   return fmt::format("WARNING: {} of {} runs {} inconclusive ({})\n", count, plan.runs.size(),
                      count == 1 ? "is" : "are", first);

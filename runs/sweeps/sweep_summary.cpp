@@ -11,11 +11,13 @@
 #include "runs/support/text_file.hpp"
 #include "runs/sweeps/run_manifest.hpp"
 #include "runs/sweeps/sweep_files.hpp"
+#include "vehicle/observers.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -90,11 +92,22 @@ public:
       const std::vector<double> speed = rows("vehicle/" + side + "/speed"),
                                 turns = rows("vehicle/" + side + "/sprocket_speed");
       for (std::size_t i = 0; i < std::min(speed.size(), turns.size()); ++i) {
-        if (turns[i] == 0 || !std::isfinite(speed[i] * turns[i])) continue;
+        if (std::fabs(turns[i]) < vehicle::kStanding || !std::isfinite(speed[i] * turns[i])) continue;
         went += turns[i] > 0 ? speed[i] : -speed[i], asked += std::fabs(turns[i]);
       }
     }
     return asked > 0 ? 1 - went / (asked * constant("vehicle/pitch_radius")) : base::kNaN;
+  }
+  /// Whether forces are stated along both directions of motion: gross traction has the sign of the torques forward.
+  bool turnsRound() const {
+    const std::vector<double> traction = rows("vehicle/gross_traction"), left = rows("vehicle/left/mean_torque"),
+                              right = rows("vehicle/right/mean_torque");
+    bool forward = false, backward = false;
+    for (std::size_t i = 0; i < std::min(traction.size(), left.size()); ++i) {
+      const double sign = traction[i] * (left[i] + (i < right.size() ? right[i] : 0));
+      forward = forward || sign > 0, backward = backward || sign < 0;
+    }
+    return forward && backward;
   }
   double last(const std::string& path) const {
     const std::vector<double> all = numbers(path);
@@ -128,6 +141,10 @@ private:
   std::vector<double> times_;
   std::size_t first_ = 0;
 };
+
+/// Columns that are stated in the direction of motion.
+constexpr std::array kAlongMotion{"gross traction [N]", "drawbar pull [N]", "motion resistance [N]"};
+constexpr const char* kTurned = "direction of motion changes: gross traction, drawbar pull, motion resistance";
 
 struct Figure {
   std::string column;
@@ -208,20 +225,22 @@ void addFigures(const SweepRun& run, const SweepOutcome& outcome, const fs::path
   const support::Hdf5File* const read = file ? &*file : nullptr;
   std::vector<double>& values = all.values.emplace_back();
   for (const Figure& f : figuresOf(read, from, columns)) values.push_back(f.value);
-  all.inconclusive.push_back(ended ? doubtOf(run.scene, outcome, Steady(read, from).teeth().most) : "");
+  const Steady steady(read, from);
+  all.inconclusive.push_back(ended ? doubtOf(run.scene, outcome, steady.teeth().most) : "");
+  all.turned.emplace_back(steady.turnsRound() ? kTurned : "");
 }
 
 /// The cells of one run, in the order of the header.
 std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder,
-                             const std::vector<double>& figures, const std::string& inconclusive) {
+                             const std::vector<double>& figures, const std::string& doubt) {
   std::vector<std::string> cells = {support::csvCell(run.name)};
   for (const std::string& value : run.values) cells.push_back(support::csvCell(value));
   cells.emplace_back(base::wordOf(outcome.status));
   cells.push_back(support::csvCell(outcome.message));
-  cells.push_back(support::csvCell(inconclusive));
+  cells.push_back(support::csvCell(!doubt.empty() && doubt == outcome.message ? "see message" : doubt));
   const RunManifest manifest(output::hasEnded(outcome.status) ? folder / run.name : fs::path());
-  for (const char* key : {"wall_time_s", "steps", "simulated_time_s"})
-    cells.push_back(support::csvCell(manifest.number(key)));
+  for (const double number : {manifest.wallTime(), manifest.number("steps"), manifest.number("simulated_time_s")})
+    cells.push_back(support::csvCell(number));
   for (const double value : figures) cells.push_back(support::csvCell(value));
   cells.push_back(manifest.text("state_hash"));
   cells.push_back(manifest.commit());
@@ -265,7 +284,15 @@ std::string SweepFigures::doubtOf(const std::vector<std::size_t>& runs) const {
   return first;
 }
 
+std::string SweepFigures::doubtOf(std::size_t run) const {
+  return inconclusive[run].empty() ? turned[run] : inconclusive[run];
+}
+
 void SweepFigures::keepSound(const std::vector<std::size_t>& runs) {
+  for (const std::size_t i : runs)
+    for (std::size_t c = 0; i < turned.size() && !turned[i].empty() && c < columns.size(); ++c)
+      if (std::find(kAlongMotion.begin(), kAlongMotion.end(), columns[c]) != kAlongMotion.end())
+        values[i][c] = base::kNaN;
   if (inconclusive.empty() || !doubtOf(runs).empty()) return;
   for (const std::size_t i : runs)
     if (!inconclusive[i].empty()) values[i].assign(columns.size(), base::kNaN);
@@ -294,8 +321,8 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   header.insert(header.end(), {"state hash", "commit"});
   std::string text = fmt::format("{}\n", fmt::join(header, ","));
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
-    text += fmt::format(
-        "{}\n", fmt::join(row(plan.runs[i], outcomes[i], folder, figures.values[i], figures.inconclusive[i]), ","));
+    text += fmt::format("{}\n",
+                        fmt::join(row(plan.runs[i], outcomes[i], folder, figures.values[i], figures.doubtOf(i)), ","));
 
   fs::path path = folder / kSummaryFile;
   support::replaceTextFile(path, text);

@@ -33,10 +33,14 @@ struct SweepFigures {
   std::vector<std::string> columns;        ///< name and unit; of a vehicle or a surface only where a run has it
   std::vector<std::vector<double>> values; ///< [runs][columns]; NaN: none, as of every run that has not ended
   std::vector<std::string> inconclusive;   ///< [runs]: why its figures are, as over less than two teeth; empty: sound
+  std::vector<std::string> turned; ///< [runs]: why those along the motion alone are: its direction changes; else empty
 
+  /// Why figures of a run are inconclusive: all of them, or those that it names; empty where all are sound.
+  std::string doubtOf(std::size_t run) const;
   /// Why the mean of these runs is inconclusive: none of those that have ended is sound. Else empty.
   std::string doubtOf(const std::vector<std::size_t>& runs) const;
-  /// Leaves out what is inconclusive of these runs, where any of them is sound.
+  /// Leaves out what is inconclusive of these runs, where any of them is sound, and in any case means along a direction
+  /// that changes.
   void keepSound(const std::vector<std::size_t>& runs);
 };
 SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,

@@ -78,7 +78,8 @@ class Scenes(FolderTest):
         for key, near in (("driver.sproket_speed", "driver.sprocket_speed"), ("sprocket_speed", "driver.sprocket_speed"),
                           ("run.duraton", "run.duration"), ("material.soil.fricton", "material.soil.friction"),
                           ("materal.soil.friction", "material.soil.friction"), ("driver.tabel.time", "driver.table.time"),
-                          ("spec.shoe.pin_dampng", "spec.shoe.pin_damping")):
+                          ("spec.shoe.pin_dampng", "spec.shoe.pin_damping"),
+                          ("vehicle.mass", "vehicle.chassis"), ("vehicle.sprocket_speed", "driver.sprocket_speed")):
             with self.assertRaises(KeyError) as caught:
                 scene[key] = 1
             self.assertEqual(caught.exception.args[0], f"{key}: unknown key; did you mean {near}?")

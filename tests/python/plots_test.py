@@ -13,7 +13,10 @@ from fixture import ROOT, FolderTest
 
 sys.path[:0] = [str(ROOT / "runs/plots"), str(ROOT / "runs/report")]
 
+import grouser
 import bed
+import check
+import check_page
 import drawing
 import drive
 import ledger
@@ -24,6 +27,8 @@ import series
 import shoes
 import single_shoes
 import surface
+import sweep
+import sweep_page
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 TIME = numpy.arange(0, 3, 0.02)
@@ -110,7 +115,7 @@ class Readable(FolderTest):
         tiny = 1e-63 * numpy.exp(-TIME)
         bodies = {f"bodies/b{k}/position": numpy.stack([numpy.cos(TIME + k), numpy.sin(TIME + k), 0 * TIME], 1) for k in range(8)}
         error = {"ledger/integration_error": tiny, "ledger/elastic": tiny}
-        for joints, panels in ((tiny, 3), (1e-12 * numpy.exp(-40 * TIME), 4)):
+        for joints, panels in ((tiny, 3), (1e-16 * numpy.exp(-TIME), 3), (1e-12 * numpy.exp(-40 * TIME), 4)):
             figure = self.figure_of(mechanism.plot, **bodies, **error, **{"constraints/position_error": joints})
             self.assertEqual(len(figure.axes), panels)
             over_time = {axes.get_xlim() for axes in figure.axes if axes.get_xlabel() == "time [s]"}
@@ -126,6 +131,103 @@ class Readable(FolderTest):
         figure, = kept
         self.assertEqual([axes.get_title() for axes in figure.axes], ["left track", ""])
         self.assertEqual(list(figure.axes[0].lines[0].get_xdata()), list(TIME))
+
+
+SUMMARY = """run,k,status,message,inconclusive,wall time [s],steps,simulated time [s],slip [-],drawbar pull [N],state hash
+k=1,1,incomplete,never drove,see message,1,1,1,0.9,50,x
+k=2,2,finished,,,1,1,1,0.1,60,y
+k=3,3,finished,,1.2 teeth in the steady part,1,1,1,0.8,70,z
+k=4,4,finished,,"direction of motion changes: gross traction, drawbar pull, motion resistance",1,1,1,0.2,80,w
+"""
+INTERVALS = """k,figure,seeds,mean,half width,difference to the first,half width of the difference,inconclusive
+1,slip [-],3,0.9,0.1,0,0,never drove
+2,slip [-],3,0.1,0.01,0,0,
+3,slip [-],1,0.2,,0,,
+"""
+
+
+class Doubtful(FolderTest):
+    """Figures of runs that hardly drove, or that are incomplete, do not stand beside others as if they were sound."""
+
+    def written(self, intervals=""):
+        (self.folder / "summary.csv").write_text(SUMMARY)
+        if intervals:
+            (self.folder / "intervals.csv").write_text(intervals)
+        return grouser.open_sweep(self.folder)
+
+    def slips(self, table):
+        figure = sweep.draw(table)
+        panel = next(axes for axes in figure.axes if axes.get_ylabel() == "slip [-]")
+        bars = [bar for container in panel.containers for bar in container[2]]
+        found = {}
+        for line in panel.lines:
+            if line.get_marker() in "ox":
+                found.setdefault(line.get_marker(), []).extend(zip(map(float, line.get_xdata()), line.get_ydata()))
+        return found, figure.get_suptitle() if hasattr(figure, "get_suptitle") else figure._suptitle.get_text(), bars
+
+    def test_are_crosses_in_plots_of_a_sweep(self):
+        self.written()
+        marks, title, _ = self.slips("summary.csv")
+        self.assertEqual(marks, {"o": [(2, 0.1), (4, 0.2)], "x": [(1, 0.9), (3, 0.8)]})
+        self.assertIn("crosses: inconclusive", title)
+
+    def test_means_have_no_bar_where_the_interval_is_not_known(self):
+        self.written(INTERVALS)
+        marks, title, bars = self.slips("intervals.csv")
+        self.assertEqual(marks["x"], [(1, 0.9)])
+        self.assertIn("95 % intervals", title)
+        (self.folder / "one.csv").write_text("\n".join([INTERVALS.split("\n")[0], INTERVALS.split("\n")[3]]) + "\n")
+        marks, title, bars = self.slips("one.csv")
+        self.assertEqual((marks, bars), ({"o": [(3, 0.2)]}, []))
+        self.assertEqual(title, "Means over the steady part, without intervals: one seed each")
+
+    def test_are_left_out_of_a_reports_curves_and_marked_in_its_table(self):
+        opened = self.written()
+        def curve(name):
+            return sweep_page.curves_of(opened, name, lambda keys: float(keys["k"]), lambda keys: "")
+        self.assertEqual(curve("slip"), ({"": [(2.0, 0.1), (4.0, 0.2)]}, 2))
+        self.assertEqual(curve("drawbar pull"), ({"": [(2.0, 60.0)]}, 3))
+        rows = sweep_page.runs_table(opened, {}).split("<tr>")[2:]
+        self.assertEqual([row.count(page.INCONCLUSIVE) for row in rows], [2, 0, 2, 1])
+        opened = self.written(INTERVALS)
+        groups, left_out = curve("slip")
+        self.assertEqual(([point[:2] for point in groups[""]], left_out), ([(2.0, 0.1), (3.0, 0.2)], 1))
+
+    def test_stand_open_in_the_plot_of_a_check(self):
+        def drawn(doubtful, status):
+            figure = {"name": "slip [-]", "value": 0.5, "bar": 0.1, "bar_of_step": [0.1, 0.05], "errors": [], "seeds": 1,
+                      "inconclusive": doubtful, "seeds_half_width": None}
+            cases = [{"name": name, "axis": "step", "status": status} for name in ("base", "step_over_2")]
+            costs = {"cases": [{"name": "base", "wall_s": 3.0}, {"name": "step_over_2", "wall_s": 6.0}]}
+            axes = drawing.Figure().subplots()
+            check.panel(axes, figure, {"step_cases": ["base", "step_over_2"], "cases": cases, "seeds_matter": False}, costs)
+            return axes.get_title(), sum(line.get_markerfacecolor() == "none" for line in axes.lines)
+        self.assertEqual(drawn(False, "finished"), ("slip [-]", 0))
+        self.assertEqual(drawn(True, "finished"), ("slip [-] (inconclusive)", 2))
+        self.assertEqual(drawn(False, "incomplete"), ("slip [-]", 2))
+
+    def test_ticks_of_run_times_have_room_for_their_numbers(self):
+        self.assertEqual(check.ticks_between(0.6, 21.0), [1, 2, 5, 10, 20])
+        self.assertEqual(check.ticks_between(0.02, 3000.0), [0.1, 1, 10, 100, 1000])
+        for low, high in ((3.1, 3.4), (11, 19), (0.02, 3e9), (4.5, 5.5)):
+            places = check.ticks_between(low, high)
+            self.assertTrue(2 <= len(places) <= 5, (low, high, places))
+            self.assertTrue(all(low <= place <= high for place in places), (low, high, places))
+
+    def test_what_is_0_in_all_runs_is_sure(self):
+        self.assertNotIn("inconclusive", page.figure_with_bar(0.0, 0.0, "", "", True))
+        self.assertIn("inconclusive", page.figure_with_bar(0.2, 0.0, "", "", True))
+
+    def test_incomplete_runs_of_a_check_have_films_and_ledgers(self):
+        class Check:
+            folder = self.folder
+        case = {"name": "base", "runs": [{"seed": 1, "status": status} for status in ("incomplete", "failed", "finished")]}
+        self.assertEqual(len(check_page.runs_of(Check, case)), 2)
+
+    def test_a_resumed_runs_wall_time_is_that_of_all_steps(self):
+        def seconds(**figures):
+            return float(re.search(r'value="([^"]+)"', run_page.wall_time({"wall_time_s": 10.0, "steps": 3000, "figures": figures}))[1])
+        self.assertEqual([seconds(), seconds(resumed_at_step=1500), seconds(resumed_at_step=3000)], [10, 20, 10])
 
 
 class Numbers(unittest.TestCase):

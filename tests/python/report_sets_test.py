@@ -117,6 +117,18 @@ class Pages(PageTest):
             if name == "cases":
                 self.assertIn("1: case = slippery; 2: case = rough", told)
 
+    def test_a_runs_warnings_stand_at_its_top_and_once(self):
+        (self.folder / "grains.toml").write_text(GRAINS)
+        grouser.call(["run", "grains.toml", "--out", "run"])
+        manifest = json.loads((self.folder / "run/manifest.json").read_text())
+        more = {"status": "incomplete", "incomplete": "it never drove", "bed_warnings": "loose & thin"}
+        (self.folder / "run/manifest.json").write_text(json.dumps({**manifest, **more}))
+        self.opened("run")
+        tops = self.browser.value("[...document.querySelectorAll('#content > .bad')].map(e => e.textContent)")
+        self.assertEqual(tops, ["WARNING: this run is incomplete: it never drove", "WARNING: loose & thin"])
+        figures = self.browser.value("document.querySelector('#figures').textContent")
+        self.assertIn("Inconclusive: see the warning at the top.", figures)
+
     def test_one_seed_alone_has_no_bar(self):
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.6", "--seeds", "2", "--out", "sweep"])

@@ -66,12 +66,14 @@ class Printed(unittest.TestCase):
                 (grouser.Series(numpy.where(rows < 0.5, numpy.nan, 1.0), "-", "", "slip", rows),
                  "slip [-]: 101 rows from 0 to 1 s, first nan, last 1, min 1, mean 1, max 1, 50 of 101 are NaN"),
                 (grouser.Series(numpy.zeros((101, 3)), "m", "", "place", rows, None, ("x", "y", "z")),
-                 "place [m]: 101 rows from 0 to 1 s, columns x, y, z, min 0, mean 0, max 0"),
+                 "place [m]: 101 rows from 0 to 1 s, x 0 to 0, y 0 to 0, z 0 to 0"),
                 (grouser.Series(numpy.zeros((1, 46)), "N", "", "tension", rows[:1]),
-                 "tension [N]: 1 row from 0 to 0 s of 46 columns, min 0, mean 0, max 0"),
+                 "tension [N]: 1 row from 0 to 0 s of 46 columns, 0 to 0"),
+                (grouser.Series(numpy.array([[1.0, numpy.nan], [-2.0, numpy.nan]]), "N", "", "force", rows[:2], None, ("x", "y")),
+                 "force [N]: 2 rows from 0 to 0.01 s, x -2 to 1, y no number, 2 of 4 are NaN"),
                 (grouser.Series(rows[:0], "m", "", "way", rows[:0]), "way [m]: 0 rows"),
                 (grouser.Quantity(numpy.array(3.25), "m", "", "radius"), "radius [m]: 3.25"),
-                (grouser.Quantity(numpy.arange(5.0), "m", "", "depth"), "depth [m]: [5], 0 to 4, mean 2"),
+                (grouser.Quantity(numpy.arange(5.0), "m", "", "depth"), "depth [m]: [5], 0 to 4"),
                 (barred([1.0, 2.0, 4.0], [1.0] * 3, [1.0] * 3, [1.0] * 3),
                  "error [J]: 3 rows from 0 to 0.2 s, first 1, last 4, min 1, mean 2.333, max 4")):
             self.assertEqual((str(one), repr(one)), (text, text))
@@ -101,7 +103,7 @@ class Doubt(FolderTest):
 
     def test_of_runs_and_means_of_a_sweep(self):
         about = "run,k,status,message,inconclusive,wall time [s],steps,simulated time [s],slip [-],state hash"
-        (self.folder / "summary.csv").write_text(f"{about}\nk=1,1,incomplete,never drove,never drove,1,1,1,0.2,x\n"
+        (self.folder / "summary.csv").write_text(f"{about}\nk=1,1,incomplete,never drove,see message,1,1,1,0.2,x\n"
                                                  "k=2,2,finished,,,1,1,1,0.1,y\n")
         (self.folder / "intervals.csv").write_text(
             "k,figure,seeds,mean,half width,difference to the first,half width of the difference,inconclusive\n"
@@ -110,7 +112,17 @@ class Doubt(FolderTest):
         self.assertEqual([run.status for run in sweep.runs], ["incomplete", "finished"])
         self.assertEqual([run.inconclusive for run in sweep.runs], ["never drove", ""])
         self.assertEqual(list(sweep.units), ["slip"])
+        self.assertTrue(str(sweep).endswith("2 runs over k; incomplete: k=1>"), str(sweep))
+        self.assertEqual(str(sweep["slip"]), "slip [-]: [2], 0.1 to 0.2, inconclusive: k=1")
         self.assertEqual([mean.inconclusive for mean in sweep.means["slip"]], ["never drove", ""])
+
+
+    def test_of_the_figures_that_are_named_alone(self):
+        (self.folder / "summary.csv").write_text(
+            "run,k,status,message,inconclusive,wall time [s],steps,simulated time [s],slip [-],drawbar pull [N],state hash\n"
+            'k=1,1,finished,,"direction of motion changes: gross traction, drawbar pull, motion resistance",1,1,1,0.2,30,x\n')
+        run, = grouser.open_sweep(self.folder).runs
+        self.assertEqual([bool(run.doubt(figure)) for figure in ("slip", "drawbar pull")], [False, True])
 
 
 class Names(FolderTest):

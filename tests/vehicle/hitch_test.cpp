@@ -76,6 +76,16 @@ TEST(Hitch, RampGrowsAtItsRate) {
   EXPECT_NEAR(hitch.step(at(0, 0), 3, 1e-3, kHitchGravity).x, -200, 1e-12);
 }
 
+TEST(Hitch, AForceTowsNothingAndHasNoSpeed) {
+  for (const HitchKind kind : {HitchKind::force, HitchKind::ramp}) {
+    Hitch hitch(of(kind));
+    hitch.step(at(0, 0.7), 0, 1e-3, kHitchGravity);
+    EXPECT_TRUE(hitch.holds());
+    EXPECT_EQ(hitch.towedSpeed(), 0);
+    EXPECT_EQ(hitch.way(), 0);
+  }
+}
+
 TEST(Hitch, SledAtConstantSpeedPullsWithItsFriction) {
   Hitch hitch(of(HitchKind::sled));
   double pull = 0;

@@ -3,6 +3,7 @@
 // expected numbers follow from the attitude and the forces that the test sets.
 #include "vehicle/observers.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -155,6 +156,42 @@ TEST_F(AlongGround, DirectionIsOfTheMeanSinceTheLastRow) {
     EXPECT_NEAR(each->observe(state, {}, nullptr).grossTraction, 400 / pitchRadius, kRound);
   observer.restartMeans(), observer.update(state, 1e-3);
   EXPECT_NEAR(observer.observe(state, {}, nullptr).grossTraction, -200 / pitchRadius, kRound);
+}
+
+/// A vehicle that stalls rocks back: forces stay stated as before, until the tracks run back for good.
+TEST_F(AlongGround, AStalledVehicleThatRocksKeepsItsDirection) {
+  Observer observer(v);
+  const GroundLoads ground = loads({5000, 0, weight});
+  const auto thrustAt = [&](Observer& watching, double speed) { // of a row of one step, at so many m/s
+    drive(speed / pitchRadius, speed / pitchRadius, 400, 400);
+    watching.update(state, 1e-3);
+    const double thrust = watching.observe(state, ground, nullptr).netThrust;
+    watching.restartMeans();
+    return thrust;
+  };
+  EXPECT_NEAR(thrustAt(observer, -0.001), -5000, kRound) << "the first motion says which way";
+  EXPECT_NEAR(thrustAt(observer, 0.5), 5000, kRound);
+  for (const double rocks : {-0.009, 0.002, -0.002, 0.0, -0.009})
+    EXPECT_NEAR(thrustAt(observer, rocks), 5000, kRound) << rocks;
+  EXPECT_NEAR(thrustAt(observer, -0.011), -5000, kRound);
+  EXPECT_NEAR(thrustAt(observer, 0.009), -5000, kRound);
+  Observer resumed(v);
+  resumed.restore(observer.save());
+  EXPECT_NEAR(thrustAt(resumed, 0.009), -5000, kRound) << "a checkpoint knows the direction";
+  EXPECT_NEAR(thrustAt(resumed, 0.011), 5000, kRound);
+}
+
+TEST_F(AlongGround, CheckpointsOfAnotherLayoutAreRefusedWithTheRemedy) {
+  std::vector<double> saved = Observer(v).save();
+  saved.resize(saved.size() -
+               7); // two tracks' rates and speeds, heading, roll and direction: as earlier versions had it
+  Observer observer(v);
+  try {
+    observer.restore(saved);
+    FAIL() << "was accepted";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--force"), std::string::npos) << error.what();
+  }
 }
 
 /// The same climb on ground that rises and on level ground under a gravity that leans: all forces turn with the ground.

@@ -216,14 +216,31 @@ TEST_F(ObserverValues, ArmsAreReadWheelByWheel) {
 }
 
 TEST_F(ObserverValues, CarryingLoadIsAHundredthOfTheWeightOverBothGroundRuns) {
-  EXPECT_NEAR(vehicle::carryingLoad(v), 0.01 * v.mass * 9.80665 / 24, 1e-12);
-  const double half = 0.99 * vehicle::carryingLoad(v), more = 1.01 * vehicle::carryingLoad(v);
+  EXPECT_NEAR(vehicle::carryingLoad(v, 9.80665), 0.01 * v.mass * 9.80665 / 24, 1e-12);
+  const double half = 0.99 * vehicle::carryingLoad(v, 9.80665), more = 1.01 * vehicle::carryingLoad(v, 9.80665);
   GroundLoads ground = noLoads();
   const int shoe = v.wrap.firstGroundShoe();
   ground.force[left.shoes[shoe]].z = half, ground.force[right.shoes[shoe]].z = more;
   const auto o = Observer(v).observe(state, ground, nullptr);
   EXPECT_EQ(o.tracks[0].onGround[shoe], 0);
   EXPECT_EQ(o.tracks[1].onGround[shoe], 1);
+}
+
+/// Of the run's gravity: its size sets the load, and its direction says which part of a force carries.
+TEST_F(ObserverValues, CarryingIsAgainstTheGravityOfTheRun) {
+  GroundLoads ground = noLoads();
+  const int shoe = v.wrap.firstGroundShoe();
+  const auto carries = [&](const Vec3d& gravity, const Vec3d& force) {
+    ground.force[left.shoes[shoe]] = force;
+    return Observer(v, {.gravity = gravity}).observe(state, ground, nullptr).tracks[0].onGround[shoe];
+  };
+  const double share = 0.01 * v.mass / 24; // of 1 m/s2
+  EXPECT_EQ(carries({0, 0, -1.62}, {0, 0, 1.65 * share}), 1);
+  EXPECT_EQ(carries({0, 0, -1.62}, {0, 0, 1.6 * share}), 0);
+  EXPECT_EQ(carries({-6, 0, -8}, {6.1 * share, 0, 8.1 * share}), 1) << "along gravity 10.1 of 10";
+  EXPECT_EQ(carries({-6, 0, -8}, {0, 0, 12 * share}), 0) << "along gravity 9.6 of 10";
+  EXPECT_EQ(carries({}, {0, 0, 1e-3}), 1) << "no weight: any force upward";
+  EXPECT_EQ(carries({}, {}), 0);
 }
 
 TEST_F(ObserverValues, HeightsShiftsAndLiftsBelongToTheirTrack) {

@@ -60,7 +60,7 @@ TEST_F(Observers, Sinkage_IsSurfaceMinusPadWhereLoadIsCarried) {
   const Observer observer(v);
   GroundLoads ground = standing();
   const int idle = v.wrap.firstGroundShoe() + 3;
-  ground.force[left.shoes[idle]].z = 0.5 * vehicle::carryingLoad(v);
+  ground.force[left.shoes[idle]].z = 0.5 * vehicle::carryingLoad(v, vehicle::kStandardGravity);
   const auto o = observer.observe(state, ground, [](double x, double) { return 0.01 * x - 0.4; });
   for (int i = 0; i < 46; ++i) {
     const bool carries = i >= v.wrap.firstGroundShoe() && i <= v.wrap.lastGroundShoe() && i != idle;
@@ -215,8 +215,8 @@ TEST_F(Observers, AWheelThatRollsOverAStone_IsNoThrownTrack) {
 
 TEST_F(Observers, SuspendedSag_CoversTheKnownOne) {
   // The plane model found 77 mm; the parabola over the whole span is above it, and no more than twice.
-  EXPECT_GT(vehicle::suspendedSag(v.spec), 0.077);
-  EXPECT_LT(vehicle::suspendedSag(v.spec), 0.154);
+  EXPECT_GT(vehicle::suspendedSag(v.spec, 9.81), 0.077);
+  EXPECT_LT(vehicle::suspendedSag(v.spec, 9.81), 0.154);
 }
 
 TEST_F(Observers, ShoeBesideItsWheels_IsAThrownTrack) {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <filesystem>
 
 namespace grouser::commands {
@@ -75,6 +77,20 @@ TEST(PorosityWarning, NamesLeaningGravityWhereTheBedHasMovedAfterItsPreparation)
   EXPECT_EQ(porosityWarning(0.40, bed, {5.627, 0, -8.036}), "") << "as near as beds come";
   bed.porosity = 0.427, bed.porosityError = 0.01;
   EXPECT_EQ(porosityWarning(0.40, bed, {0, 0, -9.81}), "") << "measured in too few grains to say";
+}
+
+/// Kept with the other warnings of a bed, for the manifest and the report.
+TEST(PorosityWarning, IsOneOfTheWarningsOfARunsBed) {
+  const scene::Scene scene = setup::parseScene(
+      "version = 1\n[run]\nduration = 0.01\ngravity = [5.627, 0, -8.036]\n[material.m]\nstiffness = 2e3\n"
+      "restitution = 0.3\nfriction = 0.5\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [0.4, 0.24]\n"
+      "height_range = [0, 0]\nmaterial = \"m\"\ngrain_radius = 0.02\ndepth = 0.12\nporosity = 0.40\n",
+      "scene.toml");
+  const simulation::Simulation simulation(setup::simulationSetup(scene), base::cpuExec(2), [](double, double) {});
+  const std::string porosity = porosityWarning(simulation);
+  ASSERT_NE(porosity, "");
+  const std::vector<std::string> warnings = bedWarnings(scene, simulation);
+  EXPECT_NE(std::find(warnings.begin(), warnings.end(), porosity), warnings.end());
 }
 
 TEST(Plan, SaysThatAPorosityIsPreparedStraightDown) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Go or no-go on motions that are made up, and what is read out of them.
 #include "runs/events/event_figures.hpp"
+#include "runs/events/event_report.hpp"
 #include "runs/events/event_verdict.hpp"
 
 #include "base/math.hpp"
@@ -40,6 +41,18 @@ TEST(EventVerdict, IsGoAtHalfTheSpeedAndNoGoBelow) {
   const Verdict slow = judge(straightOn({{15, 0.49}}), course(5, 1));
   EXPECT_FALSE(slow.go);
   EXPECT_NE(slow.why.find("too slowly"), std::string::npos) << slow.why;
+}
+
+TEST(EventReport, CountsRunsInWordsThatFit) {
+  const auto text = [](int incomplete, int pending) {
+    EventRow row;
+    row.incomplete = incomplete, row.pending = pending;
+    return eventsText({row}, {}, {});
+  };
+  EXPECT_NE(text(1, 1).find("1 of its runs is incomplete"), std::string::npos) << text(1, 1);
+  EXPECT_NE(text(1, 1).find("1 of its runs is still to be done"), std::string::npos) << text(1, 1);
+  EXPECT_NE(text(2, 3).find("2 of its runs are incomplete"), std::string::npos) << text(2, 3);
+  EXPECT_NE(text(2, 3).find("3 of its runs are still to be done"), std::string::npos) << text(2, 3);
 }
 
 TEST(EventVerdict, LooksAtTheLastFiveMetresAlone) {

@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/math.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +38,11 @@ TEST(DriveLength, TeethAreThoseOfTheSpeedsBehindTheRamps) {
       << "there and back";
   EXPECT_NEAR(teethAsked(driven("[driver.course]\nspeed = 1\nacceleration = 2\n", 1.45)),
               teeth(0.75 / (10 * 0.154 / (2 * base::kPi))), 1e-5);
+  // On a circle of 2 m the outer track, 0.9 m beside the middle or so, goes farther by that share.
+  const scene::Scene circle = driven("[driver.course]\nspeed = 1\nacceleration = 2\nradius = -2\n", 1.45);
+  const double offset = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml").trackOffset;
+  ASSERT_GT(offset, 0.5);
+  EXPECT_NEAR(teethAsked(circle), teeth(0.75 * (1 + offset / 2) / (10 * 0.154 / (2 * base::kPi))), 1e-5);
   EXPECT_EQ(teethAsked(driven(plain, 0.4)), 0);
   EXPECT_TRUE(std::isinf(teethAsked(driven("[driver]\ndrive = \"torque\"\ntorque = 500\n", 1))));
 }
@@ -50,6 +56,17 @@ TEST(DriveLength, AShortDriveIsSaidBefore) {
             "the vehicle drives at most 1.1 teeth (its sprockets start at 0.5 s, the run ends at 1 s), and figures "
             "from fewer than 2 teeth are inconclusive; raise run.duration");
   EXPECT_EQ(shortDriveWarning(driven("[driver]\nsprocket_speed = 2\n", 3)), "");
+  // A ramp that has hardly begun is no drive.
+  EXPECT_EQ(shortDriveWarning(driven("[driver]\nsprocket_speed = 2\ndrive_start = 0.5\n", 0.51)).find("never drives"),
+            std::string("the vehicle ").size());
+}
+
+TEST(DriveLength, TheRemedyOfATableThatStopsIsTheTable) {
+  const std::string stops = "[driver.table]\ntime = [0, 0.2, 0.4]\nleft = [0, 5, 0]\nright = [0, 5, 0]\n";
+  const auto endsWith = [](const std::string& text, const std::string& end) { return text.ends_with(end); };
+  EXPECT_TRUE(endsWith(shortDriveWarning(driven(stops, 2.6)), "; raise the speeds or times of driver.table"));
+  EXPECT_TRUE(endsWith(shortDriveWarning(driven(stops, 0.6)), "; raise run.duration")) << "it ends within the table";
+  EXPECT_TRUE(endsWith(longerDriveRemedy(driven("[driver]\nsprocket_speed = 2\n", 2.6)), "raise run.duration"));
 }
 
 /// A vehicle that only stands, or is drawn by its hitch, is complete without a tooth.

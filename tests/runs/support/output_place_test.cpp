@@ -97,6 +97,15 @@ TEST_F(OutputPlace, AFullDiskIsMetBefore) {
 TEST_F(OutputPlace, FilesNeedTheirFolder) {
   EXPECT_NE(ofFile(folder_ / "none/plan.json").find("there is no folder"), std::string::npos);
   EXPECT_NE(ofFile(folder_).find("is a folder, where a file should be"), std::string::npos);
+  put(folder_ / "file", "x");
+  fs::create_symlink("gone", folder_ / "lost");
+  fs::create_directory(folder_ / "there");
+  fs::create_symlink("there", folder_ / "good");
+  EXPECT_NE(ofFile(folder_ / "file/plan.json").find("file is a file, where a folder should be"), std::string::npos)
+      << ofFile(folder_ / "file/plan.json");
+  EXPECT_NE(ofFile(folder_ / "lost/plan.json").find("lost is a link to gone, which does not exist"), std::string::npos)
+      << ofFile(folder_ / "lost/plan.json");
+  for (const char* name : {"good/plan.json", "./there/../good/./plan.json"}) EXPECT_EQ(ofFile(folder_ / name), "");
   fs::create_symlink("none/plan.json", folder_ / "link.json");
   EXPECT_NE(ofFile(folder_ / "link.json"), "");
 }

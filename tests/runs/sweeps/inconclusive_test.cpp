@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -40,11 +41,14 @@ protected:
       scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
     }
   }
-  void write(std::size_t run, const Driven& left, const std::optional<Driven>& right) {
+  /// `turned`: in every second row the vehicle goes backward. `resumed`: at this step, of 3000.
+  void write(std::size_t run, const Driven& left, const std::optional<Driven>& right, bool turned = false,
+             double resumed = 0) {
     std::vector<output::Channel> channels;
     for (const std::string side : {"left", "right"})
       for (const char* scalar : {"sprocket_speed", "speed", "mean_torque", "drive_power", "teeth_passed"})
         if (side == "left" || right) channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});
+    channels.push_back({"vehicle/gross_traction", "N", "", 1, {}});
     std::filesystem::remove_all(folder_ / plan_.runs[run].name);
     output::RunWriter writer(folder_ / plan_.runs[run].name, setup::provenanceOf(plan_.runs[run].scene), channels, {});
     writer.constant(output::kPitchRadius, 0.25);
@@ -58,10 +62,14 @@ protected:
       };
       set("left", left);
       if (right) set("right", *right);
+      const double torque = left.torque + (right ? right->torque : 0),
+                   way = left.turns < 0 || (turned && r % 2) ? -1 : 1;
+      row.set("vehicle/gross_traction", way * torque / 0.25);
       writer.row(row.row());
     }
     output::Summary summary;
-    summary.steps = 3000, summary.simulatedTime = 3;
+    summary.steps = 3000, summary.simulatedTime = 3, summary.wallTime = 10;
+    if (resumed > 0) summary.figures["resumed_at_step"] = resumed;
     writer.finish(summary);
   }
   Csv written(output::RunStatus status = output::RunStatus::finished, const std::string& message = "") const {
@@ -85,6 +93,41 @@ TEST_F(Inconclusive, SlipIsThatOfEachTrackWhereItRunsTo) {
   // Braked: the hull goes faster than its tracks.
   write(0, {2, 0.6, -500, 4}, Driven{2, 0.6, -500, 4});
   EXPECT_NEAR(written().number(0, "slip [-]"), -0.2, kNine);
+}
+
+/// A locked sprocket turns by the rounding of its lock.
+TEST_F(Inconclusive, ALockedTrackHasNoPartInTheSlip) {
+  for (const double rounding : {7.6e-48, -7.6e-48, 0.0}) {
+    write(0, {rounding, 0.25, 0, 0}, Driven{2, 0.3, 500, 4});
+    EXPECT_NEAR(written().number(0, "slip [-]"), 0.4, kNine) << rounding;
+  }
+}
+
+TEST_F(Inconclusive, MeansAlongADirectionThatChangesAreMarkedAndCountInNoMean) {
+  const std::string turned = "direction of motion changes: gross traction, drawbar pull, motion resistance";
+  write(0, {2, 0.3, 500, 4}, Driven{2, 0.3, 500, 4});
+  EXPECT_EQ(written().at(0, "inconclusive"), "") << "all forward";
+  write(0, {-2, -0.3, -500, 4}, Driven{-2, -0.3, -500, 4});
+  EXPECT_EQ(written().at(0, "inconclusive"), "") << "all backward";
+  write(0, {2, 0.3, 500, 4}, Driven{2, 0.3, 500, 4}, true);
+  EXPECT_EQ(written().at(0, "inconclusive"), turned);
+  EXPECT_TRUE(std::isfinite(written().number(0, "gross traction [N]")));
+  SweepFigures figures = sweepFigures(plan_, {{output::RunStatus::finished, ""}, {}}, folder_);
+  figures.keepSound({0});
+  const auto valueOf = [&](const char* column) {
+    const auto at = std::find(figures.columns.begin(), figures.columns.end(), column) - figures.columns.begin();
+    return figures.values[0].at(static_cast<std::size_t>(at));
+  };
+  EXPECT_TRUE(std::isnan(valueOf("gross traction [N]")));
+  EXPECT_NEAR(valueOf("speed [m/s]"), 0.3, 1e-12);
+}
+
+/// Half of the steps were made before the run was resumed.
+TEST_F(Inconclusive, WallTimeIsThatOfAllStepsOfAResumedRun) {
+  write(0, {2, 0.3, 500, 4}, Driven{2, 0.3, 500, 4}, false, 1500);
+  EXPECT_NEAR(written().number(0, "wall time [s]"), 20, 20 * kNine);
+  write(0, {2, 0.3, 500, 4}, Driven{2, 0.3, 500, 4}, false, 3000);
+  EXPECT_NEAR(written().number(0, "wall time [s]"), 10, 10 * kNine) << "it went on at its end";
 }
 
 TEST_F(Inconclusive, OneTrackHasFiguresOfItsOwn) {
@@ -130,7 +173,7 @@ TEST_F(Inconclusive, AnIncompleteRunSaysWhy) {
   const Csv csv = written(output::RunStatus::incomplete, "the vehicle never drove");
   EXPECT_EQ(csv.at(0, "status"), "incomplete");
   EXPECT_EQ(csv.at(0, "message"), "the vehicle never drove");
-  EXPECT_EQ(csv.at(0, "inconclusive"), "the vehicle never drove");
+  EXPECT_EQ(csv.at(0, "inconclusive"), "see message") << "once";
   EXPECT_EQ(csv.number(0, "steps"), 3000);
 }
 

@@ -39,6 +39,14 @@ protected:
   }
 };
 
+TEST(SweepProgress, IncompleteRunsHaveEndedAndAreNotFinished) {
+  using output::RunStatus;
+  const SweepOutcome finished{RunStatus::finished, ""}, incomplete{RunStatus::incomplete, "never drove"};
+  EXPECT_EQ(endedText({finished, {RunStatus::failed, "x"}}), "1 of 2 runs finished");
+  EXPECT_EQ(endedText({finished, finished}), "2 of 2 runs finished");
+  EXPECT_EQ(endedText({finished, incomplete}), "2 of 2 runs ended, 1 incomplete");
+}
+
 TEST_F(SweepOrder, RunsWithTheMostWorkAreBegunFirstWhereSeveralGoAtATime) {
   SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,2],[0,0,3],[0,0,4]"}});
   const double ends[] = {5, 20, 5, 8};
