@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figures of runs that drove in reverse, turned on the spot, on one track, or hardly drove at all.
+#include "runs/sweeps/check_report.hpp"
 #include "runs/sweeps/sweep_intervals.hpp"
 #include "runs/sweeps/sweep_summary.hpp"
 
@@ -11,6 +12,7 @@
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -175,6 +177,19 @@ TEST_F(Inconclusive, AnIncompleteRunSaysWhy) {
   EXPECT_EQ(csv.at(0, "message"), "the vehicle never drove");
   EXPECT_EQ(csv.at(0, "inconclusive"), "see message") << "once";
   EXPECT_EQ(csv.number(0, "steps"), 3000);
+}
+
+/// Of a check whose runs hardly drove nothing is sure but what is 0 in all of them.
+TEST_F(Inconclusive, WhatIs0InAllRunsOfACheckIsSure) {
+  CheckResults results;
+  results.doubt = "1.9 teeth in the steady part, fewer than 2";
+  for (const double value : {0.0, 500.0}) {
+    CheckFigure& figure = results.figures.emplace_back();
+    figure.name = "drive torque [N m]", figure.value = {value, 0}, figure.bar = 0;
+  }
+  const auto json = nlohmann::json::parse(checkJson({}, results));
+  EXPECT_EQ(json["figures"][0]["inconclusive"], false);
+  EXPECT_EQ(json["figures"][1]["inconclusive"], true);
 }
 
 /// -47 +- 12155: not even the sign is known.
