@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "spheredecomp/detail/obj_text.hpp"
+#include "spheredecomp/detail/ply_text.hpp"
 #include "spheredecomp/detail/polygon.hpp"
 
 #include <assimp/Importer.hpp>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -146,18 +148,69 @@ double weldTolerance(const TriangleMesh& mesh) {
   return 4e-6 * largest;
 }
 
+/// A damaged file may refer to vertices that are not there: assimp's later steps and append() trust the indices.
+void checkIndices(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+      for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
+        if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
+          throw base::InputError(fmt::format("{}: corner {} of face {} refers to a vertex that is not among the {} of "
+                                             "the mesh; the file is damaged or cut short, export it again",
+                                             path, k + 1, f + 1, part.mNumVertices));
+  }
+}
+
+std::vector<Vec3d> cornersOf(const aiMesh& part, const aiFace& face) {
+  std::vector<Vec3d> corners;
+  for (unsigned k = 0; k < face.mNumIndices; ++k) {
+    const aiVector3D& v = part.mVertices[face.mIndices[k]];
+    corners.push_back({v.x, v.y, v.z});
+  }
+  return corners;
+}
+
+/// Whether assimp triangulates all faces rightly: it may fail on outlines of five or more corners that are not convex,
+/// and does not see that a quad crosses itself.
+bool assimpTriangulates(const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const unsigned count = part.mFaces[f].mNumIndices;
+      if (count == 0) return false; // assimp counts it as a polygon, and aborts where it finds no other
+      if (count <= 3) continue;
+      const std::vector<Vec3d> corners = cornersOf(part, part.mFaces[f]);
+      if (!detail::isConvex(corners) && (count > 4 || detail::triangulate(corners).empty())) return false;
+    }
+  }
+  return true;
+}
+
+/// Reads all meshes of a file into one frame, with triangles where assimp cuts them rightly: of convex faces its
+/// triangles stay, since the bits of the cut follow from them.
+const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene) {
+    checkIndices(*scene, path);
+    scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices);
+  }
+  if (scene && assimpTriangulates(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (!scene)
+    throw base::InputError(
+        fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path, importer.GetErrorString()));
+  return *scene;
+}
+
 /// The faces of one assimp mesh as triangles, appended.
 void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (unsigned v = 0; v < part.mNumVertices; ++v)
     mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
   checkFinite(mesh, path); // before faces are cut and vertices welded: a NaN is equal to anything
-  std::vector<Vec3d> corners;
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
     if (face.mNumIndices < 3) continue; // a point or a line
-    corners.clear();
-    for (unsigned k = 0; k < face.mNumIndices; ++k) corners.push_back(mesh.vertices[first + face.mIndices[k]]);
+    const std::vector<Vec3d> corners = cornersOf(part, face);
     const auto triangles = detail::triangulate(corners);
     if (triangles.empty())
       throw base::InputError(
@@ -169,19 +222,23 @@ void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
   }
 }
 
+/// What assimp misreads in silence in files of text, by the name's ending as assimp takes it: in any case.
+void checkText(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".obj") detail::checkObj(path);
+  if (ending == ".ply") detail::checkPly(path);
+}
+
 } // namespace
 
 TriangleMesh importMesh(const std::string& path, std::string* note) {
   if (!std::filesystem::is_regular_file(path)) throw base::InputError(path + ": no such mesh file; check the path");
-  if (std::filesystem::path(path).extension() == ".obj") detail::checkObjVertices(path);
+  checkText(path);
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path, aiProcess_PreTransformVertices);
-  if (!scene)
-    throw base::InputError(
-        fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path, importer.GetErrorString()));
-
+  const aiScene& scene = readScene(importer, path);
   TriangleMesh mesh;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(*scene->mMeshes[m], path, mesh);
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) append(*scene.mMeshes[m], path, mesh);
   mesh = weld(mesh);
   if (!openEdges(mesh).empty()) {
     const double tolerance = weldTolerance(mesh);

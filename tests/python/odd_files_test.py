@@ -125,6 +125,24 @@ def ascii_stl(cut=False):
     return "\n".join(lines[:-4] if cut else lines) + "\n"
 
 
+def ply(form="ascii", indices=None, vertices=None, cut=0):
+    faces = [tuple(k - 1 for k in f) for f in CUBE_FACES] if indices is None else indices
+    points = [tuple(0.1 * c for c in v) for v in CUBE] if vertices is None else vertices
+    head = (f"ply\nformat {form} 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
+            f"property float z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    if form == "ascii":
+        lines = [" ".join(map(repr, p)) for p in points] + [" ".join(map(str, (len(f), *f))) for f in faces]
+        data = (head + "\n".join(lines) + "\n").encode()
+    else:
+        data = head.encode() + b"".join(struct.pack("<3f", *p) for p in points)
+        data += b"".join(struct.pack(f"<B{len(f)}i", len(f), *f) for f in faces)
+    return data[:len(data) - cut]
+
+
+BAD_INDEX = [tuple(k - 1 for k in f) for f in CUBE_FACES[:-1]] + [(1, 3, 8, 5)]
+SHORT_VERTEX = [tuple(0.1 * c for c in v) for v in CUBE[:-1]] + [(0.1, 0.1)]
+
+
 def mesh(data, expected, file="thing.obj", keys="sphere_radius = 0.02"):
     return {"scene.toml": MESH.format(file=file, keys=keys), file: data}, expected
 
@@ -294,6 +312,29 @@ CASES = {
     "mesh stl of more triangles": mesh(stl(count=40), Error(["thing.stl"]), "thing.stl"),
     "mesh stl text": mesh(ascii_stl(), Right(), "thing.stl"),
     "mesh stl text cut short": mesh(ascii_stl(True), Error(["thing.stl"]), "thing.stl"),
+    "mesh ply": mesh(ply(), Right(), "thing.ply"),
+    "mesh ply binary": mesh(ply("binary_little_endian"), Right(), "thing.ply"),
+    "mesh ply cut short": mesh(ply(cut=40), Error(["thing.ply", "close the holes"]), "thing.ply"),
+    "mesh ply binary cut in a face": mesh(ply("binary_little_endian", cut=17), Error(["thing.ply"]), "thing.ply"),
+    "mesh ply binary cut by a byte": mesh(ply("binary_little_endian", cut=1), Error(["thing.ply"]), "thing.ply"),
+    "mesh ply binary cut in its vertices": mesh(ply("binary_little_endian", cut=130), Error(["thing.ply"]),
+                                                "thing.ply"),
+    "mesh ply cut in its header": mesh(ply()[:60], Error(["thing.ply", "end_header", "export it again"]), "thing.ply"),
+    "mesh ply index beyond": mesh(ply(indices=BAD_INDEX), Error(["thing.ply", "face 6", "export it again"]),
+                                  "thing.ply"),
+    "mesh ply binary index beyond": mesh(ply("binary_little_endian", BAD_INDEX),
+                                         Error(["thing.ply", "face 6", "export it again"]), "thing.ply"),
+    "mesh ply a coordinate missing": mesh(ply(vertices=SHORT_VERTEX),
+                                          Error(["thing.ply:17", "2 numbers", "correct the line"]), "thing.ply"),
+    "mesh OBJ in capitals": mesh(obj(), Right(), "thing.OBJ"),
+    "mesh OBJ in capitals, a coordinate missing": mesh(
+        obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1\nv 0 0 0.2"), Error(["thing.OBJ:8", "2 of its 3"]), "thing.OBJ"),
+    "mesh number that begins with a point": mesh(obj().replace("v 0.1 0.1 0.1", "v .1 0.1 0.1"),
+                                                 Error(["thing.obj:8", "write 0.1"])),
+    "mesh of five numbers": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1 0.1 1 0"), Error(["thing.obj:8", "5 num"])),
+    "mesh indented": mesh(obj().replace("v 0.1 0.1 0.1", " v 0.1 0.1 0.1"), Error(["thing.obj:8", "indented"])),
+    "mesh upper case": mesh(obj().replace("v 0.1 0.1 0.1", "V 0.1 0.1 0.1"), Error(["thing.obj:8", "capitals"])),
+    "mesh CR": mesh(obj(newline="\r"), Error(["thing.obj:1", "save the file with the line ends"])),
     "mesh in millimetres": mesh(obj(scale=1e5), Error(["scene.toml"]), keys=""),
     "mesh no thickness": mesh("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", Error(["thing.obj"])),
     "mesh of unknown format": mesh("hello", Error(["thing.xyz"]), "thing.xyz"),
