@@ -92,6 +92,18 @@ bool isFlat(const TriangleMesh& mesh) {
                      [&](const Vec3d& v) { return std::fabs(dot(v - point, normal)) <= thickness; });
 }
 
+/// Vertices of open edges that lie next to one another, which hints at gaps of rounding; empty: none.
+std::string nearOpenVertices(const TriangleMesh& mesh) {
+  TriangleMesh welded = mesh;
+  const auto [low, high] = bounds(mesh);
+  const double tolerance = 1e-3 * norm(high - low);
+  const std::size_t near = weldOpenEdges(welded, tolerance);
+  return near == 0 ? ""
+                   : fmt::format("{} vertices at them lie within {:.2g} m of another: merge these by distance in a "
+                                 "mesh editor, ",
+                                 near, tolerance);
+}
+
 } // namespace
 
 void checkClosed(const TriangleMesh& mesh, const std::string& name) {
@@ -106,8 +118,8 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
     const Vec3d a = mesh.vertices[open.front().first], b = mesh.vertices[open.front().second];
     throw base::InputError(
         fmt::format("{}: the mesh is not watertight: {} open edges, one from ({:.6g}, {:.6g}, {:.6g}) to "
-                    "({:.6g}, {:.6g}, {:.6g}) m; close the holes and make all faces point outwards",
-                    name, open.size(), a.x, a.y, a.z, b.x, b.y, b.z));
+                    "({:.6g}, {:.6g}, {:.6g}) m; {}close the holes and make all faces point outwards",
+                    name, open.size(), a.x, a.y, a.z, b.x, b.y, b.z, nearOpenVertices(mesh)));
   }
   if (const double volume = signedVolume(mesh); !(volume > 0))
     throw base::InputError(
@@ -141,11 +153,31 @@ std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance) {
 
 namespace {
 
-/// Files keep about seven digits of a coordinate; twice the rounding of two that should be equal [m].
-double weldTolerance(const TriangleMesh& mesh) {
+/// What writers round vertices by that should be equal [largest coordinate]: floats keep about seven digits, texts of
+/// "%.6f" often five.
+constexpr double kWeldTolerances[] = {4e-6, 2e-5};
+
+double largestCoordinate(const TriangleMesh& mesh) {
   double largest = 0;
   for (const Vec3d& v : mesh.vertices) largest = std::max({largest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-  return 4e-6 * largest;
+  return largest;
+}
+
+/// Welds what rounding left apart, where that closes the mesh; otherwise it stays as it is.
+void closeByWelding(TriangleMesh& mesh, const std::string& path, std::string* note) {
+  if (openEdges(mesh).empty()) return;
+  for (const double share : kWeldTolerances) {
+    const double tolerance = share * largestCoordinate(mesh);
+    TriangleMesh welded = mesh;
+    const std::size_t merged = weldOpenEdges(welded, tolerance);
+    if (merged == 0 || !openEdges(welded).empty()) continue;
+    mesh = std::move(welded);
+    if (note)
+      *note = fmt::format("{}: {} vertices at open edges were merged with others that lie within {:.2g} units of the "
+                          "file, as rounding leaves them apart",
+                          path, merged, tolerance);
+    return;
+  }
 }
 
 /// A damaged file may refer to vertices that are not there: assimp's later steps and append() trust the indices.
@@ -240,17 +272,7 @@ TriangleMesh importMesh(const std::string& path, std::string* note) {
   TriangleMesh mesh;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) append(*scene.mMeshes[m], path, mesh);
   mesh = weld(mesh);
-  if (!openEdges(mesh).empty()) {
-    const double tolerance = weldTolerance(mesh);
-    TriangleMesh welded = mesh;
-    if (const std::size_t merged = weldOpenEdges(welded, tolerance); merged > 0 && openEdges(welded).empty()) {
-      mesh = std::move(welded);
-      if (note)
-        *note = fmt::format("{}: {} vertices at open edges were merged with others that lie within {:.2g} units of the "
-                            "file, as rounding leaves them apart",
-                            path, merged, tolerance);
-    }
-  }
+  closeByWelding(mesh, path, note);
   checkClosed(mesh, path);
   return mesh;
 }

@@ -270,6 +270,20 @@ TEST(ImportMesh, VerticesApartByRounding_AreWeldedAndTold) {
   EXPECT_EQ(note, "") << "vertices that are equal are welded without a word";
 }
 
+TEST(ImportMesh, VerticesOfFiveDigits_AreWelded) {
+  std::string note;
+  EXPECT_EQ(imported(looseBox(0.01, 1.5e-6), ".obj", &note).vertices.size(), 8u);
+  EXPECT_NE(note.find("14 vertices"), std::string::npos) << note;
+  try {
+    imported(looseBox(0.01, 1e-4), ".obj");
+    FAIL() << "accepted";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("vertices at them lie within 0.00057 m of another: merge these"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ImportMesh, WeldingDoesNotCollapseAThinSheet) {
   std::string note;
   EXPECT_NEAR(signedVolume(imported(looseBox(1e-4, 4e-7), ".obj", &note)), 0.16 * 1e-4, 0.16 * 1e-6);
