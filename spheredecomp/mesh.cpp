@@ -218,6 +218,14 @@ bool assimpTriangulates(const aiScene& scene) {
   return true;
 }
 
+/// A message of assimp, which may quote the file to its end: of each quotation, the beginning.
+std::string shortened(const std::string& message) {
+  constexpr std::size_t kMost = 40;
+  const std::size_t from = message.find('"'), to = message.rfind('"');
+  if (from == std::string::npos || to - from <= kMost) return message;
+  return message.substr(0, from + 1 + kMost) + "..." + message.substr(to);
+}
+
 /// Reads all meshes of a file into one frame, with triangles where assimp cuts them rightly: of convex faces its
 /// triangles stay, since the bits of the cut follow from them.
 const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
@@ -228,8 +236,8 @@ const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
   }
   if (scene && assimpTriangulates(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (!scene)
-    throw base::InputError(
-        fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path, importer.GetErrorString()));
+    throw base::InputError(fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path,
+                                       shortened(importer.GetErrorString())));
   return *scene;
 }
 
