@@ -236,7 +236,7 @@ const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
   }
   if (scene && assimpTriangulates(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (!scene)
-    throw base::InputError(fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path,
+    throw base::InputError(fmt::format("{}: cannot be read as a mesh: {}; export it again as OBJ, STL or PLY", path,
                                        shortened(importer.GetErrorString())));
   return *scene;
 }
