@@ -13,8 +13,9 @@ namespace grouser::base {
 
 namespace {
 
-constexpr std::size_t kMostNamed = 3; ///< keys that are equally near
-constexpr int kOtherSection = 2;      ///< most that another section adds: less than two letters of the key
+constexpr std::size_t kMostNamed = 3;  ///< keys that are equally near
+constexpr std::size_t kTellingKey = 3; ///< letters of a key that tell its section: x or z are in many
+constexpr int kOtherSection = 2;       ///< most that another section adds: less than two letters of the key
 
 std::string sectionOf(const std::string& full) { return full.substr(0, full.rfind('.')); }
 std::string keyOf(const std::string& full) { return full.substr(full.rfind('.') + 1); }
@@ -63,7 +64,7 @@ InputError amongAllKeys(const UnknownKey& unknown, const std::vector<std::string
   if (!isSection) {
     found = nearestKeys(place.path, place.key, all);
     if (!found.empty() && isNear(here, place.key) && here <= distance(place.key, keyOf(found.front()))) found.clear();
-  } else if (!isNear(here, place.key)) {
+  } else if (!isNear(here, place.key) && place.inner.front().size() >= kTellingKey) {
     found = nearestKeys(place.path.empty() ? place.key : place.path + "." + place.key, place.inner.front(), all);
   }
   return found.empty() ? InputError(unknown.what())

@@ -230,6 +230,11 @@ void failMissing(const Node& section, const Field& field, const std::string& pat
                                typeText(field.type), range.empty() ? "" : ", " + range, field.help));
 }
 
+/// Whether a third of the letters are right: else a suggestion misleads.
+bool resembles(const std::string& word, const std::string& other) {
+  return 3 * editDistance(word, other) <= 2 * static_cast<int>(std::max(word.size(), other.size()));
+}
+
 void checkKeys(const Node& section, const std::string& path, const std::vector<std::string>& valid) {
   const auto* map = std::get_if<Node::Map>(&section.value);
   if (!map)
@@ -241,7 +246,8 @@ void checkKeys(const Node& section, const std::string& path, const std::vector<s
     if (const auto* entries = std::get_if<Node::Map>(&e.node.value))
       for (const Node::Entry& k : *entries) inner.push_back(k.key);
     if (inner.empty() && (e.node.isMap() || (e.node.isList() && path.empty()))) inner.emplace_back();
-    throw UnknownKey({e.node.origin, path, e.key, inner, valid}, nearestWord(e.key, valid));
+    const std::string nearest = nearestWord(e.key, valid);
+    throw UnknownKey({e.node.origin, path, e.key, inner, valid}, resembles(e.key, nearest) ? nearest : "");
   }
 }
 

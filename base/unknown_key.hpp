@@ -29,6 +29,7 @@ public:
   static std::string message(const Place& p, const std::string& nearest) {
     const std::string what = fmt::format("{}: unknown {} {}{}", p.origin, p.inner.empty() ? "key" : "section",
                                          p.path.empty() ? "" : p.path + ".", p.key);
+    if (nearest.empty() && !p.valid.empty()) return fmt::format("{} (valid here: {})", what, fmt::join(p.valid, ", "));
     if (nearest.empty()) return fmt::format("{}; the scene has no [[{}]]", what, p.path);
     if (p.valid.empty()) return fmt::format("{}; did you mean {}?", what, nearest);
     return fmt::format("{}; did you mean {}? (valid here: {})", what, nearest, fmt::join(p.valid, ", "));

@@ -125,6 +125,7 @@ public:
         if (!coveredBeneath(sample) && !covered(sample.point))
           fitted[i] = detail::fitSphere(outer_, sample.point, sample.normal, radius_, fit());
       });
+      if (beyondLimit()) return;
       for (SetSphere& s : fitted) {
         // Near an edge the sphere cannot reach the sample: what counts is its own highest point.
         if (s.radius == 0 || covered(s.centre + s.normal * s.radius)) continue;
@@ -142,6 +143,7 @@ public:
   }
 
   std::vector<SetSphere>& spheres() { return spheres_; }
+  bool beyondLimit() const { return options_.most > 0 && spheres_.size() > options_.most; }
 
 private:
   void add(const SetSphere& s) {
@@ -211,7 +213,7 @@ SphereSet decomposeAt(const TriangleMesh& mesh, const std::string& name, const D
   SurfaceBuilder builder(outer, radius, spacing, options);
   builder.addLattice(inside);
   builder.closeHoles(samples);
-  builder.shareArea(samples);
+  if (!builder.beyondLimit()) builder.shareArea(samples);
 
   SphereSet set;
   set.name = name;
@@ -286,7 +288,9 @@ void checkFits(const TriangleMesh& mesh, const std::string& name, double radius)
 } // namespace
 
 std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options) {
-  const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, smallest, thin, interior] = options; // all
+  // All; but a set within the limit of spheres does not depend on it, and others are not kept.
+  [[maybe_unused]] const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, smallest, thin, most,
+                                interior] = options;
   base::StateHash hash;
   for (const Vec3d& v : mesh.vertices)
     for (int k = 0; k < 3; ++k) hash.add(base::bitsAs<std::uint64_t>(v[k]));

@@ -25,6 +25,7 @@ struct DecompositionOptions {
   double flatTolerance{0.01}; ///< a flat disc may stand this much out of the mesh [radius]
   double smallest{0.2};       ///< spheres shrink to this share of the radius where the part is thin [-]
   bool thin{false};           ///< the part is thin somewhere: fits, discs and samples are finer there
+  std::size_t most{};         ///< surface spheres beyond which the cut stops, unfinished; 0: no limit
   bool interior{true};        ///< also fill the inside with lattice spheres (contacts need the surface only)
 };
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "spheredecomp/detail/obj_text.hpp"
+#include "spheredecomp/detail/ply_text.hpp"
 #include "spheredecomp/detail/polygon.hpp"
 
 #include <assimp/Importer.hpp>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -90,6 +92,18 @@ bool isFlat(const TriangleMesh& mesh) {
                      [&](const Vec3d& v) { return std::fabs(dot(v - point, normal)) <= thickness; });
 }
 
+/// Vertices of open edges that lie next to one another, which hints at gaps of rounding; empty: none.
+std::string nearOpenVertices(const TriangleMesh& mesh) {
+  TriangleMesh welded = mesh;
+  const auto [low, high] = bounds(mesh);
+  const double tolerance = 1e-3 * norm(high - low);
+  const std::size_t near = weldOpenEdges(welded, tolerance);
+  return near == 0 ? ""
+                   : fmt::format("{} vertices at them lie within {:.2g} m of another: merge these by distance in a "
+                                 "mesh editor, ",
+                                 near, tolerance);
+}
+
 } // namespace
 
 void checkClosed(const TriangleMesh& mesh, const std::string& name) {
@@ -104,8 +118,8 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
     const Vec3d a = mesh.vertices[open.front().first], b = mesh.vertices[open.front().second];
     throw base::InputError(
         fmt::format("{}: the mesh is not watertight: {} open edges, one from ({:.6g}, {:.6g}, {:.6g}) to "
-                    "({:.6g}, {:.6g}, {:.6g}) m; close the holes and make all faces point outwards",
-                    name, open.size(), a.x, a.y, a.z, b.x, b.y, b.z));
+                    "({:.6g}, {:.6g}, {:.6g}) m; {}close the holes and make all faces point outwards",
+                    name, open.size(), a.x, a.y, a.z, b.x, b.y, b.z, nearOpenVertices(mesh)));
   }
   if (const double volume = signedVolume(mesh); !(volume > 0))
     throw base::InputError(
@@ -139,11 +153,92 @@ std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance) {
 
 namespace {
 
-/// Files keep about seven digits of a coordinate; twice the rounding of two that should be equal [m].
-double weldTolerance(const TriangleMesh& mesh) {
+/// What writers round vertices by that should be equal [largest coordinate]: floats keep about seven digits, texts of
+/// "%.6f" often five.
+constexpr double kWeldTolerances[] = {4e-6, 2e-5};
+
+double largestCoordinate(const TriangleMesh& mesh) {
   double largest = 0;
   for (const Vec3d& v : mesh.vertices) largest = std::max({largest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-  return 4e-6 * largest;
+  return largest;
+}
+
+/// Welds what rounding left apart, where that closes the mesh; otherwise it stays as it is.
+void closeByWelding(TriangleMesh& mesh, const std::string& path, std::string* note) {
+  if (openEdges(mesh).empty()) return;
+  for (const double share : kWeldTolerances) {
+    const double tolerance = share * largestCoordinate(mesh);
+    TriangleMesh welded = mesh;
+    const std::size_t merged = weldOpenEdges(welded, tolerance);
+    if (merged == 0 || !openEdges(welded).empty()) continue;
+    mesh = std::move(welded);
+    if (note)
+      *note = fmt::format("{}: {} vertices at open edges were merged with others that lie within {:.2g} units of the "
+                          "file, as rounding leaves them apart",
+                          path, merged, tolerance);
+    return;
+  }
+}
+
+/// A damaged file may refer to vertices that are not there: assimp's later steps and append() trust the indices.
+void checkIndices(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+      for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
+        if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
+          throw base::InputError(fmt::format("{}: corner {} of face {} refers to a vertex that is not among the {} of "
+                                             "the mesh; the file is damaged or cut short, export it again",
+                                             path, k + 1, f + 1, part.mNumVertices));
+  }
+}
+
+std::vector<Vec3d> cornersOf(const aiMesh& part, const aiFace& face) {
+  std::vector<Vec3d> corners;
+  for (unsigned k = 0; k < face.mNumIndices; ++k) {
+    const aiVector3D& v = part.mVertices[face.mIndices[k]];
+    corners.push_back({v.x, v.y, v.z});
+  }
+  return corners;
+}
+
+/// Whether assimp triangulates all faces rightly: it may fail on outlines of five or more corners that are not convex,
+/// and does not see that a quad crosses itself.
+bool assimpTriangulates(const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const unsigned count = part.mFaces[f].mNumIndices;
+      if (count == 0) return false; // assimp counts it as a polygon, and aborts where it finds no other
+      if (count <= 3) continue;
+      const std::vector<Vec3d> corners = cornersOf(part, part.mFaces[f]);
+      if (!detail::isConvex(corners) && (count > 4 || detail::triangulate(corners).empty())) return false;
+    }
+  }
+  return true;
+}
+
+/// A message of assimp, which may quote the file to its end: of each quotation, the beginning.
+std::string shortened(const std::string& message) {
+  constexpr std::size_t kMost = 40;
+  const std::size_t from = message.find('"'), to = message.rfind('"');
+  if (from == std::string::npos || to - from <= kMost) return message;
+  return message.substr(0, from + 1 + kMost) + "..." + message.substr(to);
+}
+
+/// Reads all meshes of a file into one frame, with triangles where assimp cuts them rightly: of convex faces its
+/// triangles stay, since the bits of the cut follow from them.
+const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene) {
+    checkIndices(*scene, path);
+    scene = importer.ApplyPostProcessing(aiProcess_PreTransformVertices);
+  }
+  if (scene && assimpTriangulates(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (!scene)
+    throw base::InputError(fmt::format("{}: cannot be read as a mesh: {}; export it again as OBJ, STL or PLY", path,
+                                       shortened(importer.GetErrorString())));
+  return *scene;
 }
 
 /// The faces of one assimp mesh as triangles, appended.
@@ -152,12 +247,10 @@ void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
   for (unsigned v = 0; v < part.mNumVertices; ++v)
     mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
   checkFinite(mesh, path); // before faces are cut and vertices welded: a NaN is equal to anything
-  std::vector<Vec3d> corners;
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
     if (face.mNumIndices < 3) continue; // a point or a line
-    corners.clear();
-    for (unsigned k = 0; k < face.mNumIndices; ++k) corners.push_back(mesh.vertices[first + face.mIndices[k]]);
+    const std::vector<Vec3d> corners = cornersOf(part, face);
     const auto triangles = detail::triangulate(corners);
     if (triangles.empty())
       throw base::InputError(
@@ -169,31 +262,25 @@ void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
   }
 }
 
+/// What assimp misreads in silence in files of text, by the name's ending as assimp takes it: in any case.
+void checkText(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".obj") detail::checkObj(path);
+  if (ending == ".ply") detail::checkPly(path);
+}
+
 } // namespace
 
 TriangleMesh importMesh(const std::string& path, std::string* note) {
   if (!std::filesystem::is_regular_file(path)) throw base::InputError(path + ": no such mesh file; check the path");
-  if (std::filesystem::path(path).extension() == ".obj") detail::checkObjVertices(path);
+  checkText(path);
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(path, aiProcess_PreTransformVertices);
-  if (!scene)
-    throw base::InputError(
-        fmt::format("{}: cannot be read as a mesh: {}; use OBJ, STL or PLY", path, importer.GetErrorString()));
-
+  const aiScene& scene = readScene(importer, path);
   TriangleMesh mesh;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) append(*scene->mMeshes[m], path, mesh);
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) append(*scene.mMeshes[m], path, mesh);
   mesh = weld(mesh);
-  if (!openEdges(mesh).empty()) {
-    const double tolerance = weldTolerance(mesh);
-    TriangleMesh welded = mesh;
-    if (const std::size_t merged = weldOpenEdges(welded, tolerance); merged > 0 && openEdges(welded).empty()) {
-      mesh = std::move(welded);
-      if (note)
-        *note = fmt::format("{}: {} vertices at open edges were merged with others that lie within {:.2g} units of the "
-                            "file, as rounding leaves them apart",
-                            path, merged, tolerance);
-    }
-  }
+  closeByWelding(mesh, path, note);
   checkClosed(mesh, path);
   return mesh;
 }

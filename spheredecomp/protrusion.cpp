@@ -39,26 +39,44 @@ double standsOut(const detail::OuterSurface& outer, const SetSphere& s) {
   return most;
 }
 
+bool isShrunk(const SetSphere& s, const SphereSet& set) { return s.radius < 0.999 * set.radius; }
+
 /// How deep spheres that shrink may leave the surface above them [m]: one may serve both sides.
 double dipWhereThin(const SphereSet& set, const DecompositionOptions& options) {
-  const bool shrunk = std::any_of(set.spheres.begin(), set.spheres.end(),
-                                  [&](const SetSphere& s) { return s.radius < 0.999 * set.radius; });
+  const bool shrunk =
+      std::any_of(set.spheres.begin(), set.spheres.end(), [&](const SetSphere& s) { return isShrunk(s, set); });
   return shrunk ? options.maxDip * set.radius : 0;
 }
 
-/// Spheres of radius r that cover a mesh are about this many.
-double countOf(double area, double radius) { return area / (radius * radius); }
+/// Spheres of radius r that cover a mesh are about this many, up to a quarter more in thin sheets.
+double countOf(double area, double radius) { return 1.25 * area / (radius * radius); }
 
-[[noreturn]] void refuse(const std::string& name, const Protrusion& worst, double radius, double needed,
-                         const ProtrusionLimit& limit, double count) {
+/// Why the default cut is not good enough, and where.
+struct Cause {
+  Vec3d place;
+  std::string fault;
+};
+
+Cause causeOf(const SphereSet& set, const Protrusion& worst, const DecompositionOptions& options,
+              const ProtrusionLimit& limit) {
+  if (worst.distance > limit.permitted)
+    return {worst.place, fmt::format("its spheres of {:.3g} m stand out by {:.3g} m, more than the permitted {:.3g} m",
+                                     set.radius, worst.distance, limit.permitted)};
+  const auto smallest = std::min_element(set.spheres.begin(), set.spheres.end(),
+                                         [](const SetSphere& a, const SetSphere& b) { return a.radius < b.radius; });
+  return {smallest->centre,
+          fmt::format("its spheres of {:.3g} m shrink there and leave dips of up to {:.3g} m, more than the permitted "
+                      "{:.3g} m",
+                      set.radius, dipWhereThin(set, options), limit.permittedDip)};
+}
+
+/// The default radius is offered, since what it costs is known.
+[[noreturn]] void refuse(const std::string& name, const Cause& cause, const ProtrusionLimit& limit, double radius,
+                         const std::string& finer) {
   throw base::InputError(fmt::format(
-      "{}: is thin or pointed at ({:.4g}, {:.4g}, {:.4g}) m of its file, where spheres of {:.3g} m stand {:.3g} m out "
-      "of "
-      "it, more than the permitted {:.3g} m for contact with sizes of {:.3g} m; about {:.2g} spheres of {:.3g} m would "
-      "be needed, more than {:.0e}: thicken the part, split it, use a box instead, or set sphere_radius and accept its "
-      "protrusion",
-      name, worst.place.x, worst.place.y, worst.place.z, radius, worst.distance, limit.permitted, limit.contactSize,
-      count, needed, kSphereBudget));
+      "{}: the mesh is thin or pointed at ({:.4g}, {:.4g}, {:.4g}), in metres: {} for contact with sizes of {:.3g} m, "
+      "and {}; thicken the part, split it, use a box instead, or set the sphere radius to {:.6g} m and accept this",
+      name, cause.place.x, cause.place.y, cause.place.z, cause.fault, limit.contactSize, finer, radius));
 }
 
 } // namespace
@@ -85,23 +103,29 @@ SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, con
   SphereSet set = decompose(mesh, name, options);
   protrusion = largestProtrusion(mesh, set);
   if (!limit.automatic || meets(limit, set, options, protrusion)) return set;
+  const Cause cause = causeOf(set, protrusion, options, limit);
+  const double defaultRadius = set.radius, meshArea = set.meshArea;
+  const auto refuseWith = [&](const std::string& finer) { refuse(name, cause, limit, defaultRadius, finer); };
+  const std::string tooMany = fmt::format("a finer cut needs more than {:.0f} spheres", kSphereBudget);
   DecompositionOptions fine = options;
   fine.thin = true;
   fine.maxDip = 0.02;
   fine.flatTolerance = 0.005;
+  fine.most = static_cast<std::size_t>(kSphereBudget);
   // Fewer, larger spheres where those of the contact's size would be too many: up to twice as large.
-  const double cheapest = std::sqrt(set.meshArea / kSphereBudget);
+  const double cheapest = std::sqrt(countOf(meshArea, 1) / kSphereBudget);
   fine.radius = std::min(options.radius, std::clamp(cheapest, limit.contactSize, 2 * limit.contactSize));
   for (int tries = 0; tries < kMostTries; ++tries) {
-    const double count = countOf(set.meshArea, fine.radius);
-    if (count > 1.0001 * kSphereBudget) refuse(name, protrusion, set.radius, fine.radius, limit, count);
+    if (countOf(meshArea, fine.radius) > 1.0001 * kSphereBudget) refuseWith(tooMany);
     fine.smallest = std::min(0.2, kForced * limit.permitted / fine.radius);
     set = decompose(mesh, name, fine);
+    if (set.surfaceCount > fine.most) refuseWith(tooMany); // those that shrink at edges are many more
     protrusion = largestProtrusion(mesh, set);
     if (protrusion.distance <= limit.permitted) return set;
     fine.radius *= 0.5;
   }
-  refuse(name, protrusion, set.radius, fine.radius, limit, countOf(set.meshArea, fine.radius));
+  refuseWith(fmt::format("spheres of {:.3g} m still stand out by {:.3g} m", set.radius, protrusion.distance));
+  return set; // not reached
 }
 
 std::string protrusionLine(const CutReport& r) {
@@ -115,9 +139,10 @@ std::string protrusionLine(const CutReport& r) {
 std::string protrusionWarning(const CutReport& r) {
   if (r.limit.automatic || r.protrusion.distance <= r.limit.permitted) return "";
   const Vec3d& p = r.protrusion.place;
-  return fmt::format("the spheres of {} stand out of its mesh by up to {:.2g} mm, at ({:.3g}, {:.3g}, {:.3g}) m, more "
-                     "than the permitted {:.2g} mm: it acts that much thicker there; remove {}, or lower it",
-                     r.name, 1e3 * r.protrusion.distance, p.x, p.y, p.z, 1e3 * r.limit.permitted, r.key);
+  return fmt::format(
+      "the spheres of {} stand out of its mesh by up to {:.2g} mm, at ({:.3g}, {:.3g}, {:.3g}) m, more "
+      "than the permitted {:.2g} mm: it acts that much thicker there; remove {}, which then is chosen to keep it",
+      r.name, 1e3 * r.protrusion.distance, p.x, p.y, p.z, 1e3 * r.limit.permitted, r.key);
 }
 
 std::string limitOrigin(const ProtrusionLimit& limit) {

@@ -14,7 +14,7 @@ namespace grouser::vehicle {
 namespace {
 
 constexpr double kGap = 0.005;  // [m] least between wheels
-constexpr int kMoreShoes = 6;   // than asked for, or fewer, at most
+constexpr int kMoreShoes = 60;  // than asked for, or fewer, at most
 constexpr int kSteps = 8;       // tried of each length
 constexpr double kStep = 0.004; // [m]
 
@@ -75,6 +75,7 @@ std::string consistentKeys(const VehicleSpec& spec, const std::function<bool(con
   for (int i = 0; i <= 2 * kMoreShoes; ++i) {
     VehicleSpec asked = spec;
     asked.shoe.count += (i % 2 == 1 ? 1 : -1) * (i + 1) / 2;
+    if (asked.shoe.count < 1) continue;
     const std::optional<VehicleSpec> s = soundGear(asked, sound);
     if (!s) continue;
     std::string text =

@@ -423,7 +423,13 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
 /// Keys that mend it together, to be added to advice; empty where none were found.
 std::string together(const VehicleSpec& spec) {
   const std::string keys = consistentKeys(spec, [](const VehicleSpec& other) { return !firstFault(other); });
-  return keys.empty() ? "" : "; set together " + keys;
+  return keys.empty() ? "" : "set together " + keys;
+}
+
+/// Advice to take back a number of wheels that was asked for helps nobody: the keys that keep it, to be added.
+std::string toKeep(const VehicleSpec& spec, const Knob& k) {
+  const std::string keys = k.key == "count" ? together(spec) : "";
+  return keys.empty() ? "" : fmt::format("; or, to keep {} = {:g}, {}", k.name, k.value, keys);
 }
 
 /// Says what mends a fault, at the key that does.
@@ -437,10 +443,11 @@ SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
   std::string names;
   for (const Knob& k : fault.knobs) {
     if (const std::string value = mendingValue(spec, k); !value.empty())
-      return said(k, fmt::format("set {} = {}", k.name, value));
+      return said(k, fmt::format("set {} = {}{}", k.name, value, toKeep(spec, k)));
     names += (names.empty() ? "" : ", ") + k.name;
   }
-  return said(first, fmt::format("no other value of {} alone mends it{}", names, together(spec)));
+  const std::string keys = together(spec);
+  return said(first, fmt::format("no other value of {} alone mends it{}{}", names, keys.empty() ? "" : "; ", keys));
 }
 
 } // namespace
@@ -455,10 +462,10 @@ std::optional<SpecFault> runningGearFault(const VehicleSpec& spec) {
       if (fault->advice.empty())
         if (const std::string value = mendingValue(spec, k); !value.empty())
           fault->advice = fmt::format("set {} = {}", k.name, value);
-    if (fault->advice.empty())
+    if (const std::string keys = fault->advice.empty() ? together(spec) : ""; fault->advice.empty())
       fault->advice = "no other value of idler.x, shoe.count, idler.z, road_wheel.z, shoe.pitch, sprocket.teeth alone "
                       "mends it" +
-                      together(spec);
+                      (keys.empty() ? "" : "; " + keys);
   }
   return withAdvice(spec, *fault);
 }

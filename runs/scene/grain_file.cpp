@@ -99,15 +99,13 @@ std::vector<TextField> fieldsOf(const TextLine& line) {
   return fields;
 }
 
-/// Whether a first line is names of columns: no number begins like them.
+/// Whether a first line is names of columns, perhaps in quotes: no number begins like them.
 bool isHeader(const std::vector<TextField>& fields) {
-  const auto isWord = [](const TextField& f) {
-    const char c = f.text[0];
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '"';
-  };
+  std::string_view word = fields[0].text;
+  if (word.size() > 1 && word[0] == '"') word.remove_prefix(1);
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   double ignored = 0; // "nan" and "inf" are no names
-  const std::string_view word = fields[0].text;
-  return isWord(fields[0]) && std::from_chars(word.data(), word.data() + word.size(), ignored).ec != std::errc();
+  return isLetter(word[0]) && std::from_chars(word.data(), word.data() + word.size(), ignored).ec != std::errc();
 }
 
 std::string lowerCase(std::string_view text) {
@@ -125,19 +123,21 @@ std::size_t readHeader(const TextLine& line, const std::vector<TextField>& field
       text += fields[++k].text;
     text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == '"' || c == ' '; }), text.end());
     if (column == kColumns.size())
-      line.fail(fields[k].at, fmt::format("column 11 of the header is \"{}\", but lines have at most {} numbers: {}",
-                                          text, kColumns.size(), kLines));
+      line.fail(fields[k].at,
+                fmt::format("column 11 of the header is \"{:.40}\", but lines have at most {} numbers: {}", text,
+                            kColumns.size(), kLines));
     const Column& wanted = kColumns[column++];
     const std::size_t open = text.find_first_of("[(");
     const std::string name = lowerCase(text.substr(0, open));
     if (name != wanted.name && !(column == kRadius + 1 && name == "radius"))
-      line.fail(fields[k].at, fmt::format("column {} of the header is \"{}\", expected \"{} [{}]\"; the columns are {}",
-                                          column, text, wanted.name, wanted.unit, kLines));
+      line.fail(fields[k].at,
+                fmt::format("column {} of the header is \"{:.40}\", expected \"{} [{}]\"; the columns are {}", column,
+                            text, wanted.name, wanted.unit, kLines));
     if (open == std::string::npos) continue;
     const std::string unit = text.substr(open + 1, text.find_first_of("])", open) - open - 1);
     if (unit != wanted.unit)
       line.fail(fields[k].at,
-                fmt::format("column {} of the header is in [{}], expected [{}]; convert its numbers, they "
+                fmt::format("column {} of the header is in [{:.40}], expected [{}]; convert its numbers, they "
                             "are read as {} in {}",
                             column, unit, wanted.unit, wanted.name, wanted.unit));
   }
@@ -153,8 +153,9 @@ double readNumber(const TextLine& line, const TextField& field, std::size_t colu
   const auto [end, error] = std::from_chars(from, to, value);
   const Column& c = kColumns[column];
   const auto fail = [&](const std::string& message) {
-    line.fail(field.at, fmt::format("column {}, {} = {} [{}] {}", column + 1, c.name, text, c.unit, message));
+    line.fail(field.at, fmt::format("column {}, {} = {:.40} [{}] {}", column + 1, c.name, text, c.unit, message));
   };
+  if (text[0] == '"') fail("stands in quotes; remove them");
   if (error == std::errc::result_out_of_range) fail("is outside the range of double precision; correct it");
   if (error != std::errc() || end != to)
     fail("is not a number; write decimals with a point, as 1.5e-3, and separate numbers by commas or blanks");
@@ -184,7 +185,7 @@ std::string textOf(const std::string& file) {
 std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill) {
   const std::string all = textOf(file);
   std::vector<Grain> grains;
-  std::optional<std::size_t> header; // number of columns that it names
+  std::optional<std::size_t> header, width; // number of columns that it names; of the first grain
   int number = 0;
   for (std::size_t from = 0; from < all.size();) {
     const std::size_t end = std::min(all.find_first_of("\r\n", from), all.size());
@@ -203,6 +204,10 @@ std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill)
     std::array<double, kColumns.size()> values{};
     for (std::size_t k = 0; k < std::min(fields.size(), values.size()); ++k) values[k] = readNumber(line, fields[k], k);
     if (!isComplete(fields.size())) line.fail(0, fmt::format("{} numbers; a line has {}", fields.size(), kLines));
+    if (!width) width = fields.size();
+    if (fields.size() != *width)
+      line.fail(0,
+                fmt::format("{} numbers, but the lines before have {}; give all lines as many", fields.size(), *width));
     const auto vectorAt = [&](std::size_t at) { return base::Vec3d{values[at], values[at + 1], values[at + 2]}; };
     grains.push_back({vectorAt(0),
                       fields.size() >= 7 ? vectorAt(4) : fill.velocity,

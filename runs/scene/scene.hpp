@@ -209,6 +209,7 @@ struct Vehicle {
   double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
   static constexpr double kSphereRadius = 0.02;  ///< [m], by default
   std::optional<double> sphereRadius;            ///< [m] of the parts' sphere sets; empty: kSphereRadius or finer
+  double sphereRefinement = 1;                   ///< [-] divides the radii of its sphere sets, and their limits
   std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
   double adhesion = 0;  ///< [-] of parts without a material: share of the pull of a wall of the grains' own material
   ChassisMount chassis = ChassisMount::free;

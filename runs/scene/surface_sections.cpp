@@ -119,6 +119,11 @@ Table<MeshSection> meshTable() {
             S::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
+  t.add("sphere_refinement", &S::sphereRefinement, "-",
+        "divides the sphere radius, and of an automatic one the permitted protrusion too; grouser check doubles it for "
+        "its finer case")
+      .atLeast(1)
+      .atMost(16);
   addSurface(t);
   return t;
 }

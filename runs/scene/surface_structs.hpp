@@ -80,6 +80,7 @@ struct MeshSection : SurfaceSection {
   std::optional<double> angle;                    ///< [deg]
   std::optional<std::vector<double>> orientation; ///< w, x, y, z
   std::optional<double> sphereRadius;             ///< [m]; empty: chosen for what touches the mesh
+  double sphereRefinement = 1;                    ///< [-] divides it, and an automatic one's limits
   LoadedMesh loaded;
   bool operator==(const MeshSection&) const = default;
 };

@@ -40,6 +40,12 @@ Table<Vehicle> vehicleTable() {
       .above(0)
       .atMost(1)
       .orWord("auto");
+  t.add(
+       "sphere_refinement", &S::sphereRefinement, "-",
+       "divides all sphere radii, and of automatic ones the permitted protrusion too; grouser check doubles it for its "
+       "finer case")
+      .atLeast(1)
+      .atMost(16);
   t.add("material", &S::material, "",
         "of the parts against grains and, for friction, obstacles; where not given they are of the other's own "
         "material, but with friction_ground of the vehicle file and the pull that adhesion says; on rigid ground all "

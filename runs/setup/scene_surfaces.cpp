@@ -82,6 +82,7 @@ std::vector<SceneSurface> surfacesOf(const scene::Scene& scene) {
     all.back().mesh = m.loaded.query;
     all.back().sphereRadius = m.loaded.sphereRadius;
     all.back().sphereRadiusGiven = m.sphereRadius.has_value();
+    all.back().sphereRefinement = m.sphereRefinement;
   }
   return all;
 }

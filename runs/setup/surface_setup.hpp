@@ -43,6 +43,7 @@ struct SurfaceSetup {
   std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
   double sphereRadius{};                                 ///< of the spheres that a mesh is cut into [m]
   bool sphereRadiusGiven{};                              ///< by the scene; else it may become finer
+  double sphereRefinement{1};                            ///< [-] divides it and what an automatic one permits
   bool placedLater{};               ///< put on a bed that has settled without it; else the bed is laid around it
   std::optional<double> aboveBed{}; ///< then: height of its lowest point over the highest grain under it [m]
 

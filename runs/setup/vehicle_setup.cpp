@@ -89,6 +89,7 @@ VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.single = v.tracks == scene::Tracks::single;
   setup.sphereRadius = v.sphereRadius.value_or(scene::Vehicle::kSphereRadius);
   setup.sphereRadiusGiven = v.sphereRadius.has_value();
+  setup.sphereRefinement = v.sphereRefinement;
   setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
   setup.hullTouches = hullTouches(scene);
   setup.hullSphereRadius = v.hullSphereRadius.value_or(std::max(kHullSphereRadius, setup.sphereRadius));

@@ -32,6 +32,7 @@ struct VehicleSetup {
   bool single = false;        ///< track, of two
   double sphereRadius{};      ///< of the parts' sphere sets [m]
   bool sphereRadiusGiven{};   ///< by the scene; else it may become finer
+  double sphereRefinement{1}; ///< [-] divides all radii and what automatic ones permit
   bool soilMeetsShoesAlone{}; ///< and no other part
   bool hullTouches{};         ///< ground, grains and obstacles
   double hullSphereRadius{};  ///< of its set then [m]

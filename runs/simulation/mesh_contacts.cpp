@@ -16,8 +16,9 @@ PartCut meshCut(const setup::SurfaceSetup& surface, double contactSize) {
   PartCut cut{
       &surface.mesh->mesh(),           surface.name, {}, {}, fmt::format("mesh.{}.sphere_radius", surface.number),
       surface.place + ".sphere_radius"};
-  cut.options.radius = surface.sphereRadius, cut.options.interior = false;
-  cut.limit = {kPermitted * contactSize, contactSize, kPermitted * contactSize, !surface.sphereRadiusGiven};
+  const double size = contactSize / surface.sphereRefinement;
+  cut.options.radius = surface.sphereRadius / surface.sphereRefinement, cut.options.interior = false;
+  cut.limit = {kPermitted * size, size, kPermitted * size, !surface.sphereRadiusGiven};
   return cut;
 }
 

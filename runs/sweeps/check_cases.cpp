@@ -193,11 +193,10 @@ private:
 
   void addSpheres() {
     Overrides overrides;
-    if (scene_.vehicle)
-      overrides.push_back(
-          set("vehicle.sphere_radius", 0.5 * scene_.vehicle->sphereRadius.value_or(scene::Vehicle::kSphereRadius)));
+    // Not half the default radius: an explicit one cuts thin parts more coarsely than an automatic one.
+    if (scene_.vehicle) overrides.push_back(set("vehicle.sphere_refinement", 2 * scene_.vehicle->sphereRefinement));
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m)
-      overrides.push_back(set(fmt::format("mesh.{}.sphere_radius", m), 0.5 * scene_.meshes[m].loaded.sphereRadius));
+      overrides.push_back(set(fmt::format("mesh.{}.sphere_refinement", m), 2 * scene_.meshes[m].sphereRefinement));
     if (overrides.empty()) return omit(CheckAxis::spheres, "no vehicle and no mesh");
     add(CheckAxis::spheres, "half_spheres", "spheres of parts at half their radius", overrides, kCostOfSpheres);
   }

@@ -6,14 +6,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <vector>
 
 namespace grouser::spheredecomp::detail {
 
 namespace {
+
+using Fail = std::function<void(const std::string&)>;
 
 /// Whether a word is a number to its end; with a decimal comma too, as the reader takes it.
 bool isNumber(std::string word, double& value) {
@@ -23,26 +27,53 @@ bool isNumber(std::string word, double& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
+/// The reader skips a vertex that has another count of numbers, and counts no number that begins with a point.
+void checkVertex(std::istream& words, const Fail& fail) {
+  std::vector<double> values;
+  for (std::string word; words >> word;) {
+    values.push_back(0);
+    if (!isNumber(word, values.back())) fail(fmt::format("a vertex has \"{:.40}\" for a number", word));
+    if (word.front() == '.') fail(fmt::format("a vertex has the number \"{0:.40}\"; write 0{0:.40}", word));
+  }
+  if (values.size() < 3) fail(fmt::format("a vertex has {} of its 3 coordinates", values.size()));
+  if (values.size() == 4 && values[3] != 1)
+    fail(fmt::format("a vertex has the weight {:g}, which is for curves; remove it", values[3]));
+  if (values.size() == 5 || values.size() > 6)
+    fail(fmt::format("a vertex has {} numbers; it must have 3 (x y z), 4 (and a weight of 1) or 6 (and a colour)",
+                     values.size()));
+}
+
+/// The reader looks for v and f in the first column, and skips the lines of all others.
+void checkLine(const std::string& line, const Fail& fail) {
+  std::istringstream words(line.substr(0, line.find('#')));
+  std::string word;
+  if (!(words >> word)) return;
+  const bool hasMark = word.starts_with("\xEF\xBB\xBF");
+  const char kind = hasMark && word.size() == 4 ? word[3] : word.size() == 1 ? word[0] : ' ';
+  if (std::string("vVfF").find(kind) == std::string::npos) return;
+  if (hasMark) fail(fmt::format("a byte-order mark stands before \"{}\"; save the file without one", kind));
+  if (line.front() != kind || kind == 'V' || kind == 'F')
+    fail(fmt::format("the line is indented or in capitals; it must begin with \"{}\"", kind == 'V'   ? 'v'
+                                                                                       : kind == 'F' ? 'f'
+                                                                                                     : kind));
+  if (kind == 'v') checkVertex(words, fail);
+}
+
 } // namespace
 
-void checkObjVertices(const std::string& path) {
+void checkObj(const std::string& path) {
   std::ifstream in(path);
-  std::string line, word;
+  std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    if (!(words >> word) || word != "v") continue;
-    std::vector<double> values;
-    const auto fail = [&](const std::string& what) {
-      throw base::InputError(fmt::format("{}:{}: {}; export the mesh again, or correct the line", path, number, what));
+    const Fail fail = [&path, at = number](const std::string& what) {
+      throw base::InputError(fmt::format("{}:{}: {}; export the mesh again, or correct the line", path, at, what));
     };
-    while (words >> word && word != "\\") {
-      values.push_back(0);
-      if (!isNumber(word, values.back())) fail(fmt::format("a vertex has \"{}\" for a number", word));
-    }
-    if (word == "\\") continue; // goes on in the next line
-    if (values.size() < 3) fail(fmt::format("a vertex has {} of its 3 coordinates", values.size()));
-    if (values.size() == 4 && values[3] != 1)
-      fail(fmt::format("a vertex has the weight {:g}, which is for curves; remove it", values[3]));
+    if (const std::size_t end = line.find('\r'); end < line.size() - 1)
+      fail("the lines end in carriage returns alone; save the file with the line ends of Unix or Windows");
+    const auto goesOn = [&line] { return line.ends_with('\\') || line.ends_with("\\\r"); };
+    for (std::string next; goesOn() && std::getline(in, next); ++number)
+      line = line.substr(0, line.rfind('\\')) + ' ' + next;
+    checkLine(line, fail);
   }
 }
 

@@ -5,8 +5,10 @@
 
 namespace grouser::spheredecomp::detail {
 
-/// Throws base::InputError, with the line, for a vertex of an OBJ file that the reader behind would drop or change
-/// without a word: one of fewer than three coordinates, of words, or with a weight other than 1.
-void checkObjVertices(const std::string& path);
+/// Refuses what assimp drops or changes without a word in an OBJ file, so that all later vertices have other numbers:
+/// lines of vertices and faces that do not begin in the first column or are in capitals, coordinates that are missing,
+/// no numbers, too many or begin with a point, weights other than 1, lines that end in carriage returns alone. Throws
+/// base::InputError with file and line.
+void checkObj(const std::string& path);
 
 } // namespace grouser::spheredecomp::detail

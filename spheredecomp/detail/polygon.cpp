@@ -140,6 +140,20 @@ private:
 
 } // namespace
 
+bool isConvex(const std::vector<Vec3d>& corners) {
+  const std::vector<Point> points = projected(corners);
+  const std::size_t n = points.size();
+  double size2 = 0;
+  for (const Point& p : points) size2 = std::max(size2, length2(points[0], p));
+  const double rounding = 1e-7 * size2; // of float coordinates
+  // Left turns alone may wind round twice, as a pentagram does: then some triangle of the fan is negative.
+  for (std::size_t k = 0; k < n; ++k)
+    if (!(turn(points[k], points[(k + 1) % n], points[(k + 2) % n]) > rounding)) return false;
+  for (std::size_t k = 1; k + 1 < n; ++k)
+    if (!(turn(points[0], points[k], points[k + 1]) > 0)) return false;
+  return true;
+}
+
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Vec3d>& corners) {
   if (corners.size() < 3) return {};
   if (corners.size() == 3) return {{0, 1, 2}};

@@ -125,6 +125,24 @@ def ascii_stl(cut=False):
     return "\n".join(lines[:-4] if cut else lines) + "\n"
 
 
+def ply(form="ascii", indices=None, vertices=None, cut=0):
+    faces = [tuple(k - 1 for k in f) for f in CUBE_FACES] if indices is None else indices
+    points = [tuple(0.1 * c for c in v) for v in CUBE] if vertices is None else vertices
+    head = (f"ply\nformat {form} 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
+            f"property float z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    if form == "ascii":
+        lines = [" ".join(map(repr, p)) for p in points] + [" ".join(map(str, (len(f), *f))) for f in faces]
+        data = (head + "\n".join(lines) + "\n").encode()
+    else:
+        data = head.encode() + b"".join(struct.pack("<3f", *p) for p in points)
+        data += b"".join(struct.pack(f"<B{len(f)}i", len(f), *f) for f in faces)
+    return data[:len(data) - cut]
+
+
+BAD_INDEX = [tuple(k - 1 for k in f) for f in CUBE_FACES[:-1]] + [(1, 3, 8, 5)]
+SHORT_VERTEX = [tuple(0.1 * c for c in v) for v in CUBE[:-1]] + [(0.1, 0.1)]
+
+
 def mesh(data, expected, file="thing.obj", keys="sphere_radius = 0.02"):
     return {"scene.toml": MESH.format(file=file, keys=keys), file: data}, expected
 
@@ -203,7 +221,7 @@ class Note(list):
 
 
 class Right(list):
-    """Exit code 0."""
+    """Exit code 0, and `grouser plan` prints all of these."""
 
 
 def flipped():
@@ -225,6 +243,11 @@ def prism(outline, height=1.0):
     f += [(k + 1, (k + 1) % n + 1, (k + 1) % n + n + 1, k + n + 1) for k in range(n)]
     return v, f
 
+
+# Only the cube as a whole, each face in its place, is cut so.
+CUBE_CUT = Right(["thing: 92 spheres"])
+# An error in a mesh says what to do about it.
+REMEDY = "export|repair|close|flip|correct|give it|write|remove|make all"
 
 CASES = {
     # height-maps
@@ -260,40 +283,65 @@ CASES = {
     "map range huge": picture(png(), Error(["scene.toml"]), MAP.replace("[0, 0.1]", "[0, 1e9]")),
     "map size zero": picture(png(), Error(["size"]), MAP.replace("[1.0, 0.5]", "[1.0, 0]")),
     # meshes
-    "mesh right": mesh(obj(), Right()),
-    "mesh CRLF": mesh(obj(newline="\r\n"), Right()),
-    "mesh BOM": mesh("\ufeff" + obj(head="# cube"), Right()),
+    "mesh right": mesh(obj(), CUBE_CUT),
+    "mesh CRLF": mesh(obj(newline="\r\n"), CUBE_CUT),
+    "mesh BOM": mesh("\ufeff" + obj(head="# cube"), CUBE_CUT),
     "mesh empty": mesh("", Error(["thing.obj"])),
     "mesh of points": mesh(obj(faces=[]), Error(["thing.obj"])),
     "mesh of lines": mesh(obj(faces=[]) + "l 1 2 3\n", Error(["thing.obj"])),
     "mesh index beyond": mesh(obj(faces=CUBE_FACES[:-1] + [(2, 4, 9, 6)]), Error(["thing.obj"])),
     "mesh index zero": mesh(obj(faces=CUBE_FACES[:-1] + [(0, 4, 8, 6)]), Error(["thing.obj"])),
-    "mesh negative indices": mesh(obj(faces=[tuple(k - 9 for k in f) for f in CUBE_FACES]), Right()),
+    "mesh negative indices": mesh(obj(faces=[tuple(k - 9 for k in f) for f in CUBE_FACES]), CUBE_CUT),
     "mesh nan": mesh(obj(vertices=[(float("nan"), 0, 0)] + CUBE[1:]), Error(["thing.obj"])),
     "mesh inf": mesh(obj(vertices=[(float("inf"), 0, 0)] + CUBE[1:]), Error(["thing.obj"])),
-    "mesh decimal commas": mesh(obj().replace("0.1", "0,1"), Right()),  # the reader takes them as points
+    "mesh decimal commas": mesh(obj().replace("0.1", "0,1"), CUBE_CUT),  # the reader takes them as points
     "mesh a coordinate missing": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1"), Error(["thing.obj:8", "2 of"])),
     "mesh a coordinate missing and a vertex to spare": mesh(
         obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1\nv 0 0 0.2"), Error(["thing.obj:8", "2 of its 3"])),
     "mesh of weights": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1 0.1 2"), Error(["thing.obj:8", "weight"])),
-    "mesh of colours": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1 0.1 1 0 0"), Right()),
+    "mesh of colours": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1 0.1 1 0 0"), CUBE_CUT),
     "mesh words for numbers": mesh(obj().replace("v 0.1 0.1 0.1", "v a b c"), Error(["thing.obj"])),
     "mesh without its lid": mesh(obj(faces=CUBE_FACES[:-1]), Error(["thing.obj", "open"])),
     "mesh inside out": mesh(obj(faces=flipped()), Error(["thing.obj", "flip them"])),
     "mesh one face turned": mesh(obj(faces=CUBE_FACES[:-1] + [tuple(reversed(CUBE_FACES[-1]))]),
                                  Error(["thing.obj", "make all faces point outwards"])),
     "mesh a face twice": mesh(obj(faces=CUBE_FACES + [CUBE_FACES[0]]), Error(["thing.obj"])),
-    "mesh degenerate triangle": mesh(obj(faces=CUBE_FACES + [(1, 2, 2)]), Right()),
-    "mesh two shells": mesh(obj(*shells((3, 0, 0))), Right()),
-    "mesh hollow": mesh(obj(*shells((.25, .25, .25), .5, flipped())), Right()),
-    "mesh shells across": mesh(obj(*shells((.5, .5, .5))), Right()),  # what either shell encloses
-    "mesh concave polygon": mesh(obj(*prism(L_SHAPE)), Right()),
-    "mesh stl": mesh(stl(), Right(), "thing.stl"),
-    "mesh stl that says solid": mesh(stl(b"solid exported"), Right(), "thing.stl"),
+    "mesh degenerate triangle": mesh(obj(faces=CUBE_FACES + [(1, 2, 2)]), CUBE_CUT),
+    "mesh two shells": mesh(obj(*shells((3, 0, 0))), Right(["thing: 184 spheres"])),
+    "mesh hollow": mesh(obj(*shells((.25, .25, .25), .5, flipped())), Right(["thing: 182 spheres"])),
+    "mesh shells across": mesh(obj(*shells((.5, .5, .5))), Right(["thing: 137 spheres"])),  # what either shell encloses
+    "mesh concave polygon": mesh(obj(*prism(L_SHAPE)), Right(["thing: 245 spheres"])),
+    "mesh stl": mesh(stl(), CUBE_CUT, "thing.stl"),
+    "mesh stl that says solid": mesh(stl(b"solid exported"), CUBE_CUT, "thing.stl"),
     "mesh stl cut short": mesh(stl(cut=60), Error(["thing.stl"]), "thing.stl"),
     "mesh stl of more triangles": mesh(stl(count=40), Error(["thing.stl"]), "thing.stl"),
-    "mesh stl text": mesh(ascii_stl(), Right(), "thing.stl"),
+    "mesh stl text": mesh(ascii_stl(), CUBE_CUT, "thing.stl"),
+    "mesh stl word for a number": mesh(ascii_stl().replace("vertex 0.1", "vertex abc", 1),
+                                       Error(["thing.stl", '..."', "export it again"]), "thing.stl"),
     "mesh stl text cut short": mesh(ascii_stl(True), Error(["thing.stl"]), "thing.stl"),
+    "mesh ply": mesh(ply(), CUBE_CUT, "thing.ply"),
+    "mesh ply binary": mesh(ply("binary_little_endian"), CUBE_CUT, "thing.ply"),
+    "mesh ply cut short": mesh(ply(cut=40), Error(["thing.ply", "close the holes"]), "thing.ply"),
+    "mesh ply binary cut in a face": mesh(ply("binary_little_endian", cut=17), Error(["thing.ply"]), "thing.ply"),
+    "mesh ply binary cut by a byte": mesh(ply("binary_little_endian", cut=1), Error(["thing.ply"]), "thing.ply"),
+    "mesh ply binary cut in its vertices": mesh(ply("binary_little_endian", cut=130), Error(["thing.ply"]),
+                                                "thing.ply"),
+    "mesh ply cut in its header": mesh(ply()[:60], Error(["thing.ply", "end_header", "export it again"]), "thing.ply"),
+    "mesh ply index beyond": mesh(ply(indices=BAD_INDEX), Error(["thing.ply", "face 6", "export it again"]),
+                                  "thing.ply"),
+    "mesh ply binary index beyond": mesh(ply("binary_little_endian", BAD_INDEX),
+                                         Error(["thing.ply", "face 6", "export it again"]), "thing.ply"),
+    "mesh ply a coordinate missing": mesh(ply(vertices=SHORT_VERTEX),
+                                          Error(["thing.ply:17", "2 numbers", "correct the line"]), "thing.ply"),
+    "mesh OBJ in capitals": mesh(obj(), CUBE_CUT, "thing.OBJ"),
+    "mesh OBJ in capitals, a coordinate missing": mesh(
+        obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1\nv 0 0 0.2"), Error(["thing.OBJ:8", "2 of its 3"]), "thing.OBJ"),
+    "mesh number that begins with a point": mesh(obj().replace("v 0.1 0.1 0.1", "v .1 0.1 0.1"),
+                                                 Error(["thing.obj:8", "write 0.1"])),
+    "mesh of five numbers": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1 0.1 1 0"), Error(["thing.obj:8", "5 num"])),
+    "mesh indented": mesh(obj().replace("v 0.1 0.1 0.1", " v 0.1 0.1 0.1"), Error(["thing.obj:8", "indented"])),
+    "mesh upper case": mesh(obj().replace("v 0.1 0.1 0.1", "V 0.1 0.1 0.1"), Error(["thing.obj:8", "capitals"])),
+    "mesh CR": mesh(obj(newline="\r"), Error(["thing.obj:1", "save the file with the line ends"])),
     "mesh in millimetres": mesh(obj(scale=1e5), Error(["scene.toml"]), keys=""),
     "mesh no thickness": mesh("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", Error(["thing.obj"])),
     "mesh of unknown format": mesh("hello", Error(["thing.xyz"]), "thing.xyz"),
@@ -308,7 +356,11 @@ CASES = {
     "grains leading comma": grains(",0,0.1,0.01\n", Error(["grains.txt:1"])),
     "grains too few": grains("0,0,0.1\n", Error(["grains.txt:1"])),
     "grains too many": grains("0,0,0.1,0.01" + ",1" * 9 + "\n", Error(["grains.txt:1"])),
-    "grains other width": grains("0,0,0.1,0.01\n0.1,0,0.1,0.01,1,2,3\n0.2,0,0.1,0.01,1\n", Error(["grains.txt:3"])),
+    "grains other width": grains("0,0,0.1,0.01\n0.1,0,0.1,0.01,1,2,3\n",
+                                 Error(["grains.txt:2", "7 numbers", "give all lines as many"])),
+    "grains in quotes": grains('"0","0","0.1","0.01"\n', Error(["grains.txt:1", "remove them"])),
+    "grains header in quotes": grains('"x","y","z","r"\n0,0,0.1,0.01\n', Right()),
+    "grains long word": grains("0,0,0.1," + "a" * 500 + "\n", Error(["grains.txt:1", "= " + "a" * 40 + " [m]"])),
     "grains decimal commas": grains("0,0;0,0;0,1;0,01\n", Error(["grains.txt:1"])),
     "grains nan": grains("0,0,nan,0.01\n", Error(["grains.txt:1"])),
     "grains inf": grains("inf,0,0.1,0.01\n", Error(["grains.txt:1"])),
@@ -382,27 +434,30 @@ CASES = {
 
 
 class OddFiles(unittest.TestCase):
-    def run_case(self, files):
+    def run_case(self, files, plans):
         with tempfile.TemporaryDirectory() as kept:
             folder = Path(kept)
             for name, data in files.items():
                 (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
-            done = subprocess.run([PROGRAM, "run", "scene.toml", "--out", "out"], cwd=folder, text=True,
-                                  capture_output=True, timeout=60,
-                                  env={**os.environ, "GROUSER_CACHE": str(folder / "cache")})
+            call = {"cwd": folder, "text": True, "capture_output": True, "timeout": 60,
+                    "env": {**os.environ, "GROUSER_CACHE": str(folder / "cache")}}
+            planned = subprocess.run([PROGRAM, "plan", "scene.toml"], **call).stdout if plans else ""
+            done = subprocess.run([PROGRAM, "run", "scene.toml", "--out", "out"], **call)
             left = sorted(p.name for p in folder.iterdir() if p.name not in files and p.name != "cache")
-        return done, left
+        return done, left, planned
 
     def test_each(self):
         for name, (files, expected) in CASES.items():
             with self.subTest(name):
-                done, left = self.run_case(files)
-                said = done.stdout + done.stderr
+                done, left, planned = self.run_case(files, isinstance(expected, Right) and expected)
+                said = done.stdout + done.stderr + planned
                 if isinstance(expected, Error):
                     self.assertEqual(done.returncode, 2, said)
                     self.assertEqual(left, [], "left behind")
                     self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
                     said = done.stderr
+                    if name.startswith("mesh") and "thing" in said:
+                        self.assertRegex(said, REMEDY)
                 else:
                     self.assertEqual(done.returncode, 0, said)
                 for word in expected:

@@ -8,7 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 
@@ -70,8 +73,70 @@ TEST(ImportMesh, VerticesOfAnObjThatWouldBeDroppedOrChanged_AreRefusedWithTheirL
       << messageFor("v 0 0");
   EXPECT_NE(messageFor("v 0 0 1.5.2").find(":4: a vertex has \"1.5.2\" for a number"), std::string::npos);
   EXPECT_NE(messageFor("v 0 0 1 2").find(":4: a vertex has the weight 2"), std::string::npos);
-  for (const char* good : {"v 0 0 1", "v +0 0,0 1e0 # top", "v 0 0 1 1", "v 0 0 1 0.5 0.5 0.5", "v 0 0 \\\n1"})
+  EXPECT_NE(messageFor("v 0 0 .9").find(":4: a vertex has the number \".9\"; write 0.9"), std::string::npos);
+  EXPECT_NE(messageFor("v 0 0 1 1 0").find(":4: a vertex has 5 numbers"), std::string::npos);
+  EXPECT_NE(messageFor("v 0 0 1 1 0 0 1").find(":4: a vertex has 7 numbers"), std::string::npos);
+  EXPECT_NE(messageFor(" v 0 0 1").find(":4: the line is indented or in capitals"), std::string::npos);
+  EXPECT_NE(messageFor("V 0 0 1").find("it must begin with \"v\""), std::string::npos);
+  EXPECT_NE(messageFor("v 0 0 1\n f 1 2 3").find(":5: the line is indented"), std::string::npos);
+  for (const char* good : {"v 0 0 1", "v +0 0,0 1e0 # top", "v 0 0 1 1", "v 0 0 1 0.5 0.5 0.5", "v 0 0 \\\n1",
+                           "v\t0   0 1.", "v -.0 0 1 # .9", "vn .9 0 0\nv 0 0 1"})
     EXPECT_EQ(messageFor(good), "no error") << good;
+}
+
+TEST(ImportMesh, AnObjOfAnotherNameOrLineEnd_IsCheckedAlike) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 .9\nv 0 0 2\n", faces = "f 1 3 2\nf 1 2 4\n";
+  const File capitals("grouser_vertex.OBJ", vertices + faces);
+  EXPECT_NE(messageOf(capitals.path).find("grouser_vertex.OBJ:4: a vertex has the number \".9\""), std::string::npos);
+  std::string old = std::string(kTetrahedron) + "f 2 3 4\n";
+  std::replace(old.begin(), old.end(), '\n', '\r');
+  const File returns("grouser_returns.obj", old);
+  EXPECT_NE(messageOf(returns.path).find("the lines end in carriage returns alone"), std::string::npos);
+  const File marked("grouser_mark.obj", "\xEF\xBB\xBF" + std::string(kTetrahedron) + "f 2 3 4\n");
+  EXPECT_NE(messageOf(marked.path).find("byte-order mark stands before \"v\""), std::string::npos);
+}
+
+/// A tetrahedron; of `text`, or in binary.
+std::string tetrahedronAsPly(bool text, std::int32_t lastIndex = 3, const std::string& lastVertex = "0 0 1\n") {
+  std::string file = std::string("ply\nformat ") + (text ? "ascii" : "binary_little_endian") +
+                     " 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  if (text)
+    return file + "0 0 0\n1 0 0\n0 1 0\n" + lastVertex + "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 " +
+           std::to_string(lastIndex) + "\n";
+  const auto put = [&file](auto value) { file.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  for (const float c : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) put(c);
+  for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, lastIndex}}) {
+    put(std::uint8_t{3});
+    for (const std::int32_t i : face) put(i);
+  }
+  return file;
+}
+
+TEST(ImportMesh, ADamagedPly_IsRefusedWhereverItEnds) {
+  for (const bool text : {true, false}) {
+    const std::string good = tetrahedronAsPly(text);
+    const File file("grouser_good.ply", good);
+    EXPECT_EQ(messageOf(file.path), "no error");
+    // The last byte of the text ends the line only.
+    for (std::size_t size = text ? good.find("end_header") : 0; size + 1 < good.size(); size += text ? 1 : 5) {
+      const File cut("grouser_cut.ply", good.substr(0, size));
+      EXPECT_NE(messageOf(cut.path).find("grouser_cut.ply:"), std::string::npos) << size << ": " << messageOf(cut.path);
+    }
+    for (const std::int32_t index : {4, -1, 1000000}) {
+      const File bad("grouser_index.ply", tetrahedronAsPly(text, index));
+      EXPECT_NE(messageOf(bad.path).find("face 4 refers to a vertex that is not among the 4"), std::string::npos)
+          << messageOf(bad.path);
+    }
+  }
+}
+
+TEST(ImportMesh, VerticesOfAPlyThatHaveOtherNumbersThanItsHeader_AreRefused) {
+  for (const char* vertex : {"0 1\n", "0 0 1 1\n"}) {
+    const File file("grouser_vertex.ply", tetrahedronAsPly(true, 3, vertex));
+    EXPECT_NE(messageOf(file.path).find("grouser_vertex.ply:13: a vertex has"), std::string::npos)
+        << messageOf(file.path);
+  }
 }
 
 TEST(ImportMesh, BadFiles_GiveOneClearError) {

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 
 #include <fmt/format.h>
@@ -167,6 +168,67 @@ TEST(Triangulate, OrderOfCornersAndDirectionDoNotMatter) {
     }
 }
 
+/// Triangles of a mesh by their corners' positions.
+std::vector<Vec3d> cornersOf(const TriangleMesh& mesh) {
+  std::vector<Vec3d> corners;
+  for (const std::uint32_t i : mesh.indices) corners.push_back(mesh.vertices[i]);
+  return corners;
+}
+
+struct Faces {
+  std::vector<Vec3d> vertices;
+  std::vector<std::vector<std::size_t>> faces;
+
+  std::string asObj() const {
+    std::string text;
+    for (const Vec3d& v : vertices) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", v.x, v.y, v.z);
+    for (const auto& face : faces) {
+      text += "f";
+      for (const std::size_t i : face) text += fmt::format(" {}", i + 1);
+      text += "\n";
+    }
+    return text;
+  }
+};
+
+Faces torus() {
+  constexpr std::size_t kAround = 20, kAcross = 8;
+  Faces t;
+  for (std::size_t i = 0; i < kAround; ++i)
+    for (std::size_t j = 0; j < kAcross; ++j) {
+      const double a = 2 * base::kPi * i / kAround, b = 2 * base::kPi * j / kAcross, r = 1 + 0.25 * base::cos(b);
+      t.vertices.push_back({r * base::cos(a), r * base::sin(a), 0.25 * base::sin(b)});
+      const std::size_t next = (i + 1) % kAround, up = (j + 1) % kAcross;
+      t.faces.push_back({i * kAcross + j, next * kAcross + j, next * kAcross + up, i * kAcross + up});
+    }
+  return t;
+}
+
+// Cuts and their hashes follow from the triangles: those of quads are as before faces of many corners were cut here.
+TEST(ImportMesh, Quads_KeepTheirFan) {
+  const Faces box{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                  {{0, 3, 2, 1}, {4, 5, 6, 7}, {5, 4, 0, 1}, {6, 5, 1, 2}, {7, 6, 2, 3}, {4, 7, 3, 0}}};
+  Faces saddle = box;
+  for (const std::size_t k : {4u, 6u}) saddle.vertices[k].z = 1.5;
+  for (const Faces& f : {box, saddle, torus()}) {
+    std::vector<Vec3d> expected;
+    for (const auto& face : f.faces)
+      for (const std::size_t k : {0u, 1u, 2u, 0u, 2u, 3u}) expected.push_back(f.vertices[face[k]]);
+    const std::vector<Vec3d> corners = cornersOf(imported(f.asObj(), ".obj"));
+    ASSERT_EQ(corners.size(), expected.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      EXPECT_NEAR(norm(corners[i] - expected[i]), 0, 1e-6) << "corner " << i; // floats
+  }
+  // The diagonal of the top joins the upper corners; the other one would give 1.0 + 1/6.
+  EXPECT_NEAR(signedVolume(imported(saddle.asObj(), ".obj")), 1 + 2.0 / 6, 1e-6);
+}
+
+TEST(ImportMesh, ConvexNGons_KeepTheTrianglesOfBefore) {
+  Outline hexagon{{4, 0}, {2, 3}, {-2, 3}, {-4, 0}, {-2, -3}, {2, -3}};
+  const std::string origin = cutOrigin(imported(prismAsObj(hexagon, 0), ".obj"), {});
+  EXPECT_NE(origin.find("hash d036328000f63996"), std::string::npos) << origin;
+}
+
 TEST(Triangulate, AnOutlineThatCrossesItselfIsRefused) {
   EXPECT_TRUE(detail::triangulate({{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {1, -1, 0}, {0, 2, 0}}).empty());
   std::string bow = prismAsObj({{0, 0}, {3, 0}, {3, 2}, {1, -1}, {0, 2}}, 0);
@@ -206,6 +268,20 @@ TEST(ImportMesh, VerticesApartByRounding_AreWeldedAndTold) {
   note.clear();
   imported(looseBox(0.001, 0), ".obj", &note);
   EXPECT_EQ(note, "") << "vertices that are equal are welded without a word";
+}
+
+TEST(ImportMesh, VerticesOfFiveDigits_AreWelded) {
+  std::string note;
+  EXPECT_EQ(imported(looseBox(0.01, 1.5e-6), ".obj", &note).vertices.size(), 8u);
+  EXPECT_NE(note.find("14 vertices"), std::string::npos) << note;
+  try {
+    imported(looseBox(0.01, 1e-4), ".obj");
+    FAIL() << "accepted";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("vertices at them lie within 0.00057 m of another: merge these"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ImportMesh, WeldingDoesNotCollapseAThinSheet) {

@@ -125,9 +125,41 @@ TEST(ThinPart, BeyondTheBudgetAnErrorNamesPlaceAndRemedy) {
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
     const std::string said = error.what();
-    for (const char* word : {"part: is thin or pointed at (", "more than the permitted 4e-06 m", "set sphere_radius"})
+    for (const char* word : {"part: the mesh is thin or pointed at (", "more than the permitted 4e-06 m",
+                             "needs more than 100000 spheres", "set the sphere radius to 0.00707107 m"})
       EXPECT_NE(said.find(word), std::string::npos) << said;
   }
+}
+
+// A lens has few spheres by its area, but at its rim they shrink: ten times the budget and a minute, uncut short.
+TEST(ThinPart, SpheresThatShrinkAtEdgesCountAsWell) {
+  const TriangleMesh lens = shapes::turned({{0, -0.0005}, {0.1, 0}, {0, 0.0005}}, 64);
+  try {
+    const Cut cut = cutFor(lens, 0.003);
+    EXPECT_LE(cut.set.spheres.size(), kSphereBudget);
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("more than 100000 spheres"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ThinPart, ARefusalForItsDipSaysSo) {
+  Protrusion protrusion;
+  const TriangleMesh mesh = sheet(2e-3);
+  try {
+    decomposeWithin(mesh, "part", {.radius = diagonal(mesh) / 40, .interior = false}, {1, 2e-4, 4e-6, true},
+                    protrusion);
+    FAIL() << "accepted";
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("shrink there and leave dips of up to"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ThinPart, AWarningAdvisesToRemoveTheKeyAlone) {
+  CutReport report{"part", "mesh.0.sphere_radius", 0.01, 100, {1e-3, {}}, {1e-4, 0.005, 1e-4, false}};
+  const std::string said = protrusionWarning(report);
+  EXPECT_NE(said.find("remove mesh.0.sphere_radius, "), std::string::npos) << said;
+  EXPECT_EQ(said.find("lower"), std::string::npos) << "a smaller radius may stand out more: " << said;
 }
 
 TEST(ThinPart, AMeshWithinTheLimitKeepsItsCut) {

@@ -195,6 +195,17 @@ TEST(VehicleOfOtherNumbers, WorksAtTheFirstRetry) {
   EXPECT_EQ(six[3].value, "48");
 }
 
+TEST(VehicleOfOtherNumbers, AnotherNumberOfWheelsAloneIsKeptByASetOfKeys) {
+  for (const char* wheels : {"4", "6", "7"}) {
+    const std::string message = refusalOf({{"road_wheel", "count", wheels}});
+    if (message.empty()) continue;
+    const std::vector<KeyChange> changes = togetherIn(message);
+    ASSERT_GE(changes.size(), 5u) << message;
+    EXPECT_EQ(changes[0].value, wheels) << message;
+    EXPECT_EQ(refusalOf(changes), "") << message;
+  }
+}
+
 TEST(RunningGear, AdviceOfClosure_IsFoundFromFarAway) {
   for (const char* count : {"40", "52", "58"}) {
     const std::string message = refusalOf({{"shoe", "count", count}});

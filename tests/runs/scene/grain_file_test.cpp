@@ -50,12 +50,13 @@ TEST(GrainFile, EverySeparatorAndLineEndGivesTheSameGrain) {
   }
 }
 
-TEST(GrainFile, EachLineMayEndBeforeVelocityOrSpin) {
-  const auto all = read("0,0,0,0.1\r1,0,0,0.1,1,2,3\r\n2 0 0 0.1 1 2 3 4 5 6\n");
-  ASSERT_EQ(all.size(), 3u);
-  EXPECT_EQ(all[0].velocity, (base::Vec3d{0, 0, -1}));
-  EXPECT_EQ(all[1].velocity, (base::Vec3d{1, 2, 3}));
-  EXPECT_EQ(all[2].spin, (base::Vec3d{4, 5, 6}));
+TEST(GrainFile, AllLinesHaveOneWidth) {
+  EXPECT_EQ(read("0,0,0,0.1\r1,0,0,0.1\r\n").at(1).velocity, (base::Vec3d{0, 0, -1})) << "that of the scene";
+  EXPECT_EQ(read("0,0,0,0.1,4,5,6\n1 0 0 0.1 1 2 3\n").at(1).velocity, (base::Vec3d{1, 2, 3}));
+  EXPECT_EQ(read("2 0 0 0.1 1 2 3 4 5 6\n").at(0).spin, (base::Vec3d{4, 5, 6}));
+  // A line that was cut short by three numbers would take the scene's velocity.
+  for (const char* text : {"0,0,0,0.1\n1,0,0,0.1,1,2,3\n", "0,0,0,0.1,1,2,3\n1,0,0,0.1\n"})
+    EXPECT_NE(refusal(text).find("give all lines as many"), std::string::npos) << refusal(text);
 }
 
 TEST(GrainFile, EmptyFieldIsAnErrorAtItsColumnAndShiftsNothing) {
@@ -95,7 +96,8 @@ TEST(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
       {"+-1,0,0,0.1", "x = +-1 [m] is not a number"},
       {"0,0,0,+", "r = + [m] is not a number"},
       {"0,0,0,0.1 m", "r = 0.1 m [m] is not a number"},
-      {"0,0,0,\"0.1\"", "r = \"0.1\" [m] is not a number"},
+      {"0,0,0,\"0.1\"", "r = \"0.1\" [m] stands in quotes; remove them"},
+      {"\"0\",\"0\",\"0\",\"0.1\"", ":1:1: column 1, x = \"0\" [m] stands in quotes; remove them"},
       {"0,0,0", ":1:1: 3 numbers; a line has x, y, z, r [m]"},
       {"0,0,0,0.1,1", ":1:1: 5 numbers"},
       {"0,0,0,0.1,1,2,3,4,5,6,7", ":1:1: 11 numbers"},

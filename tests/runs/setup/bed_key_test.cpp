@@ -307,8 +307,8 @@ std::vector<Change> ofWhatComesLater() {
   };
   later("mesh", kMesh,
         {"file=meshes/roller.obj", "scale=2", "position=[1,0,3]", "orientation=[0.8,0.6,0,0]", "sphere_radius=0.03",
-         "material=rubber", "name=rock", "velocity=[0,0,-1]", "spin=[0,0,1]", "start=0.01", "until=0.05",
-         "above_bed=0.1", "placed=after_settling"});
+         "sphere_refinement=2", "material=rubber", "name=rock", "velocity=[0,0,-1]", "spin=[0,0,1]", "start=0.01",
+         "until=0.05", "above_bed=0.1", "placed=after_settling"});
   for (const char* key : {"mesh.axis", "mesh.angle"}) {
     const std::vector<std::string> turned = with(kNoVehicle, "mesh.0.axis=[0,0,1]");
     all.push_back({key, false, with(turned, "mesh.0.angle=20"), kNoVehicle, kMesh});
@@ -336,7 +336,8 @@ std::vector<Change> ofVehicle() {
   };
   add("vehicle", "",
       {"spec=vehicles/robot.toml", "position=[1,0]", "heading=20", "clearance=0.01", "sphere_radius=0.03",
-       "material=steel", "chassis=guided", "soil_meets=shoes", "hull_sphere_radius=0.05", "hull_touches=false"});
+       "sphere_refinement=2", "material=steel", "chassis=guided", "soil_meets=shoes", "hull_sphere_radius=0.05",
+       "hull_touches=false"});
   all.push_back(
       {"vehicle.adhesion", false, {"vehicle.material=\"\"", "vehicle.adhesion=0.3"}, {"vehicle.material=\"\""}});
   all.push_back({"spec", false, {"spec.idler.preload=3000"}});
