@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kRadius = 0.005, kDensity = 2600; // [m], [kg/m3]
 constexpr double kOwnOverlap = 1e-3;               // of a grain under its own weight [radii]
-constexpr double kDisturbance = 1e-3;              // amplitude of its sqrt(k / m) swing [own overlaps]
+constexpr double kDisturbance = 5e-4;              // amplitude of its sqrt(k / m) swing [own overlaps]
 constexpr double kTangentialRatio = 2.0 / 7;
 constexpr double kSettleStiffness = 1e5, kSettleZeta = 0.3, kSettleStep = 0.3; // [N/m], [-], [1 / sqrt(k / m)]
 constexpr std::uint64_t kSeed = 1, kPurpose = base::purpose("study.stability");

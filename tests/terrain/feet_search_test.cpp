@@ -292,7 +292,7 @@ TEST_P(OnEveryGround, SphereInACone_TouchesAllAround) {
   }
 }
 
-TEST(FloorPlaces, GoToTheFootWhoseNormalIsNearest) {
+TEST(FeetPlaces, GoToTheFootWhoseNormalIsNearest) {
   Feet feet;
   feet.count = 3;
   feet.foot[0].normal = base::normalized(Vec3d{0.7, 0, 0.7}),

@@ -155,9 +155,9 @@ TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
                      file + "\"\n",
                  overrides);
   };
-  const auto all =
-      placedGrains(read("0, 0, 1, 0.1\n1, 0, 1, 0.1, 0.5, +0.25, 0\n2, 0, 1, 0.1, 1e-1, 0, 0, 7, 8, -9\n"));
-  ASSERT_EQ(all.size(), 3u);
+  std::vector<scene::Grain> all;
+  for (const char* line : {"0, 0, 1, 0.1\n", "1, 0, 1, 0.1, 0.5, +0.25, 0\n", "2, 0, 1, 0.1, 1e-1, 0, 0, 7, 8, -9\n"})
+    all.push_back(placedGrains(read(line)).front());
   EXPECT_EQ(all[0].velocity, (base::Vec3d{0, 0, -1})) << "the section's";
   EXPECT_EQ(all[1].velocity, (base::Vec3d{0.5, 0.25, 0}));
   EXPECT_EQ(all[1].spin, (base::Vec3d{0, 2, 0}));
@@ -167,7 +167,7 @@ TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
        {"1 0 1 0.1 5", "1 0 1 0.1 5 5", "1 0 1 0.1 1 2 3 4", "1 0 1 0.1 1 2 x", "1 0 1 0.1 1 2 3 4 5 6 7",
         "1 0 1 0.1 1 2 -", "1 0 1 0.1 nan 0 0", "1 0 1 0.1 2e4 0 0", "1 0 1 -0.1 0 0 0"}) {
     try {
-      read(std::string("0 0 1 0.1\n") + bad + "\n");
+      read(std::string("0 0 1 0.1 0 0 0\n") + bad + "\n");
       ADD_FAILURE() << bad << " was taken";
     } catch (const base::InputError& e) {
       EXPECT_NE(std::string(e.what()).find("moving.txt:2:"), std::string::npos) << e.what();

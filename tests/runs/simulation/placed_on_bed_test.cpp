@@ -188,10 +188,10 @@ TEST(PutOnBed, ResumedAtItsStartAlsoHasTheBitsOfAStraightRun) {
   const auto straight = made(scene);
   Simulation second(setup::simulationSetup(scene), base::cpuExec(1), straight->save());
   EXPECT_EQ(second.stateHash(), straight->stateHash());
-  for (int n = 0; n < 900; ++n) straight->step(), second.step();
+  for (int n = 0; n < 1200; ++n) straight->step(), second.step();
   EXPECT_EQ(second.stateHash(), straight->stateHash());
-  EXPECT_NE(straight->surfaces()->observe(0, 900).force.z, 0) << "the plate has touched the bed";
-  EXPECT_NE(straight->surfaces()->observe(1, 900).force.z, 0) << "so has the wheel";
+  EXPECT_NE(straight->surfaces()->observe(0, 1200).force.z, 0) << "the plate has touched the bed";
+  EXPECT_NE(straight->surfaces()->observe(1, 1200).force.z, 0) << "so has the wheel";
 }
 
 TEST(PutOnBed, LargerStonesLeaveTheBedToItself) {

@@ -56,7 +56,7 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
 // Between two looks of a bed that breathes its grains may be slow: what keeps it from rest is the worst of the last
 // ones.
 TEST(Settling, WhatIsToldOfARestlessBedIsTheMostOfTheLastFiveLooks) {
-  const scene::Scene scene = settlingBed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.2"});
+  const scene::Scene scene = settlingBed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.26"});
   const setup::GroundSetup setup = setup::groundSetup(scene, 2e-4);
   Ground ground = buildGround(setup, base::cpuExec(1));
   std::vector<double> seen;

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <numeric>
 #include <thread>
 
 namespace grouser::studies {
@@ -165,11 +166,15 @@ TEST_F(SoilSample, StressFromContactsIsThatOnThePlates) {
   cell.length = 8, cell.width = 6, cell.depth = 7, cell.inertialNumber = 1e-2, cell.strain = 0.06, cell.rows = 10;
   const Table run = shearCell(softSoil(), cell, 1000, 1, folder_, base::cpuExec(1));
   ASSERT_EQ(run.rows.size(), 11u);
-  const double plates = run.values("normal stress [Pa]").back();
-  EXPECT_NEAR(plates, 1000, 50) << "the load, within what shaking adds";
+  const auto mean = [&](const char* column) { // single rows scatter by 5 %
+    const std::vector<double> all = run.values(column);
+    return std::accumulate(all.end() - 5, all.end(), 0.0) / 5;
+  };
+  const double plates = mean("normal stress [Pa]");
+  EXPECT_NEAR(plates, 1000, 30) << "the load, within what shaking adds";
   // A tenth: shaking and dashpots, which the contacts' springs do not know of, and 6 layers of grains.
-  EXPECT_NEAR(run.values("core zz [Pa]").back(), plates, 0.15 * plates);
-  EXPECT_NEAR(run.values("core xz [Pa]").back(), run.values("shear stress [Pa]").back(), 0.15 * plates);
+  EXPECT_NEAR(mean("core zz [Pa]"), plates, 0.1 * plates);
+  EXPECT_NEAR(mean("core xz [Pa]"), mean("shear stress [Pa]"), 0.1 * plates);
   const ShearStrength s = shearStrength(run);
   EXPECT_GT(s.residual, 0.15);
   EXPECT_LT(s.residual, 0.6);
@@ -218,15 +223,20 @@ TEST_F(SoilSample, ALayerThatSticksIsShearedItself) {
   Soil soil = softSoil();
   soil.preparationLaw = "stiffness = 1e4\nrestitution = 0.3\n";
   soil.grains.law = soil.preparationLaw + fmt::format("cohesion = {}\n", w);
-  const auto sheared = [&](bool pressesIn) {
+  const auto sheared = [&](bool pressesIn) { // means of three samples: one by itself is sheared by 0.4 to 0.9
     cell.pressesIn = pressesIn;
-    return shearStrength(shearCell(soil, cell, stress, 1, folder_, base::cpuExec(1)));
+    ShearStrength sum;
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const ShearStrength one = shearStrength(shearCell(soil, cell, stress, seed, folder_, base::cpuExec(1)));
+      sum.residual += one.residual / 3, sum.sheared += one.sheared / 3;
+    }
+    return sum;
   };
   const ShearStrength in = sheared(true), upon = sheared(false);
   std::printf("pressed in: tau/sigma %.2f, sheared %.2f; upon: %.2f, %.2f\n", in.residual, in.sheared, upon.residual,
               upon.sheared);
-  EXPECT_GT(in.sheared, 0.7) << "of the way";
-  EXPECT_LT(upon.sheared, 0.5) << "it slides along the teeth";
+  EXPECT_GT(in.sheared, 0.5) << "of the way";
+  EXPECT_LT(upon.sheared, 0.35) << "it slides along the teeth";
   EXPECT_GT(in.residual, 1.5 * upon.residual) << "what was measured there is the teeth's strength";
 }
 
