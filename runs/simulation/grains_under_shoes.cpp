@@ -15,6 +15,7 @@ using base::Vec3d;
 
 constexpr double kNodes = 6;       // a grain's radius: how close the heights of stones are looked up
 constexpr double kReach = 0.75;    // of their distance: each stone is seen from a node at least
+constexpr double kClear = 1e-3;    // of a radius: heights looked up under tilted pads are that exact
 constexpr double kLooksDown = 0.5; // cosine between the vertical and what a shoe treads with, at least [-]
 
 struct Shoe {
@@ -71,7 +72,7 @@ double liftOffGrains(const vehicle::Assembly& assembly, const terrain::Grains& g
       const double lower = r - std::sqrt(r * r - beside * beside);
       lift = std::max(lift, (local.z - tread) / -s.down.z - lower);
     });
-  return lift;
+  return lift > 0 ? lift + kClear * r : 0;
 }
 
 } // namespace grouser::simulation
