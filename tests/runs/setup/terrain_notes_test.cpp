@@ -36,7 +36,7 @@ protected:
                       "bed.toml");
   }
   std::string written(const char* name, const std::string& bytes) {
-    const std::string file = (folder_ / name).string();
+    std::string file = (folder_ / name).string();
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }

@@ -226,7 +226,7 @@ TEST_F(SoilSample, ALayerThatSticksIsShearedItself) {
   const auto sheared = [&](bool pressesIn) { // means of three samples: one by itself is sheared by 0.4 to 0.9
     cell.pressesIn = pressesIn;
     ShearStrength sum;
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::int64_t seed : {1, 2, 3}) {
       const ShearStrength one = shearStrength(shearCell(soil, cell, stress, seed, folder_, base::cpuExec(1)));
       sum.residual += one.residual / 3, sum.sheared += one.sheared / 3;
     }
