@@ -105,7 +105,7 @@ std::string tetrahedronAsPly(bool text, std::int32_t lastIndex = 3, const std::s
     return file + "0 0 0\n1 0 0\n0 1 0\n" + lastVertex + "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 " +
            std::to_string(lastIndex) + "\n";
   const auto put = [&file](auto value) { file.append(reinterpret_cast<const char*>(&value), sizeof value); };
-  for (const float c : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) put(c);
+  for (const float c : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F}) put(c);
   for (const auto& face : {std::array{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, lastIndex}}) {
     put(std::uint8_t{3});
     for (const std::int32_t i : face) put(i);
