@@ -196,7 +196,8 @@ Faces torus() {
   Faces t;
   for (std::size_t i = 0; i < kAround; ++i)
     for (std::size_t j = 0; j < kAcross; ++j) {
-      const double a = 2 * base::kPi * i / kAround, b = 2 * base::kPi * j / kAcross, r = 1 + 0.25 * base::cos(b);
+      const double a = 2 * base::kPi * static_cast<double>(i) / kAround,
+                   b = 2 * base::kPi * static_cast<double>(j) / kAcross, r = 1 + 0.25 * base::cos(b);
       t.vertices.push_back({r * base::cos(a), r * base::sin(a), 0.25 * base::sin(b)});
       const std::size_t next = (i + 1) % kAround, up = (j + 1) % kAcross;
       t.faces.push_back({i * kAcross + j, next * kAcross + j, next * kAcross + up, i * kAcross + up});
