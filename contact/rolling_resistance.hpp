@@ -15,8 +15,8 @@ template <class T> struct RollingMotion {
 
 /// Of a sphere on what never moves.
 template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return ScalarOf<T>(1.4) * mass * radius * radius; }
-/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2). The product of both inertias may leave the range
-/// of a float; this form stays in it and is symmetric to the last bit.
+/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2). The product of both inertias can overflow
+/// or underflow a float; this form does neither. Swapping i and j changes no bit.
 template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T radiusJ) {
   const T i = rollingInertia(massI, radiusI), j = rollingInertia(massJ, radiusJ);
   const T larger = i > j ? i : j, smaller = i > j ? j : i;
@@ -47,7 +47,7 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarO
                                                           base::Vec3<T>& angle, T& dissipated,
                                                           const StiffnessChange<T>* change = nullptr) {
   using Scalar = ScalarOf<T>;
-  const Scalar scale = law.squareScale; // of the torques and energies below
+  const Scalar scale = law.squareScale; // multiplies the torques and energies below
   const T zero{};
   if (law.rollingFriction <= 0) return angle = {};
   const base::Vec3<T> rolling = m.spin - m.normal * dot(m.spin, m.normal);

@@ -96,7 +96,7 @@ void addTests(TestPlan& plan) {
 /// Throws where the grains of the largest bed or sample do not fit into the memory that is free.
 void checkSizes(const TestPlan& plan) {
   constexpr double kGiB = 1073741824.0;
-  constexpr double kBytes = 600;   // of memory a grain
+  constexpr double kBytes = 600;   // memory per grain
   constexpr double kPacked = 1.15; // grains in a cube of one diameter
   const std::optional<double> free = base::freeMemoryOfHost();
   const auto require = [&](double grains, const std::string& what) {

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kCall = "call.json"; // what the runs of the folder were asked for
+constexpr const char* kCall = "call.json"; // options of the call that wrote the folder
 constexpr const char *kTable = "events.csv", *kJson = "events.json", *kText = "events.txt", *kPlot = "events.png",
                      *kPictures = "pictures.png", *kDrawbar = "drawbar.png";
 

@@ -31,7 +31,7 @@ its last line then says which."""
 
 
 NOTHING = 1e-30  # in SI units: what is smaller stands for 0
-LEAST_SPAN = 1e-9  # of the largest number at an axis: what varies less is constant but for rounding
+LEAST_SPAN = 1e-9  # smallest range of an axis over its largest value: smaller ranges are rounding
 
 
 class Ticks(ticker.Formatter):

@@ -7,7 +7,7 @@ import drawing
 import series
 
 MOST_BODIES = 12
-ROUND_OFF = 1e-15  # of joints' errors: what is smaller is closed to the last bit
+ROUND_OFF = 1e-15  # joint errors below this are rounding [m, rad]
 AXES = "xyz"
 TERMS = (("kinetic", "kinetic", "tab:blue"), ("potential", "potential", "tab:green"), ("elastic", "elastic", "tab:orange"),
          ("dissipated", "dissipated", "tab:red"), ("drive_work", "work of the drives", "black"))

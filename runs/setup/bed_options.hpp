@@ -18,7 +18,7 @@ terrain::HeightField readSurface(const scene::Scene& scene);
 /// height-map is not read. Empty without terrain.
 std::optional<terrain::HeightField> floorShape(const scene::Scene& scene);
 
-/// What may surprise in a valid height-map.
+/// Warnings and notes on a valid height-map.
 struct TerrainRemarks {
   std::vector<std::string> warnings; ///< edges so steep that a bed may not settle on them: place and slope
   std::vector<std::string> notes;    ///< colour, transparent pixels

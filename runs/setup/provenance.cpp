@@ -42,9 +42,9 @@ void bringToRest(scene::SurfaceSection& s, bool named) {
   if (named) s.name = "surface";
 }
 
-/// The settings of a run that a bed depends on. All others are those of a fresh scene: how long the run is, what it
-/// writes, the machine (one answer on all), the list's skin (which changes no bit), what belongs to mechanisms, and
-/// what the time step follows from, since the step itself is named.
+/// Copies the run settings that change a settled bed and leaves the others at their defaults: duration, output,
+/// machine, skin of the neighbour list (changes no bit), mechanisms, and the inputs of the automatic time step, since
+/// the key contains the step.
 scene::RunSettings settingsOfBed(const scene::RunSettings& run) {
   scene::RunSettings bed;
   bed.gravity = run.gravity, bed.seed = run.seed, bed.precision = run.precision;
@@ -71,7 +71,7 @@ scene::Scene bedAlone(scene::Scene scene) {
   std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(scene, m.name); });
   for (scene::Material& m : scene.materials) {
     m.soil.clear(), m.soilHash.clear(), m.grainRadius.reset(); // values count
-    m.crushingStrength.reset();                                // of grains against parts
+    m.crushingStrength.reset();                                // acts between grains and parts only
   }
   std::erase_if(scene.contacts,
                 [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });

@@ -182,7 +182,9 @@ std::vector<Change> ofMaterials() {
        true,
        lawful("eepa_linear", "material.soil.adhesion_exponent=2"),
        {"material.soil.law=eepa_linear"}},
-      {"material.crushing_strength", false, {"material.soil.crushing_strength=1e7"}}, // of grains against parts
+      {"material.crushing_strength",
+       false,
+       {"material.soil.crushing_strength=1e7"}}, // acts between grains and parts only
       {"contact.stiffness", true, {"contact.\"soil|steel\".stiffness=6e5"}},
       {"contact.restitution", true, {"contact.\"soil|steel\".restitution=0.4"}},
       {"contact.damping", true, {"contact.\"soil|steel\".damping=300"}},
