@@ -18,7 +18,7 @@ class UnknownKey : public InputError {
 public:
   struct Place {
     std::string origin;             ///< "scene.toml:14", or "--set"
-    std::string path;               ///< of the section; empty at the root
+    std::string path;               ///< section's path; empty at the root
     std::string key;                ///< as it stands there
     std::vector<std::string> inner; ///< the keys of a section that is unknown; empty for a key
     std::vector<std::string> valid; ///< keys and sections of that place

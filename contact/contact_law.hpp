@@ -135,8 +135,8 @@ template <class T> struct BasicContactGeometry {
   base::Vec3<T> velocity;                 ///< of i's material point relative to j's at the contact point [m/s]
   T effectiveMass;                        ///< m_i m_j / (m_i + m_j) [kg]
   T effectiveRadius{};                    ///< R_i R_j / (R_i + R_j) [m]; for Hertz, cohesion and rolling
-  T dampingShare = base::broadcast<T>(1); ///< of both dashpots' coefficients [-]: see BasicLaw::fixedShare
-  T pullShare = base::broadcast<T>(1);    ///< of the pull of cohesion [-]
+  T dampingShare = base::broadcast<T>(1); ///< multiplies both damping coefficients [-]: see BasicLaw::fixedShare
+  T pullShare = base::broadcast<T>(1);    ///< multiplies the pull of cohesion [-]
   bool crushes{false}; ///< the overlap stays as it is while the surfaces approach: the grain gives way (crushing.hpp)
 };
 using ContactGeometry = BasicContactGeometry<float>;
@@ -144,8 +144,8 @@ using ContactGeometry = BasicContactGeometry<float>;
 /// How the stiffness of a contact's springs has changed since the last step. Those of Hertz' law follow the contact
 /// radius, and so the root of the overlap.
 template <class T> struct StiffnessChange {
-  T kept = base::broadcast<T>(1); ///< of a spring's length [-]: while it stiffens its force stays, else its length
-  T taken{};                      ///< by that, of stiffness times the square of the length before [-], >= 0
+  T kept = base::broadcast<T>(1); ///< ratio of spring lengths [-]: loading keeps the force, unloading the length
+  T taken{};                      ///< dissipated energy over stiffness times squared former length [-], >= 0
 };
 
 /// From the way [m] by which the surfaces have approached within the step.

@@ -16,8 +16,8 @@ struct Protrusion {
 struct ProtrusionLimit {
   double permitted{};                   ///< [m], > 0
   double contactSize{};                 ///< [m], > 0: of the smallest that touches it
-  double permittedDip{base::kInfinity}; ///< of the set below the surface where spheres shrink, as the default cut
-                                        ///< leaves it [m]
+  double permittedDip{base::kInfinity}; ///< depth of the set below the surface where spheres shrink, that of the
+                                        ///< default cut leaves it [m]
   bool automatic{}; ///< the radius is the default: a finer cut may replace it. Else the set is measured alone
 };
 
@@ -42,7 +42,7 @@ bool meets(const ProtrusionLimit& limit, const SphereSet& set, const Decompositi
 /// A cut as it is reported: of a part or mesh, whose largest protrusion plans print and warnings name.
 struct CutReport {
   std::string name;
-  std::string key; ///< of the scene that says the radius
+  std::string key; ///< scene key of the radius
   double radius{}; ///< [m]
   std::size_t spheres{};
   Protrusion protrusion;

@@ -32,7 +32,7 @@ struct Feet {
   }
 };
 
-/// What each foot bears. Feet between which the ground leaves the sphere are contacts of their own. Where the ground
+/// Loads of the feet. Feet between which the ground leaves the sphere are contacts of their own. Where the ground
 /// between two feet stays inside the sphere they are one contact that has two lowest points (a gentle valley, the steps
 /// of an 8-bit map): both together then bear what one would bear at that rise less. So the normal force is the slope of
 /// an energy, sum of u(overlap of each foot) - sum of u(overlap where two contacts become one), and has no jumps.
@@ -61,8 +61,10 @@ public:
     }
   }
 
-  GROUSER_HD double share(int foot) const { return share_[foot]; }     ///< of its force alone [-]
-  GROUSER_HD double overlap(int foot) const { return overlap_[foot]; } ///< with which it bears that force [m]
+  GROUSER_HD double share(int foot) const {
+    return share_[foot];
+  } ///< fraction of the force that its overlap alone would cause [-]
+  GROUSER_HD double overlap(int foot) const { return overlap_[foot]; } ///< overlap that causes the shared force [m]
   GROUSER_HD int merges() const { return merges_; }
   GROUSER_HD double merged(int merge) const { return merged_[merge]; } ///< overlap where two contacts become one [m]
 
@@ -290,7 +292,7 @@ private:
     return sqrt(most);
   }
 
-  /// Of two in one place, and below the ground, the nearer one stays.
+  /// Keeps the nearer one of two feet in one place, and of all feet below the ground.
   GROUSER_HD void add(const FootPoint& found, Feet& feet) const {
     for (int k = 0; k < feet.count; ++k)
       if (side_ < 0 || base::norm(found.point - feet.foot[k].point) < same_) {
@@ -333,7 +335,7 @@ private:
   const HeightFieldView& v_;
   Vec3d p_;
   double radius_, same_;
-  double side_{1}; ///< of the surface that the centre is on
+  double side_{1}; ///< side of the surface on which the centre lies
 };
 
 /// The nearest point of a surface to a sphere that touches it, and whether it does.

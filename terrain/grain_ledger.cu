@@ -164,7 +164,7 @@ private:
     for (int m = 0; m < loads.merges(); ++m) held.elastic -= alone(law, loads.merged(m), radius);
   }
 
-  /// Of the normal spring alone [J]: see FeetLoads.
+  /// Energy of the normal spring alone [J]: see FeetLoads.
   GROUSER_HD static double alone(const Law& law, double overlap, double radius) {
     return contact::storedEnergy(law, overlap, radius, base::Vec3<Real>{});
   }

@@ -109,19 +109,19 @@ std::string decodersReason() {
 
 /// Chunks of a PNG that its pixels follow from, besides its header.
 struct PngPixels {
-  std::vector<char> stream;      ///< of all chunks IDAT, in zlib's format
-  std::size_t colours{0};        ///< of the palette
+  std::vector<char> stream;      ///< data of all IDAT chunks, in zlib's format
+  std::size_t colours{0};        ///< entries of the palette
   std::size_t transparencyAt{0}; ///< byte where the type of chunk tRNS stands; 0: there is none
 };
 
-/// What the pixels of a PNG unpack to: a filter and the samples of each row; of interlaced ones in seven pictures.
+/// Size of a PNG's unpacked pixels: a filter byte and the samples of each row; interlaced files hold seven pictures.
 std::int64_t unpackedBytes(const std::vector<stbi_uc>& bytes) {
   struct Part {
     std::int64_t x, y, dx, dy; ///< first column and row, and the distances to the next
   };
   constexpr Part kParts[] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
                              {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}, {0, 0, 1, 1}};
-  constexpr int kSamples[] = {1, 0, 3, 1, 2, 0, 4}; // of a pixel, by colour type
+  constexpr int kSamples[] = {1, 0, 3, 1, 2, 0, 4}; // samples per pixel, by colour type
   const auto [columns, rows] = sizeOfPng(bytes);
   const bool interlaced = bytes[kInterlacedAt] != 0;
   std::int64_t total = 0;
@@ -140,7 +140,8 @@ std::string paletteFault(std::vector<stbi_uc> bytes, const PngPixels& pixels) {
   const int most = (1 << bytes[kDepthAt]) - 1;
   if (bytes[kColourTypeAt] != kPalette || pixels.colours > static_cast<std::size_t>(most)) return {};
   bytes[kColourTypeAt] = kGrey;
-  if (pixels.transparencyAt > 0) bytes[pixels.transparencyAt] = 'x'; // of a palette: no chunk that grey may have
+  if (pixels.transparencyAt > 0)
+    bytes[pixels.transparencyAt] = 'x'; // renames the palette's chunk, which grey must not have
   int columns = 0, rows = 0, channels = 0;
   const std::unique_ptr<stbi_uc, FreePixels> levels(
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &columns, &rows, &channels, 1));

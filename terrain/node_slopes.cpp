@@ -29,7 +29,7 @@ double slopeAt(double before, double here, double behind, int k, int n) {
   return limited(here - before, behind - here);
 }
 
-/// Of Catmull-Rom: the central difference along both axes; at a border the one-sided one.
+/// Mixed slope of Catmull-Rom: the central difference along both axes; at a border the one-sided one.
 double mixed(const Nodes& n, int i, int j) {
   const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, n.columns - 1);
   const int j0 = std::max(j - 1, 0), j1 = std::min(j + 1, n.rows - 1);

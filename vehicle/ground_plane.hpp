@@ -13,10 +13,10 @@ using SurfaceHeight = std::function<double(double x, double y)>;
 
 /// The tangent plane of the ground under a vehicle: of least squares through points of its surface under both tracks.
 struct GroundPlane {
-  double ahead = 0, left = 0; ///< how it rises along the heading and to its left [-]; exactly 0 on level ground
+  double ahead = 0, left = 0; ///< slopes along the heading and to its left [-]; exactly 0 on level ground
   double height = 0;          ///< under the vehicle's origin [m]
-  double highest = 0;         ///< of the points, over the plane [m]
-  double top = 0;             ///< of the points [m]
+  double highest = 0;         ///< highest point above the plane [m]
+  double top = 0;             ///< highest z of the points [m]
 };
 
 /// Under a vehicle with its origin at (x, y) and the heading (c, s), a level unit vector. The points lie 40 to a length

@@ -61,17 +61,17 @@ struct Along {
 };
 
 struct Observation {
-  double time = 0;          ///< [s]
-  base::Vec3d position;     ///< middle of the sprockets' axle line, world [m]
-  base::Vec3d velocity;     ///< of the chassis' centre of mass, world [m/s]
-  double heading = 0;       ///< of the hull's x axis from world x towards y, counted on beyond whole turns [rad]
-  double pitchAngle = 0;    ///< nose up positive, within +-pi/2 [rad]
-  double rollAngle = 0;     ///< right side down positive, counted on beyond whole turns [rad]
-  base::Vec3d groundForce;  ///< sum over all bodies: forward along the heading, left, up [N]; NaN if not known
-  Along along;              ///< which the next four are stated along
-  double grossTraction = 0; ///< sum of the mean drive torques over the pitch radius [N]
-  double netThrust = 0;     ///< of the ground on the vehicle [N]
-  double drawbarPull = 0; ///< of the vehicle on its hitch, which VehicleRig knows; netThrust as long as it does not [N]
+  double time = 0;             ///< [s]
+  base::Vec3d position;        ///< middle of the sprockets' axle line, world [m]
+  base::Vec3d velocity;        ///< velocity of the chassis' centre of mass, world [m/s]
+  double heading = 0;          ///< angle of the hull's x axis from world x towards y, continuous over turns [rad]
+  double pitchAngle = 0;       ///< nose up positive, within +-pi/2 [rad]
+  double rollAngle = 0;        ///< right side down positive, continuous over turns [rad]
+  base::Vec3d groundForce;     ///< sum over all bodies: forward along the heading, left, up [N]; NaN if not known
+  Along along;                 ///< which the next four are stated along
+  double grossTraction = 0;    ///< sum of the mean drive torques over the pitch radius [N]
+  double netThrust = 0;        ///< force of the ground on the vehicle [N]
+  double drawbarPull = 0;      ///< force of the vehicle on its hitch; netThrust until VehicleRig sets it [N]
   double motionResistance = 0; ///< grossTraction - netThrust [N]; NaN where the tracks run against each other
   std::vector<TrackObservation> tracks;
   BlowMeter blows;   ///< of the whole run, where who steps the vehicle has one
@@ -82,7 +82,7 @@ struct ObserverOptions {
   int averageTeeth = 1; ///< tooth passages of one mean
   double stone{};       ///< [m] thickest that may lie between a road wheel and its plates and is no thrown track
   double heading{};     ///< [rad] with which the vehicle was set down: the series of headings begins within pi of it
-  base::Vec3d gravity{0, 0, -kStandardGravity}; ///< of the run [m/s2]; loads count against it
+  base::Vec3d gravity{0, 0, -kStandardGravity}; ///< gravity of the run [m/s2]; loads are judged against it
 };
 
 /// Watches a vehicle: update() after every step, observe() when there is something to be written.
@@ -117,7 +117,7 @@ private:
   /// Sums over the updates since restartMeans().
   struct DriveSums {
     double torque = 0, power = 0; ///< [N m], [W]
-    double rate = 0, speed = 0;   ///< of the sprocket [rad/s] and of the hull at the track [m/s]
+    double rate = 0, speed = 0;   ///< sprocket rate [rad/s], speed of the hull at the track [m/s]
   };
   std::vector<DriveSums> means(const multibody::State& state) const;
   std::optional<int> motion(const std::vector<DriveSums>& sums, double updates) const;

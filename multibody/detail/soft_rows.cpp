@@ -21,7 +21,7 @@ void add(SoftRow& row, const LinearSpring& spring) {
 /// Mean force of one end stop over a stage, out of the stop, in the direction of its overlap.
 struct StopStage {
   double elastic = 0, damper = 0;
-  double slope = 0; ///< of both over x1
+  double slope = 0; ///< slope of both over x1
 };
 
 /// `over0`, `over1`: overlap at the ends of the stage, on one side or 0.

@@ -12,7 +12,7 @@
 namespace grouser::commands {
 
 struct BedQuality {
-  std::int64_t grains = 0, fixed = 0; ///< of the bed; the fixed ones among them
+  std::int64_t grains = 0, fixed = 0; ///< grains of the bed, and the fixed ones among them
   std::int64_t measured = 0;          ///< grains that tell the porosity; 0: it is not known
   double porosity = 0, porosityError = 0;
   bool rollingFriction = false, cohesion = false;

@@ -12,7 +12,7 @@ namespace grouser::commands {
 
 namespace {
 
-constexpr int kRememberPause = 200;                ///< of what it takes: half a percent of a run's time
+constexpr int kRememberPause = 200;                ///< multiple of the time it takes: half a percent of a run
 constexpr std::size_t kMostRemembered = 2'000'000; ///< grains: half a gigabyte
 
 } // namespace

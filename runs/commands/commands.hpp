@@ -52,7 +52,7 @@ struct SinkageCommand {
   std::string results;
   std::string folder;  ///< empty: beside the results
   std::string shoes;   ///< a list "10-13,20"; empty: all
-  std::string track;   ///< of these shoes: "left" or "right"; empty: of each
+  std::string track;   ///< track of these shoes: "left" or "right"; empty: both
   std::string control; ///< results of the same vehicle on rigid ground, drawn behind those shoes; empty: none
 };
 /// Throws InputError for shoes that are none, and a track or a control without them.

@@ -24,14 +24,14 @@ struct ForecastPart {
 
 struct Forecast {
   std::vector<ForecastPart> preparation, steps, output;
-  std::string warning;                       ///< what makes it worse than usual; empty: nothing
+  std::string warning;                       ///< problem with the bed; empty: none
   double spent = 0;                          ///< by the probe itself [s]
   double process = 0;                        ///< most memory of the process [B]
-  double device = 0;                         ///< of the GPU [B]; 0 on a CPU
-  double disk = 0;                           ///< of the results [B]
+  double device = 0;                         ///< GPU memory [B]; 0 on a CPU
+  double disk = 0;                           ///< disk space of the results [B]
   double diskSpeed = 0;                      ///< at which frames and checkpoints were written [B/s]; 0: not measured
   std::string onDevice;                      ///< in words
-  std::vector<spheredecomp::CutReport> cuts; ///< of parts and meshes, as the run will have them
+  std::vector<spheredecomp::CutReport> cuts; ///< cuts of parts and meshes of the run
 
   static double sum(const std::vector<ForecastPart>& parts);
   double total() const { return sum(preparation) + sum(steps) + sum(output); } ///< [s]

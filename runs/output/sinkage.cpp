@@ -33,7 +33,7 @@ struct Tracks {
   std::vector<double> time;
 };
 
-/// Of `side`, "left" or "right"; empty: of both.
+/// `side`: "left" or "right"; empty: both tracks.
 Tracks readSinkage(const std::filesystem::path& results, const std::string& chosen) {
   const support::Hdf5File file = support::Hdf5File::open(results);
   if (file.text("/", "creator") != "grouser")

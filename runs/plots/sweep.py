@@ -16,7 +16,7 @@ PANELS = (
     ("track tension [N]", 1, (("tension mean [N]", "-", "mean"), ("tension peak [N]", "--", "peak"))),
 )
 NOTE = "Means over the steady part"
-OF_OTHER_FIGURES = "direction of motion changes: "  # how a doubt begins that is of none of these panels
+OF_OTHER_FIGURES = "direction of motion changes: "  # prefix of a reason that concerns no panel here
 
 
 def number(text):

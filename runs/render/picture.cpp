@@ -18,9 +18,10 @@ namespace {
 
 constexpr double kAzimuth = -55;      ///< [deg] of the camera
 constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
-constexpr double kWholeBed = 1.5;     ///< of the distance to a vehicle, from which the whole bed is seen
-constexpr double kBackground = 6;     ///< times as large as all else: a floor without an end, no camera shows it whole
-constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
+constexpr double kWholeBed =
+    1.5; ///< multiple of the distance to a vehicle beyond which the picture shows the whole bed
+constexpr double kBackground = 6; ///< times as large as all else: a floor without an end, no camera shows it whole
+constexpr double kFlat = 0.2;     ///< height over radius of parts that lie flat [-]
 constexpr double kAspect = 16.0 / 9;
 constexpr int kScaleColours = 256;
 

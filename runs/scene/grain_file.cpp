@@ -42,7 +42,7 @@ bool isComplete(std::size_t columns) { return columns == 4 || columns == 7 || co
 
 struct TextField {
   std::string_view text;
-  std::size_t at; ///< of its first character, from 0
+  std::size_t at; ///< index of its first character
 };
 
 /// One line of the file; throws its faults with their place.

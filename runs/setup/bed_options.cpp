@@ -15,7 +15,7 @@ namespace grouser::setup {
 
 namespace {
 
-/// What `read` returns of the scene's height-map; its errors name the key.
+/// Applies `read` to the scene's height-map; errors name the key.
 template <class Read> auto ofHeightmap(const scene::Scene& scene, const Read& read) {
   try {
     return read();

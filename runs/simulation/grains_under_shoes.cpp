@@ -15,7 +15,7 @@ using base::Vec3d;
 
 constexpr double kNodes = 6;       // a grain's radius: how close the heights of stones are looked up
 constexpr double kReach = 0.75;    // of their distance: each stone is seen from a node at least
-constexpr double kClear = 1e-3;    // of a radius: heights looked up under tilted pads are that exact
+constexpr double kClear = 1e-3;    // extra lift [radius]: accuracy of heights below tilted pads
 constexpr double kLooksDown = 0.5; // cosine between the vertical and what a shoe treads with, at least [-]
 
 struct Shoe {

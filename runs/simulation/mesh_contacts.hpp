@@ -57,7 +57,7 @@ private:
   base::Comm comm_;
   std::vector<base::SphereSet> sets_;
   std::vector<spheredecomp::CutReport> cutReports_; ///< one a mesh
-  std::vector<double> reach_;                       ///< of each about its frame's origin [m]
+  std::vector<double> reach_;                       ///< radius about each frame's origin [m]
   std::unique_ptr<contact::GrainPartContacts> contacts_;
   base::Mirrored<contact::PartMotion> motion_;
   base::Mirrored<contact::PartLoad> sums_;

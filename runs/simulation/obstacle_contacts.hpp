@@ -41,7 +41,7 @@ public:
     contacts_->compute(motion, travelled, loads);
   }
 
-  const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; } ///< of the meshes
+  const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; } ///< cuts of the meshes
   std::size_t samplesListed() const { return contacts_->samplesListed(); }
   contact::PatchBuffers::Ledger ledger() const { return contacts_->ledger(); }
   contact::SavedPatches save() const { return contacts_->save(); }

@@ -19,8 +19,8 @@ struct PartCut {
   std::string name; ///< of the set, and in errors
   spheredecomp::DecompositionOptions options;
   std::optional<spheredecomp::ProtrusionLimit> limit{}; ///< empty: the set is not measured
-  std::string key{};                                    ///< of the scene that says the radius
-  std::string place{};                                  ///< of that key, in errors; empty: the name
+  std::string key{};                                    ///< scene key of the radius
+  std::string place{};                                  ///< file and line of that key, for errors; empty: the name
 };
 
 /// The user's folder as far as sphere sets lie in it, and where those of this run came from.

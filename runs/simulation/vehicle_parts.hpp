@@ -36,7 +36,9 @@ public:
   };
   const std::vector<SetFigures>& setFigures() const { return setFigures_; }
   std::size_t totalSpheres() const;
-  const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; } ///< of those that touch
+  const std::vector<spheredecomp::CutReport>& cutReports() const {
+    return cutReports_;
+  } ///< cuts of the meshes that touch
 
   std::size_t contactParts() const { return contactParts_.size(); }
   /// Its place among the assembly's parts.

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kRoomForNames = 128; ///< of the files in a folder, and of their folders
+constexpr std::size_t kRoomForNames = 128; ///< characters for names of files in a folder, and of their folders
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& why, const std::string& option) {
   throw base::InputError(fmt::format("{}: {}; name another with {}", place.string(), why, option));

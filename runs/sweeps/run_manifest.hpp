@@ -20,7 +20,7 @@ public:
   /// All steps of the run over those that its times are of: a run that went on from a checkpoint tells times since
   /// then.
   double stepsOverTimed() const;
-  double wallTime() const; ///< of all steps [s], of which a run that went on has measured its last part; NaN: missing
+  double wallTime() const; ///< all steps [s]; a resumed run measured only its last part; NaN: missing
 
 private:
   nlohmann::json json_;

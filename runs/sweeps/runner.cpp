@@ -52,7 +52,7 @@ RunStatus statusOf(const fs::path& folder, const scene::Scene& scene) {
   try {
     return identity(setup::loadScene(folder / "scene.toml")) == identity(scene) ? *status : RunStatus::pending;
   } catch (const base::InputError&) {
-    return RunStatus::pending; // of another version of the program, or damaged
+    return RunStatus::pending; // another version of the program wrote it, or it is damaged
   }
 }
 

@@ -14,7 +14,7 @@ namespace grouser::sweeps {
 /// One combination of a sweep's values, over its seeds.
 struct SeedGroup {
   std::vector<std::string> values;            ///< of the keys but the seed
-  int runs = 0;                               ///< that have finished, with figures that count
+  int runs = 0;                               ///< finished runs whose figures count
   std::string doubt;                          ///< why all of them are inconclusive: see SweepFigures; else empty
   std::vector<support::Estimate> figures;     ///< of SweepFigures::columns; half width infinite for one seed
   std::vector<support::Estimate> differences; ///< to the first group, over its mean [-]: seed by seed, of the

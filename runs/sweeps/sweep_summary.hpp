@@ -16,7 +16,7 @@ class RunManifest;
 /// How one run of a sweep stands.
 struct SweepOutcome {
   output::RunStatus status = output::RunStatus::pending;
-  std::string message; ///< of a failed run, and of an incomplete one
+  std::string message; ///< reason why a run failed or is incomplete
 };
 
 /// Time [s] from which a run counts as steady: the second half of what follows the drive's ramp (and the last time of a

@@ -145,7 +145,7 @@ bool isConvex(const std::vector<Vec3d>& corners) {
   const std::size_t n = points.size();
   double size2 = 0;
   for (const Point& p : points) size2 = std::max(size2, length2(points[0], p));
-  const double rounding = 1e-7 * size2; // of float coordinates
+  const double rounding = 1e-7 * size2; // rounding of float coordinates
   // Left turns alone may wind round twice, as a pentagram does: then some triangle of the fan is negative.
   for (std::size_t k = 0; k < n; ++k)
     if (!(turn(points[k], points[(k + 1) % n], points[(k + 2) % n]) > rounding)) return false;

@@ -242,7 +242,7 @@ private:
   struct Pair {
     Long reach2;
     Float reach, mass, share;              ///< effective mass; of what is dissipated, that of grain i
-    Float dampingShare;                    ///< of both dashpots
+    Float dampingShare;                    ///< multiplies both damping coefficients
     Float ownMass, ownRadius, otherRadius; ///< where they differ
     Float otherMass;
   };

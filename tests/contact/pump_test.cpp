@@ -24,10 +24,10 @@ struct Work {
 };
 
 struct Drive {
-  double depth;   ///< of the overlap's swing, of its mean [-]; beyond 1 the surfaces part
-  double phase;   ///< of shear and rolling behind it [rad]
+  double depth;   ///< amplitude of the overlap over its mean [-]; beyond 1 the surfaces part
+  double phase;   ///< phase lag of shear and rolling [rad]
   double shear;   ///< [m]
-  double angle;   ///< of rolling [rad]
+  double angle;   ///< amplitude of rolling [rad]
   int ratio;      ///< periods of the load in one of the shear
   int steps;      ///< a period of the shear
   bool turning{}; ///< shear goes round, not to and fro

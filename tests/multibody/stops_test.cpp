@@ -145,7 +145,7 @@ TEST(MultibodyStops, DampedStopGivesBackTheClosedFormOfItsRestitution) {
   struct Case {
     SolverOptions options;
     int order;
-    double share; ///< of (omega dt)^order that the error may be; measured: less than half of it
+    double share; ///< bound of the error over (omega dt)^order; less than half of it was measured
   };
   for (const auto& [options, order, share] : {Case{rattle(), 2, 1.0}, Case{symplecticEuler(), 1, 1.5}})
     for (const double zeta : {0.05, 0.3, 0.8}) {

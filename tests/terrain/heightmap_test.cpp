@@ -95,7 +95,7 @@ TEST_F(HeightmapFile, DamagedBytesOfAPng_AreFoundByItsChecksums) {
 
 TEST_F(HeightmapFile, WrongChecksumOfThePixels_IsFoundUnderASoundChunk) {
   const Bytes good = png(2, 2, 8, kGrey, {0, 10, 20, 30});
-  const std::size_t type = good.find("IDAT"), end = good.find("IEND") - 8; // of its data
+  const std::size_t type = good.find("IDAT"), end = good.find("IEND") - 8; // start and end of its data
   Bytes stream = good.substr(type + 4, end - type - 4);
   stream.back() = static_cast<char>(stream.back() ^ 1);
   Bytes bad = good.substr(0, type - 4);

@@ -162,7 +162,7 @@ TEST_F(AlongGround, DirectionIsOfTheMeanSinceTheLastRow) {
 TEST_F(AlongGround, AStalledVehicleThatRocksKeepsItsDirection) {
   Observer observer(v);
   const GroundLoads ground = loads({5000, 0, weight});
-  const auto thrustAt = [&](Observer& watching, double speed) { // of a row of one step, at so many m/s
+  const auto thrustAt = [&](Observer& watching, double speed) { // row of one step at `speed` [m/s]
     drive(speed / pitchRadius, speed / pitchRadius, 400, 400);
     watching.update(state, 1e-3);
     const double thrust = watching.observe(state, ground, nullptr).netThrust;

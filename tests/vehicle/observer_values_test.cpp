@@ -226,7 +226,7 @@ TEST_F(ObserverValues, CarryingLoadIsAHundredthOfTheWeightOverBothGroundRuns) {
   EXPECT_EQ(o.tracks[1].onGround[shoe], 1);
 }
 
-/// Of the run's gravity: its size sets the load, and its direction says which part of a force carries.
+/// The run's gravity sets the load by its magnitude, and the carrying component of a force by its direction.
 TEST_F(ObserverValues, CarryingIsAgainstTheGravityOfTheRun) {
   GroundLoads ground = noLoads();
   const int shoe = v.wrap.firstGroundShoe();
@@ -234,7 +234,7 @@ TEST_F(ObserverValues, CarryingIsAgainstTheGravityOfTheRun) {
     ground.force[left.shoes[shoe]] = force;
     return Observer(v, {.gravity = gravity}).observe(state, ground, nullptr).tracks[0].onGround[shoe];
   };
-  const double share = 0.01 * v.mass / 24; // of 1 m/s2
+  const double share = 0.01 * v.mass / 24; // gravity 1 m/s2
   EXPECT_EQ(carries({0, 0, -1.62}, {0, 0, 1.65 * share}), 1);
   EXPECT_EQ(carries({0, 0, -1.62}, {0, 0, 1.6 * share}), 0);
   EXPECT_EQ(carries({-6, 0, -8}, {6.1 * share, 0, 8.1 * share}), 1) << "along gravity 10.1 of 10";

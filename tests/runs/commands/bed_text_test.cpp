@@ -109,13 +109,13 @@ TEST(Plan, SaysThatAPorosityIsPreparedStraightDown) {
 TEST(BedWarnings, NameBedsThatAreNone) {
   const BedQuality good{10000, 800, 9000, 0.42, 0.005};
   EXPECT_TRUE(bedWarnings(good).empty());
-  BedQuality bad = good; // of a run that passed without a word
+  BedQuality bad = good; // a run without a warning
   bad.grains = 400, bad.fixed = 300, bad.porosity = 0.68, bad.measured = 40;
   const std::vector<std::string> both = bedWarnings(bad);
   ASSERT_EQ(both.size(), 2u);
   EXPECT_NE(both[0].find("75 % of the bed's grains are fixed on its floor (300 of 400)"), std::string::npos) << both[0];
   EXPECT_NE(both[1].find("porosity of 0.68"), std::string::npos) << both[1];
-  BedQuality loose = good; // what is too loose depends on what holds the grains apart
+  BedQuality loose = good; // the limit depends on friction and cohesion
   loose.porosity = 0.51;
   EXPECT_EQ(bedWarnings(loose).size(), 1u);
   loose.rollingFriction = true;

@@ -90,8 +90,8 @@ std::string keyOf(const std::string& more, const std::vector<std::string>& chang
 struct Change {
   std::string key;                    ///< "section.key", as in docs/keys.md
   bool moves;                         ///< the bed
-  std::vector<std::string> overrides; ///< that change it
-  std::vector<std::string> before{};  ///< that both scenes have
+  std::vector<std::string> overrides; ///< overrides that change it
+  std::vector<std::string> before{};  ///< overrides that both scenes have
   std::string more{};                 ///< sections that both have
 };
 
@@ -119,7 +119,7 @@ const std::vector<std::string> kNoVehicle{"-[vehicle]", "-spec", "-material = \"
 std::vector<Change> ofRun() {
   return {{"run.duration", false, {"run.duration=7"}},
           {"run.time_step", false, {"run.time_step=2e-4"}},               // bedOrigin() is given the step itself
-          {"run.steps_per_contact", false, {"run.steps_per_contact=30"}}, // of the step alone
+          {"run.steps_per_contact", false, {"run.steps_per_contact=30"}}, // changes the step only
           {"run.steps_per_period", false, {"run.steps_per_period=30"}},
           {"run.gravity", true, {"run.gravity=[0,0,-9]"}},
           {"run.output_interval", false, {"run.output_interval=0.03"}},
@@ -128,9 +128,9 @@ std::vector<Change> ofRun() {
           {"run.seed", true, {"run.seed=2"}},
           {"run.device", false, {"run.device=cpu"}},
           {"run.precision", true, {"run.precision=double"}},
-          {"run.impact_speed", false, {"run.impact_speed=2"}}, // of the step alone
+          {"run.impact_speed", false, {"run.impact_speed=2"}}, // changes the step only
           {"run.threads", false, {"run.threads=2"}},
-          {"run.integrator", false, {"run.integrator=symplectic_euler"}}, // of mechanisms, as the next three
+          {"run.integrator", false, {"run.integrator=symplectic_euler"}}, // mechanisms only, as the next three
           {"run.integrator_order", false, {"run.integrator_order=4"}},
           {"run.springs", false, {"run.springs=explicit"}},
           {"run.constraint_tolerance", false, {"run.constraint_tolerance=1e-9"}},

@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, Scale, ::testing::Values("linear", "hertz", "cohe
                          [](const auto& law) { return std::string(law.param); });
 
 TEST_P(Scale, MotionInRadiiIsTheSameFromAMicrometreToTenMetres) {
-  for (const double other : {1.0, 0.7}) { // of one mass, and of many
+  for (const double other : {1.0, 0.7}) { // grains of one mass, and of many
     const Motion reference = motionOf(GetParam(), 0.01, "double", other);
     EXPECT_GT(norm(reference.velocity[1]), 0.1) << "it was struck";
     for (const char* precision : {"single", "double"})

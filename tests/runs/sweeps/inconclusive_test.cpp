@@ -179,7 +179,7 @@ TEST_F(Inconclusive, AnIncompleteRunSaysWhy) {
   EXPECT_EQ(csv.number(0, "steps"), 3000);
 }
 
-/// Of a check whose runs hardly drove nothing is sure but what is 0 in all of them.
+/// Where the runs of a check hardly drove, only figures that are 0 in all of them are conclusive.
 TEST_F(Inconclusive, WhatIs0InAllRunsOfACheckIsSure) {
   CheckResults results;
   results.doubt = "1.9 teeth in the steady part, fewer than 2";
