@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "tests/vehicle/attitude.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -16,16 +17,11 @@ using base::Quat;
 using base::Vec3d;
 using vehicle::GroundLoads;
 using vehicle::Observer;
+using vehicle::testing::about;
 
 namespace {
 
 constexpr double kDegree = base::kPi / 180;
-
-Quat about(int axis, double angle) {
-  Quat q{base::cos(angle / 2), 0, 0, 0};
-  (axis == 0 ? q.x : axis == 1 ? q.y : q.z) = base::sin(angle / 2);
-  return q;
-}
 
 class AlongGround : public ::testing::Test {
 protected:

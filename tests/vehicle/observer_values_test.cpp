@@ -5,6 +5,7 @@
 #include "vehicle/observers.hpp"
 
 #include "base/math.hpp"
+#include "tests/vehicle/attitude.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -17,14 +18,9 @@ using base::Quat;
 using base::Vec3d;
 using vehicle::GroundLoads;
 using vehicle::Observer;
+using vehicle::testing::about;
 
 namespace {
-
-Quat about(int axis, double angle) {
-  Quat q{base::cos(angle / 2), 0, 0, 0};
-  (axis == 0 ? q.x : axis == 1 ? q.y : q.z) = base::sin(angle / 2);
-  return q;
-}
 
 /// Turned by heading, nose up, right side down, in this order.
 Quat attitude(double heading, double pitch, double roll) {

@@ -5,6 +5,7 @@
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "terrain/grain_constants.hpp"
+#include "tests/message_of.hpp"
 #include "tests/png_fixture.hpp"
 
 #include <fmt/format.h>
@@ -12,10 +13,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 
 namespace grouser::setup {
 namespace {
+
+using test::messageOf;
 
 class FloorPlaces : public ::testing::Test {
 protected:
@@ -44,15 +46,6 @@ protected:
   static constexpr double kHeight = 0.2125; ///< [m] of white: 10 mm are 12 levels
   std::filesystem::path file_;
 };
-
-std::string messageOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST_F(FloorPlaces, ManyContactsWithTheFloorCountToTheLimitOfBoundaries) {
   EXPECT_EQ(messageOf([&] { groundSetup(valley(kHeight, 24), 1e-5); }), "");

@@ -12,30 +12,22 @@
 #include "runs/setup/meeting_pairs.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/simulation/simulation.hpp"
+#include "tests/message_of.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <regex>
 
 namespace grouser::setup {
 namespace {
 
+using test::messageOf;
+
 scene::Scene parsed(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parseScene("version = 1\n" + text, "scene.toml", overrides);
-}
-
-/// The message of the InputError that it throws; empty where it throws none.
-std::string messageOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 /// The first number behind `words` in it.

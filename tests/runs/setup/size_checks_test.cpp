@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "tests/message_of.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,8 @@
 
 namespace grouser::setup {
 namespace {
+
+using test::messageOf;
 
 scene::Scene sceneOf(const std::string& text) { return parseScene("version = 1\n" + text, "scene.toml"); }
 
@@ -22,15 +25,6 @@ scene::Scene fill(const std::string& edge) {
   return sceneOf("[run]\nduration = 1\n[material.glass]\nstiffness = 1e4\nrolling_friction = 0.1\n[[grains]]\nform = "
                  "\"lattice\"\nlow = [0, 0, 0]\nhigh = [" +
                  edge + ", " + edge + ", " + edge + "]\nradius = 0.01\nmaterial = \"glass\"\n" + planes);
-}
-
-template <class Check> std::string messageOf(const Check& check) {
-  try {
-    check();
-  } catch (const base::InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(SizeChecks, AMechanismHasNoFillsToCount) {
