@@ -23,7 +23,7 @@ constexpr Meaning kMeanings[] = {
     {"steps", "-", "taken since the start"},
     {"ledger_at_start", "J, N s, N m s", "energies and momenta that the ledger counts from"},
     {"energy_guard", "J",
-     "at the guard's last look: error, turnover, dissipated, drive work, elastic, by sliding, by grains; and most held "
+     "at the guard's last look: error, turnover, dissipated, drive work, elastic, by grains; and most held "
      "by grains"},
     {"settled/time", "s", "that the bed took to settle"},
     {"settled/agitation", "-", "mean kinetic energy a grain over m g radius at its end"},
