@@ -39,6 +39,19 @@ struct SphereSet {
   double meshArea{};   ///< [m2] of the outer surface of that union
 };
 
+/// What a set has beside its spheres and its name, as one piece of memory: for files and other ranks.
+struct SphereSetFigures {
+  std::uint64_t spheres, surfaceCount;
+  double spacing, radius, meshVolume, meshArea;
+};
+inline SphereSetFigures figuresOf(const SphereSet& set) {
+  return {set.spheres.size(), set.surfaceCount, set.spacing, set.radius, set.meshVolume, set.meshArea};
+}
+inline void setFigures(SphereSet& set, const SphereSetFigures& f) {
+  set.surfaceCount = f.surfaceCount, set.spacing = f.spacing, set.radius = f.radius;
+  set.meshVolume = f.meshVolume, set.meshArea = f.meshArea;
+}
+
 /// Triangle mesh: vertices [m], counter-clockwise seen from outside.
 struct TriangleMesh {
   std::vector<Vec3d> vertices;

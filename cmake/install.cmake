@@ -40,8 +40,8 @@ install(DIRECTORY ${manual}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONE
 install(DIRECTORY ${manual}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 
 # The libraries: `find_package(grouser)` and the target grouser::grouser; all rooms up to the output of runs.
-set(rooms base contact spheredecomp multibody terrain vehicle)
-set(program_rooms support scene setup simulation output)
+set(rooms base contact spheredecomp multibody terrain vehicle coupling)
+set(program_rooms support scene setup storage output render session)
 set(targets grouser_flags)
 foreach(room ${rooms} ${program_rooms})
   list(APPEND targets grouser_${room})
@@ -50,7 +50,7 @@ endforeach()
 set_target_properties(grouser_flags PROPERTIES EXPORT_NAME flags)
 add_library(grouser_all INTERFACE)
 set_target_properties(grouser_all PROPERTIES EXPORT_NAME grouser)
-target_link_libraries(grouser_all INTERFACE grouser_output)
+target_link_libraries(grouser_all INTERFACE grouser_session)
 add_library(grouser::grouser ALIAS grouser_all)
 install(TARGETS grouser_all ${targets} EXPORT grouser_targets ARCHIVE COMPONENT development)
 # Sources include each other from the top folder ("terrain/grains.hpp"): include/grouser stands in its place.

@@ -5,6 +5,7 @@
 #include "terrain/rigid_surface.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,16 @@ struct GrainSpec {
 /// Along x and y: the places [m] of the lower and the upper boundary where they are periodic. What leaves through one
 /// enters through the other, and grains touch across them.
 using PeriodicBoundaries = std::array<std::optional<std::array<double, 2>>, 2>;
+/// The way between two places, or between one and the nearest image of the other.
+inline base::Vec3d toNearestImage(const PeriodicBoundaries& sides, base::Vec3d way) {
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (!sides[a]) continue;
+    const double period = (*sides[a])[1] - (*sides[a])[0];
+    double& d = way[static_cast<int>(a)];
+    d -= period * std::floor(d / period + 0.5);
+  }
+  return way;
+}
 
 /// Rigid surroundings of the grains: plane walls, a height-field floor, and surfaces that may move; at most 32
 /// together.

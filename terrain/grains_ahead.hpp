@@ -5,7 +5,7 @@
 
 namespace grouser::terrain {
 
-/// Steps of grains that are launched before their loads are known; simulation::StepsAhead has them wait. What
+/// Steps of grains that are launched before their loads are known; coupling::StepsAhead has them wait. What
 /// flagsBefore(), launchBoundaries(), launchGrains(), joinGrains() and flagsAfter() give makes up one step and may be
 /// recorded; exchangeBuffers() comes after its launch, end() once its flags have been carried to the host. While one is
 /// under way the next one may be launched, and nothing else be done with the grains but view().

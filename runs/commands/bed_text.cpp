@@ -2,6 +2,7 @@
 #include "runs/commands/bed_text.hpp"
 
 #include "base/math.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/support/tell.hpp"
 
@@ -21,9 +22,9 @@ constexpr double kGrainsInPad = 20;
 
 /// Mean of the grains that a pad presses [m]: of a bed that is coarser below those at its surface, where they are as
 /// deep as a plate asks for that is to sink as in a bed of them alone (docs/soil_tests.md).
-double pressedDiameter(const simulation::Simulation& simulation, double padWidth) {
+double pressedDiameter(const coupling::Simulation& simulation, double padWidth) {
   constexpr double kFine = 0.1; // of the pad's width
-  const std::optional<setup::GrainsSetup>& grains = simulation.setup().ground.grains;
+  const std::optional<coupling::GrainsSetup>& grains = simulation.setup().ground.grains;
   const auto* random =
       grains && grains->bed ? std::get_if<terrain::RandomBedOptions>(&grains->bed->options.grains) : nullptr;
   return random && random->grading.any() && random->grading.fineDepth >= kFine * padWidth
@@ -32,9 +33,9 @@ double pressedDiameter(const simulation::Simulation& simulation, double padWidth
 }
 
 /// Preparation of the bed, or of the tile that it is copied from; null without a requested porosity.
-const setup::PreparationSetup* preparationOf(const setup::GroundSetup& ground) {
+const coupling::PreparationSetup* preparationOf(const coupling::GroundSetup& ground) {
   if (!ground.grains || !ground.grains->bed) return nullptr;
-  const setup::BedSetup& bed = *ground.grains->bed;
+  const coupling::BedSetup& bed = *ground.grains->bed;
   if (bed.alone) return preparationOf(*bed.alone);
   if (bed.tile) return preparationOf(*bed.tile->ground);
   return bed.preparation ? &*bed.preparation : nullptr;
@@ -50,8 +51,8 @@ std::string grainsText(const terrain::Grains& grains) {
   return text + (system.fixedCount > 0 ? fmt::format(" m, {} fixed", system.fixedCount) : " m");
 }
 
-std::string bedText(const simulation::Simulation& simulation) {
-  const simulation::SettleReport& settled = simulation.settled();
+std::string bedText(const coupling::Simulation& simulation) {
+  const coupling::SettleReport& settled = simulation.settled();
   std::string text;
   if (settled.steps > 0)
     text = fmt::format("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius{}\n", settled.time,
@@ -92,8 +93,8 @@ std::vector<std::string> bedNotes(const TrackOnBed& t) {
   return notes;
 }
 
-std::vector<std::string> bedNotes(const simulation::Simulation& simulation) {
-  const simulation::VehicleRig* rig = simulation.vehicle();
+std::vector<std::string> bedNotes(const coupling::Simulation& simulation) {
+  const coupling::VehicleRig* rig = simulation.vehicle();
   const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
   if (!rig || !bed || bed->grains == 0) return {};
   const terrain::GrainSystem& grains = simulation.ground().grains->system();
@@ -124,8 +125,8 @@ std::string porosityWarning(double wanted, const terrain::BedStructure& bed, con
             "terrain.size or depth, or report the porosity measured");
 }
 
-std::string porosityWarning(const simulation::Simulation& simulation) {
-  const setup::PreparationSetup* preparation = preparationOf(simulation.setup().ground);
+std::string porosityWarning(const coupling::Simulation& simulation) {
+  const coupling::PreparationSetup* preparation = preparationOf(simulation.setup().ground);
   const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
   return preparation && bed ? porosityWarning(preparation->porosity, *bed, simulation.setup().gravity) : "";
 }

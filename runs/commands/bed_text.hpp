@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/simulation/simulation.hpp"
+#include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace grouser::commands {
 std::string grainsText(const terrain::Grains& grains);
 
 /// Lines on how the bed came to rest and what it is made of; empty without one.
-std::string bedText(const simulation::Simulation& simulation);
+std::string bedText(const coupling::Simulation& simulation);
 
 /// A vehicle and the bed under it.
 struct TrackOnBed {
@@ -32,7 +33,7 @@ struct TrackOnBed {
 std::vector<std::string> bedNotes(const TrackOnBed& track);
 
 /// The notes of a run with a vehicle on a bed; empty without.
-std::vector<std::string> bedNotes(const simulation::Simulation& simulation);
+std::vector<std::string> bedNotes(const coupling::Simulation& simulation);
 
 /// Angle between gravity and straight down [deg]; 0 without gravity.
 double leanOf(const base::Vec3d& gravity);
@@ -40,7 +41,7 @@ double leanOf(const base::Vec3d& gravity);
 /// Where a settled bed has another porosity than the one that terrain.porosity asks for, and why; else empty.
 std::string porosityWarning(double wanted, const terrain::BedStructure& bed, const base::Vec3d& gravity);
 /// The same for the bed of a run; empty without a requested porosity.
-std::string porosityWarning(const simulation::Simulation& simulation);
+std::string porosityWarning(const coupling::Simulation& simulation);
 
 /// Prints setup::terrainRemarks().
 void warnOfTerrain(const scene::Scene& scene);

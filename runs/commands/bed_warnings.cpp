@@ -2,6 +2,7 @@
 #include "runs/commands/bed_warnings.hpp"
 
 #include "runs/commands/bed_text.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "terrain/packing_limits.hpp"
 
@@ -44,7 +45,7 @@ std::vector<std::string> bedWarnings(const BedQuality& bed) {
   return warnings;
 }
 
-std::vector<std::string> bedWarnings(const scene::Scene& scene, const simulation::Simulation& simulation) {
+std::vector<std::string> bedWarnings(const scene::Scene& scene, const coupling::Simulation& simulation) {
   const auto& grains = simulation.ground().grains;
   if (!hasBed(scene) || !grains) return {};
   BedQuality bed = qualityOf(scene);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/simulation/simulation.hpp"
 
 #include <cstdint>
 #include <string>
@@ -22,7 +22,7 @@ struct BedQuality {
 std::vector<std::string> bedWarnings(const BedQuality& bed);
 
 /// Warnings about the settled bed of a run; empty without a bed.
-std::vector<std::string> bedWarnings(const scene::Scene& scene, const simulation::Simulation& simulation);
+std::vector<std::string> bedWarnings(const scene::Scene& scene, const coupling::Simulation& simulation);
 
 /// Warnings about the bed that a scene will lay.
 std::vector<std::string> plannedBedWarnings(const scene::Scene& scene);

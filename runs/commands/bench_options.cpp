@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/command_entry.hpp"
 
-#include "runs/bench/bench.hpp"
-#include "runs/bench/contacts.hpp"
-#include "runs/bench/multibody.hpp"
+#include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/support/option_checks.hpp"
-#include "runs/sweeps/overrides.hpp"
+#include "runs/validation/bench/bench.hpp"
+#include "runs/validation/bench/contacts.hpp"
+#include "runs/validation/bench/multibody.hpp"
 
 #include <memory>
 #include <string>

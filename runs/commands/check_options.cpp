@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
+#include "runs/campaigns/sweeps/check.hpp"
+#include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/commands/command_entry.hpp"
 #include "runs/support/option_checks.hpp"
-#include "runs/sweeps/check.hpp"
-#include "runs/sweeps/overrides.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

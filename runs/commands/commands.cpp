@@ -3,31 +3,33 @@
 
 #include "base/counted.hpp"
 #include "base/error.hpp"
+#include "runs/campaigns/forecast/counted_grains.hpp"
+#include "runs/campaigns/forecast/forecast.hpp"
+#include "runs/campaigns/forecast/machine_fit.hpp"
+#include "runs/campaigns/sweeps/kept_checks.hpp"
+#include "runs/campaigns/sweeps/overrides.hpp"
+#include "runs/campaigns/sweeps/scene_check.hpp"
+#include "runs/campaigns/sweeps/sweep.hpp"
+#include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/commands/bed_warnings.hpp"
-#include "runs/commands/output_times.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/commands/run_scene.hpp"
-#include "runs/forecast/counted_grains.hpp"
-#include "runs/forecast/forecast.hpp"
-#include "runs/forecast/machine_fit.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/output/sinkage.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
+#include "runs/session/output_times.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "runs/simulation/checkpoint.hpp"
-#include "runs/simulation/sphere_cache.hpp"
+#include "runs/storage/checkpoint.hpp"
+#include "runs/storage/sphere_cache.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/output_place.hpp"
 #include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
-#include "runs/sweeps/kept_checks.hpp"
-#include "runs/sweeps/overrides.hpp"
-#include "runs/sweeps/scene_check.hpp"
-#include "runs/sweeps/sweep.hpp"
-#include "runs/sweeps/sweep_files.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "spheredecomp/quality.hpp"
@@ -62,9 +64,9 @@ void nameIfThere(const char* what, const fs::path& file) {
 }
 
 /// A run goes on in the folder of its checkpoint.
-void chooseCheckpoint(const RunCommand& command, RunRequest& options) {
+void chooseCheckpoint(const RunCommand& command, session::RunRequest& options) {
   if (command.checkpoint.empty()) {
-    options.resume = options.folder / simulation::kCheckpointName;
+    options.resume = options.folder / storage::kCheckpointName;
     return;
   }
   std::error_code missing;
@@ -100,7 +102,7 @@ void runCommand(const RunCommand& command) {
   const scene::Scene scene = setup::loadScene(command.scene, overrides);
   if (!command.ranks || command.ranks->comm().first()) scene::printNotes(scene);
 
-  RunRequest options;
+  session::RunRequest options;
   options.folder = folderOf(scene, command.folder);
   options.force = command.force, options.hash = command.hash, options.steps = command.steps;
   options.cache = command.cache;
@@ -149,7 +151,7 @@ void sweepCommand(const SweepCommand& command) {
 }
 
 void hashCommand(const HashCommand& command) {
-  const simulation::SimulationState state = simulation::readCheckpoint(command.checkpoint).state;
+  const coupling::SimulationState state = storage::readCheckpoint(command.checkpoint).state;
   fmt::print("state-hash {} step {}\n", state.hash(), state.steps);
 }
 
@@ -205,7 +207,7 @@ void planCommand(const PlanCommand& command) {
   std::fflush(stdout);
   if (!misfit.empty()) throw base::InputError(misfit);
   if (!command.probe) return;
-  const forecast::Forecast told = forecast::forecastOf(scene, counted, {folder, timeOutput, 1, command.cache});
+  const forecast::Forecast told = forecast::forecastOf(scene, counted, {folder, 1, command.cache});
   fmt::print("{}", forecast::forecastText(told));
   if (!command.json.empty()) support::writeTextFile(command.json, forecast::forecastJson(told), "--json");
 }
@@ -218,9 +220,9 @@ void spheresCommand(const SpheresCommand& command) {
     throw base::InputError(
         fmt::format("--csv {}: the file is there already; name another, or overwrite it with --force", command.csv));
   const base::TriangleMesh mesh = spheredecomp::importMesh(command.mesh);
-  std::optional<simulation::SphereCache> kept = simulation::SphereCache::ofUser();
+  std::optional<storage::SphereCache> kept = storage::SphereCache::ofUser();
   const base::SphereSet set =
-      simulation::cutParts({{&mesh, fs::path(command.mesh).filename().string(), options}}, kept ? &*kept : nullptr, {})
+      coupling::cutParts({{&mesh, fs::path(command.mesh).filename().string(), options}}, kept ? &*kept : nullptr, {})
           .front();
   fmt::print("{}", spheredecomp::report(set, spheredecomp::measure(mesh, set)));
   if (command.csv.empty()) return;

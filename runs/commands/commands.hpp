@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
-#include "runs/sweeps/sweep_plan.hpp"
+#include "runs/campaigns/sweeps/sweep_plan.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/command_entry.hpp"
 
-#include "runs/commands/output_times.hpp"
-#include "runs/events/events.hpp"
+#include "runs/campaigns/events/events.hpp"
+#include "runs/session/output_times.hpp"
 #include "runs/support/option_checks.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,7 +16,7 @@ namespace grouser::commands {
 void addEvents(CLI::App& app, const Invocation& invocation) {
   const auto command = std::make_shared<grouser::events::EventsCommand>();
   grouser::events::EventsCommand& c = *command;
-  c.words = invocation.words, c.timeOutput = timeOutput, c.pieces.threads = 0;
+  c.words = invocation.words, c.pieces.threads = 0;
   events::EventOptions& o = c.options;
   CLI::App* events = app.add_subcommand(
       "events", "Standard mobility events of a vehicle on a ground: go or no-go, limits, figures with intervals");
@@ -61,7 +61,7 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
   events->add_option("--set", o.fixed, kSetHelp)->allow_extra_args(false);
   events->add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
   events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
-  studies::addPieceOptions(*events, c.pieces);
+  jobs::addPieceOptions(*events, c.pieces);
   events->add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
       ->check(support::wholeNumber(1, 1024))
       ->capture_default_str();

@@ -3,7 +3,7 @@
 
 #include "runs/output/frames_file.hpp"
 #include "runs/output/result_fields.hpp"
-#include "runs/simulation/checkpoint_fields.hpp"
+#include "runs/storage/checkpoint_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -57,7 +57,7 @@ no names are for the program alone. A bed that is kept (`bed-*.h5`) is the same,
 
 std::string filesDocument() {
   return kHead + tableOf(output::resultFields()) + kFrames + tableOf(output::frameFields()) + kCheckpoint +
-         tableOf(simulation::checkpointFields());
+         tableOf(storage::checkpointFields());
 }
 
 } // namespace grouser::commands

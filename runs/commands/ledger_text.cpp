@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/ledger_text.hpp"
 
-#include "runs/simulation/simulation.hpp"
+#include "coupling/simulation.hpp"
 
 #include <fmt/format.h>
 
@@ -10,16 +10,16 @@
 
 namespace grouser::commands {
 
-void describeLedger(simulation::Simulation& simulation) {
-  const simulation::Ledger l = simulation.ledger();
-  const simulation::VehicleRig* rig = simulation.vehicle();
+void describeLedger(coupling::Simulation& simulation) {
+  const coupling::Ledger l = simulation.ledger();
+  const coupling::VehicleRig* rig = simulation.vehicle();
   const std::string hitch =
       rig && rig->towing() ? fmt::format(" (of the hitch {:.4g})", rig->towing()->work()) : std::string();
   fmt::print(
       "ledger    since the start [J]: drive work {:.4g}{} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
       "dissipated {:+.4g}, integration error {:+.3g}; left over {:.2g}\n",
       l.driveWork, hitch, l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.integrationError, l.residual);
-  const simulation::Dissipated& d = l.dissipated;
+  const coupling::Dissipated& d = l.dissipated;
   std::string causes;
   for (const auto& [cause, loss] : {std::pair{"damping", d.damping},
                                     {"friction", d.friction},

@@ -4,9 +4,12 @@
 #include "base/counted.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
+#include "coupling/mechanism.hpp"
+#include "coupling/surfaces.hpp"
+#include "runs/campaigns/forecast/elastic_layer.hpp"
 #include "runs/commands/bed_text.hpp"
-#include "runs/forecast/elastic_layer.hpp"
 #include "runs/output/mechanism_output.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
@@ -25,9 +28,7 @@
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
-#include "runs/simulation/bed_cache.hpp"
-#include "runs/simulation/mechanism.hpp"
-#include "runs/simulation/surfaces.hpp"
+#include "runs/storage/bed_cache.hpp"
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ std::string memoryText(const scene::Scene& scene, double grains) {
 /// What a vehicle meets beside its ground.
 std::string obstaclesLine(const scene::Scene& scene) {
   std::string names;
-  for (const setup::Obstacle& o : setup::obstaclesOf(scene)) names += (names.empty() ? "" : ", ") + o.surface.name;
+  for (const coupling::Obstacle& o : setup::obstaclesOf(scene)) names += (names.empty() ? "" : ", ") + o.surface.name;
   const std::string hull = setup::hullTouches(scene) ? "the hull touches too" : "the hull touches nothing";
   return onOff(!names.empty(), "obstacles", (names.empty() ? "none to the vehicle" : names) + "; " + hull);
 }
@@ -125,9 +126,9 @@ std::string putOnBedLine(const scene::Scene& scene) {
 /// How high the bed stands once it has settled, where a run has kept it.
 std::string bedHeightText(const scene::Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit <= 0) return "";
-  std::optional<simulation::SettleReport> settled;
+  std::optional<coupling::SettleReport> settled;
   if (const std::string origin = setup::originOfBed(scene); !origin.empty())
-    if (const auto beds = simulation::BedCache::ofUser()) settled = beds->find(origin);
+    if (const auto beds = storage::BedCache::ofUser()) settled = beds->find(origin);
   return fmt::format("  {:<24} {}\n", "settled bed",
                      settled
                          ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (kept from a run before)",
@@ -263,8 +264,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   }
   const double step = setup::chooseTimeStep(scene);
   setup::checkGround(scene, step);
-  if (!scene.mechanism.empty())
-    text += output::mechanismSize(simulation::Mechanism(setup::mechanismSetup(scene), step));
+  if (!scene.mechanism.empty()) text += output::mechanismSize(coupling::Mechanism(setup::mechanismSetup(scene), step));
   text += bedHeightText(scene);
   for (const scene::SoilUse& use : scene::soilUses(scene))
     text += fmt::format("  {:<24} {}\n", "soil", scene::soilLine(use));

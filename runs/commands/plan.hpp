@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/forecast/counted_grains.hpp"
+#include "runs/campaigns/forecast/counted_grains.hpp"
 #include "runs/scene/scene.hpp"
 
 #include <cstdint>

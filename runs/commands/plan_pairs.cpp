@@ -3,6 +3,7 @@
 #include "runs/setup/meeting_pairs.hpp"
 #include "vehicle/spec_file.hpp"
 
+#include "runs/scene/scene.hpp"
 #include <fmt/format.h>
 
 #include <algorithm>

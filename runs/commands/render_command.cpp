@@ -2,11 +2,11 @@
 #include "runs/commands/render_command.hpp"
 
 #include "base/error.hpp"
+#include "runs/jobs/shared_work.hpp"
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
 #include "runs/support/output_place.hpp"
 #include "runs/support/progress.hpp"
-#include "runs/support/shared_work.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -143,7 +143,7 @@ void paintShare(const RenderCommand& c, const render::FramePainter& painter, con
     render::writePng(painter.paint(mine[i]), unfinished(pictures[i]));
     fs::rename(unfinished(pictures[i]), pictures[i]);
   };
-  support::shareWork(processes, mine.size(), paint, [&] {
+  jobs::shareWork(processes, mine.size(), paint, [&] {
     ++done;
     progress.update(static_cast<double>(done) / static_cast<double>(mine.size()),
                     fmt::format("{} of {}", done, mine.size()));

@@ -2,12 +2,12 @@
 #include "runs/commands/report_command.hpp"
 
 #include "base/error.hpp"
+#include "runs/campaigns/sweeps/run_figures.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/locations.hpp"
 #include "runs/support/output_place.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
-#include "runs/sweeps/run_figures.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/commands/run_request.hpp"
 #include "runs/output/output.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/session/run_request.hpp"
 #include "runs/setup/provenance.hpp"
 
 namespace grouser::commands {
@@ -12,6 +12,7 @@ namespace grouser::commands {
 /// into the manifest too. With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at
 /// the end, and where SIGINT or SIGTERM stops the run. One that fails leaves what is needed to see why. Throws
 /// InputError, SimulationError, DeviceError, or Stopped.
-output::Summary runScene(const scene::Scene& scene, const setup::Provenance& provenance, const RunRequest& options);
+output::Summary runScene(const scene::Scene& scene, const setup::Provenance& provenance,
+                         const session::RunRequest& options);
 
 } // namespace grouser::commands

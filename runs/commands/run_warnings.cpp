@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/run_warnings.hpp"
 
+#include "runs/scene/scene.hpp"
 #include "runs/setup/drive_length.hpp"
 #include "runs/setup/free_surface_notes.hpp"
 #include "runs/setup/mechanism_setup.hpp"
@@ -9,11 +10,11 @@
 
 namespace grouser::commands {
 
-void warnOf(const scene::Scene& scene, const simulation::Simulation& simulation) {
+void warnOf(const scene::Scene& scene, const coupling::Simulation& simulation) {
   if (const std::string warning = setup::shortDriveWarning(scene); !warning.empty())
     support::tell("WARNING: {}\n", warning);
   for (const std::string& warning : setup::vehicleWarnings(scene)) support::tell("grouser: warning: {}\n", warning);
-  for (const spheredecomp::CutReport& cut : simulation::cutReports(simulation))
+  for (const spheredecomp::CutReport& cut : coupling::cutReports(simulation))
     if (const std::string warning = spheredecomp::protrusionWarning(cut); !warning.empty())
       support::tell("WARNING: {}\n", warning);
   for (const std::string& note : setup::meshNotes(scene)) support::tell("grouser: note: {}\n", note);

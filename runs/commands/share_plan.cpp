@@ -3,6 +3,7 @@
 #include "runs/commands/plan.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_memory.hpp"

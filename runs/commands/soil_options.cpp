@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
-#include "runs/bevameter/bevameter.hpp"
-#include "runs/bevameter/calibration.hpp"
 #include "runs/commands/command_entry.hpp"
 #include "runs/support/option_checks.hpp"
+#include "runs/virtual_tests/bevameter.hpp"
+#include "runs/virtual_tests/calibration.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace grouser::commands {
 
 namespace {
 
-using bevameter::PlanOptions;
+using virtual_tests::PlanOptions;
 
 /// Options of the plan: one that the user gives keeps its value with --quick.
 class PlanKeys {
@@ -26,7 +26,7 @@ public:
 
   template <class T> void add(CLI::App& app, const std::string& name, T PlanOptions::*member, CLI::Validator check,
                               const std::string& help) {
-    const PlanOptions coarse = bevameter::coarsePlan();
+    const PlanOptions coarse = virtual_tests::coarsePlan();
     std::string quick;
     if constexpr (std::is_arithmetic_v<T>)
       if (coarse.*member != plan_.*member) quick = fmt::format("; with --quick {}", coarse.*member);
@@ -38,7 +38,7 @@ public:
   }
   bool& wide() { return plan_.wide; } ///< --quick has none
   void takeQuick() {
-    PlanOptions taken = bevameter::coarsePlan();
+    PlanOptions taken = virtual_tests::coarsePlan();
     for (const auto& given : given_) given(plan_, taken);
     plan_ = taken;
   }
@@ -79,20 +79,20 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
                 "leave out the small plate on beds of twice the width; --calibrate does so anyhow");
 }
 
-void doSoil(const bevameter::SoilCommand& c, const std::string& targets, const std::string& words) {
+void doSoil(const virtual_tests::SoilCommand& c, const std::string& targets, const std::string& words) {
   if (c.soil.empty() == targets.empty())
     throw base::InputError("soil: give either a soil to test or --calibrate with a file of targets");
   if (targets.empty())
-    bevameter::soilCommand(c);
+    virtual_tests::soilCommand(c);
   else
-    bevameter::calibrateCommand({targets, c.grainRadius, c.place, c.pieces, c.jobs, c.plan, words});
+    virtual_tests::calibrateCommand({targets, c.grainRadius, c.place, c.pieces, c.jobs, c.plan, words});
 }
 
 } // namespace
 
 void addSoil(CLI::App& app, const Invocation& invocation) {
-  const auto command = std::make_shared<bevameter::SoilCommand>();
-  bevameter::SoilCommand& c = *command;
+  const auto command = std::make_shared<virtual_tests::SoilCommand>();
+  virtual_tests::SoilCommand& c = *command;
   const auto targets = std::make_shared<std::string>();
   CLI::App* soil = app.add_subcommand(
       "soil", "A soil's constants (Bekker, Mohr-Coulomb, Janosi) measured in a virtual bevameter, with intervals");
@@ -104,7 +104,7 @@ void addSoil(CLI::App& app, const Invocation& invocation) {
       ->check(support::positive("a length in metres"));
   const auto keys = std::make_shared<PlanKeys>(c.plan);
   addPlanOptions(*soil, *keys);
-  studies::addPieceOptions(*soil, c.pieces);
+  jobs::addPieceOptions(*soil, c.pieces);
   soil->add_option("--jobs", c.jobs, "tests at the same time, each a process on its share of --threads")
       ->check(support::wholeNumber(1, 256))
       ->capture_default_str();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/command_entry.hpp"
 
-#include "runs/studies/cases.hpp"
-#include "runs/studies/multibody_command.hpp"
-#include "runs/studies/option_parts.hpp"
-#include "runs/studies/options.hpp"
-#include "runs/studies/soil_options.hpp"
 #include "runs/support/option_checks.hpp"
+#include "runs/validation/studies/cases.hpp"
+#include "runs/validation/studies/multibody_command.hpp"
+#include "runs/validation/studies/option_parts.hpp"
+#include "runs/validation/studies/options.hpp"
+#include "runs/validation/studies/soil_options.hpp"
 
 #include <memory>
 

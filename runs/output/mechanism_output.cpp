@@ -181,7 +181,7 @@ std::vector<Channel> mechanismChannels(const multibody::Model& model, const std:
   return c;
 }
 
-void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, const std::vector<std::string>& record) {
+void setMechanismRow(RowBuilder& row, const coupling::Mechanism& mechanism, const std::vector<std::string>& record) {
   const multibody::Model& model = mechanism.model();
   const multibody::State& state = mechanism.state();
   const bool stepped = state.time > 0; // what acts on the bodies is found in a step: nothing is known before the first
@@ -231,7 +231,7 @@ void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, co
   for (std::size_t i = 0; i < model.drives().size(); ++i) {
     const std::string& name = model.drives()[i].name;
     if (!isKept(record, name)) continue;
-    const simulation::Mechanism::DriveReading r = mechanism.drive(static_cast<int>(i));
+    const coupling::Mechanism::DriveReading r = mechanism.drive(static_cast<int>(i));
     row.set("drives/" + name + "/value", r.value);
     if (stepped) row.set("drives/" + name + "/torque", r.torque);
     if (stepped) row.set("drives/" + name + "/power", r.power);
@@ -239,10 +239,10 @@ void setMechanismRow(RowBuilder& row, const simulation::Mechanism& mechanism, co
   for (std::size_t i = 0; i < model.couplings().size(); ++i)
     if (stepped && isKept(record, model.couplings()[i].name))
       row.set("couplings/" + model.couplings()[i].name + "/force", state.coupling[i].force);
-  const simulation::Mechanism::Ledger ledger = mechanism.ledger();
+  const coupling::Mechanism::Ledger ledger = mechanism.ledger();
   row.set("momentum/linear", ledger.linearMomentum);
   row.set("momentum/angular", ledger.angularMomentum);
-  const simulation::Mechanism::Drift drift = mechanism.drift();
+  const coupling::Mechanism::Drift drift = mechanism.drift();
   row.set("constraints/position_error", drift.position);
   row.set("constraints/velocity_error", drift.velocity);
   row.set("constraints/iterations", drift.iterations);
@@ -255,7 +255,7 @@ std::string integratorText(const multibody::SolverOptions& options) {
                      options.springs == multibody::Springs::kImplicit ? "implicit" : "explicit");
 }
 
-std::string mechanismSize(const simulation::Mechanism& mechanism) {
+std::string mechanismSize(const coupling::Mechanism& mechanism) {
   const multibody::Model& model = mechanism.model();
   const multibody::Solver& solver = mechanism.solver();
   std::string text;
@@ -281,7 +281,7 @@ std::string mechanismSize(const simulation::Mechanism& mechanism) {
   return text;
 }
 
-std::vector<FramePart> mechanismParts(const setup::MechanismSetup& setup) {
+std::vector<FramePart> mechanismParts(const coupling::MechanismSetup& setup) {
   const multibody::Model& model = setup.model;
   const double size = sizeOf(model);
   std::vector<FramePart> parts;

@@ -5,7 +5,7 @@
 #include "base/rounded.hpp"
 #include "runs/output/frames_file.hpp"
 #include "runs/output/manifest.hpp"
-#include "runs/simulation/checkpoint.hpp"
+#include "runs/storage/checkpoint.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/not_written.hpp"
@@ -50,7 +50,7 @@ constexpr const char* kFiles[] = {"results.h5",
                                   "picture.png",
                                   "grains.csv",
                                   "bed.png",
-                                  simulation::kCheckpointName};
+                                  storage::kCheckpointName};
 
 fs::path prepared(fs::path folder, const RunWriter::Options& options, support::FileLock& lock) {
   if (options.former) return folder;
@@ -81,7 +81,7 @@ void checkOutputFolder(const fs::path& folder, bool force) {
   if (!force && fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw base::InputError(fmt::format(
         "{}: the folder is not empty; name another with --out, {}or overwrite it with --force", folder.string(),
-        fs::exists(folder / simulation::kCheckpointName, error) ? "go on with --resume, " : ""));
+        fs::exists(folder / storage::kCheckpointName, error) ? "go on with --resume, " : ""));
 }
 
 void claimFolder(support::FileLock& lock, const fs::path& folder) {

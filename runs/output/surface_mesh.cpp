@@ -55,7 +55,7 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
 
 } // namespace
 
-TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface, bool endless) {
+TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::SurfaceSetup& surface, bool endless) {
   if (surface.mesh) return surface.mesh->mesh();
   const Vec3d& half = surface.geometry.half;
   switch (surface.geometry.shape) {

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "base/sphere_set.hpp"
+#include "coupling/surface_setup.hpp"
 #include "runs/setup/drawn_planes.hpp"
-#include "runs/setup/surface_setup.hpp"
 
 namespace grouser::output {
 
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
 /// cylinder shows its inside. `endless`: a floor goes on as far as one sees.
-base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const setup::SurfaceSetup& surface,
+base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::SurfaceSetup& surface,
                                bool endless = false);
 
 } // namespace grouser::output

@@ -4,7 +4,7 @@
 
     report.py FOLDER PAGE.html [--figures FILE.json] [--frames N] [--grains N] [--film FILE] [--program FILE]
 
-`grouser report` calls it, and gives in FILE.json what it computes itself of a run (runs/sweeps/run_figures), and its
+`grouser report` calls it, and gives in FILE.json what it computes itself of a run (runs/campaigns/sweeps/run_figures), and its
 own file. Exit status: 0; 2 where the folder holds no results or damaged ones, or an option is wrong; 3 where a package
 is missing, 4 where the page cannot be written, 130 where it is interrupted; the last line then says what.
 """

@@ -7,6 +7,7 @@
 #include "runs/scene/surface_structs.hpp"
 #include "vehicle/spec_source.hpp"
 
+#include "runs/setup/obstacles.hpp"
 #include <array>
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/bed_alone.hpp"
 
+#include "runs/scene/scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -19,13 +20,13 @@ bool isPutOnBed(const scene::Scene& scene) {
 
 scene::Scene sceneOfBed(scene::Scene scene) {
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
-  const auto removeLater = [&](SurfaceKind kind, auto& sections) {
+  const auto removeLater = [&](coupling::SurfaceKind kind, auto& sections) {
     for (std::size_t k = surfaces.size(); k-- > 0;) // those behind first, so that numbers stay right
       if (const SceneSurface& s = surfaces[k]; s.kind == kind && s.placedLater)
         sections.erase(sections.begin() + static_cast<std::ptrdiff_t>(s.number));
   };
-  removeLater(SurfaceKind::plane, scene.planes), removeLater(SurfaceKind::box, scene.boxes);
-  removeLater(SurfaceKind::cylinder, scene.cylinders), removeLater(SurfaceKind::mesh, scene.meshes);
+  removeLater(coupling::SurfaceKind::plane, scene.planes), removeLater(coupling::SurfaceKind::box, scene.boxes);
+  removeLater(coupling::SurfaceKind::cylinder, scene.cylinders), removeLater(coupling::SurfaceKind::mesh, scene.meshes);
   scene.grains.clear(), scene.fills.clear(), scene.sources.clear();
   removeVehicle(scene), scene.mechanism = {};
   return scene;

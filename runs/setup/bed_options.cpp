@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/scene/bed_radii.hpp"
+#include "runs/scene/scene.hpp"
 #include "terrain/heightmap.hpp"
 
 #include <algorithm>

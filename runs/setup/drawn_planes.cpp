@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/drawn_planes.hpp"
 
+#include "runs/scene/scene.hpp"
 #include <algorithm>
 #include <tuple>
 #include <utility>

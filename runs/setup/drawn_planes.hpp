@@ -2,9 +2,12 @@
 #pragma once
 
 #include "base/vec.hpp"
-#include "runs/scene/scene.hpp"
 
 #include <vector>
+
+namespace grouser::scene {
+struct Scene;
+} // namespace grouser::scene
 
 namespace grouser::setup {
 

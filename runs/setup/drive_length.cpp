@@ -2,6 +2,7 @@
 #include "runs/setup/drive_length.hpp"
 
 #include "base/math.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/placement.hpp"
 #include "vehicle/driver.hpp"
 

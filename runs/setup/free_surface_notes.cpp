@@ -3,6 +3,7 @@
 
 #include "base/rounded.hpp"
 #include "base/sphere.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"

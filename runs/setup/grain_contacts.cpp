@@ -5,6 +5,7 @@
 #include "base/sphere.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"

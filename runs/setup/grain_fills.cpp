@@ -4,6 +4,7 @@
 #include "base/random.hpp"
 #include "runs/setup/grain_kinds.hpp"
 
+#include "runs/scene/scene.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <unordered_map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/grain_memory.hpp"
 
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_model.hpp"
 #include "runs/setup/placement.hpp"

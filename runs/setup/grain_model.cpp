@@ -2,6 +2,7 @@
 #include "runs/setup/grain_model.hpp"
 
 #include "base/sphere.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 
@@ -78,7 +79,8 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
   for (const SceneSurface& s : surroundings.surfaces)
     if (!s.mesh)
-      boundaries.surfaces.push_back({s.geometry, pairLaw(scene, first, s.section.material, mass(1)), startingPose(s)});
+      boundaries.surfaces.push_back(
+          {s.geometry, pairLaw(scene, first, s.section.material, mass(1)), coupling::startingPose(s)});
   if (!kinds.manyMaterials()) return model;
 
   terrain::GrainMaterials& many = model.materials;

@@ -4,6 +4,7 @@
 #include "base/position.hpp"
 #include "base/rounded.hpp"
 #include "runs/scene/bed_radii.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/periodic_boundaries.hpp"

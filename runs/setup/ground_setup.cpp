@@ -3,16 +3,19 @@
 
 #include "base/error.hpp"
 #include "base/sphere.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_model.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/laws.hpp"
+#include "runs/setup/obstacles.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/size_checks.hpp"
+#include "runs/setup/sources.hpp"
 #include "runs/setup/start_checks.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_setup.hpp"
@@ -44,7 +47,8 @@ terrain::PartitionOptions partitionOf(const scene::Scene& scene, int ranks) {
 }
 
 /// The terrain without its grains. Empty where it has none.
-std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, GroundSetup& ground, SizeChecks sizes) {
+std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, coupling::GroundSetup& ground,
+                                            SizeChecks sizes) {
   if (!scene.terrain) return {};
   ground.area = terrainArea(scene);
   ground.surface = readSurface(scene);
@@ -93,8 +97,8 @@ template <class Fail> std::string messageOf(const Fail& fail) {
   return "";
 }
 
-TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightField& surface, const terrain::BedPlan& plan,
-                    double timeStep) {
+coupling::TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightField& surface,
+                              const terrain::BedPlan& plan, double timeStep) {
   const scene::Terrain& t = *scene.terrain;
   const double radius = *t.grainRadius;
   const terrain::HeightFieldBounds floor = plan.floor.bounds(), top = surface.bounds();
@@ -103,7 +107,7 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightField& surfa
                fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
                            "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
                            base::wordOf(t.floor), floor.lowest, floor.highest));
-  TileSetup tile;
+  coupling::TileSetup tile;
   tile.periodic = scene.run.periodic, tile.terrainSize = t.size;
   tile.walls = plan.walls, tile.floorHeight = floor.lowest;
   // Between periodic boundaries whole tiles must fit; between walls whole cells of a lattice in a tile, and walls cut
@@ -121,8 +125,8 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightField& surfa
   }
   const double depth =
       t.lattice() ? 0 : *t.depth + (t.floor == terrain::FloorShape::flat ? top.highest - top.lowest : 0);
-  tile.ground =
-      std::make_shared<const GroundSetup>(groundSetup(pieceScene(scene, plan.layers, depth, tile.size), timeStep));
+  tile.ground = std::make_shared<const coupling::GroundSetup>(
+      groundSetup(pieceScene(scene, plan.layers, depth, tile.size), timeStep));
   tile.inTheWay = messageOf([&] {
     scene.fail("terrain", "tile",
                "[m] copies a settled bed, which a box, cylinder or plane of the scene reaches into; move that, or "
@@ -132,7 +136,8 @@ TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightField& surfa
 }
 
 /// A small level bed of the same grains between periodic boundaries, wide enough for its porosity to be that of any.
-PreparationSetup preparationSetup(const scene::Scene& scene, const terrain::BedOptions& options, double timeStep) {
+coupling::PreparationSetup preparationSetup(const scene::Scene& scene, const terrain::BedOptions& options,
+                                            double timeStep) {
   constexpr double kWidth = 14, kDepth = 14, kWidthOfLargest = 7; // [diameters]
   const scene::Terrain& t = *scene.terrain;
   const double mean = 2 * options.meanRadius(), largest = 2 * options.largestRadius();
@@ -145,15 +150,15 @@ PreparationSetup preparationSetup(const scene::Scene& scene, const terrain::BedO
     scene.fail("terrain", "porosity",
                "[-] is reached by friction while the bed settles, but its material has none and packs as densely as it "
                "can; remove it, or give the material friction");
-  return {*t.porosity, std::make_shared<const GroundSetup>(groundSetup(sample, timeStep)),
+  return {*t.porosity, std::make_shared<const coupling::GroundSetup>(groundSetup(sample, timeStep)),
           messageOf([&] { scene.fail("terrain", "porosity", "[-]"); })};
 }
 
-BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terrain::HeightField& surface,
-                  const terrain::BedPlan& plan, double timeStep) {
+coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terrain::HeightField& surface,
+                            const terrain::BedPlan& plan, double timeStep) {
   constexpr double kCrystal = 0.006; // above random close packing [-]: what overlaps and small samples add
   const scene::Terrain& t = *scene.terrain;
-  BedSetup bed;
+  coupling::BedSetup bed;
   bed.options = bedOptions(scene), bed.walls = plan.walls;
   bed.fall = t.tile ? 0 : plan.fall;
   bed.restEnergy = scene.material(t.material).density * bed.options.meanVolume() * norm(scene.run.gravity) *
@@ -190,8 +195,8 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
 }
 
 /// The grains of [[grain]] and [[grains]], a section each.
-std::vector<PlacedGrains> grainsOnBed(const scene::Scene& scene, const std::vector<terrain::GrainSpec>& all) {
-  std::vector<PlacedGrains> placed;
+std::vector<coupling::PlacedGrains> grainsOnBed(const scene::Scene& scene, const std::vector<terrain::GrainSpec>& all) {
+  std::vector<coupling::PlacedGrains> placed;
   auto next = all.begin();
   const auto take = [&](const char* list, std::size_t number, std::int64_t count, std::optional<double> aboveBed) {
     placed.push_back({scene.placeOf(list, number), {next, next + count}, aboveBed});
@@ -223,18 +228,18 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   checkSurfacesBetweenSides(scene);
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
-  GroundSetup ground;
+  coupling::GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, SizeChecks::due);
   checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{}),
              timeStep);
 }
 
-GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, SizeChecks sizes) {
+coupling::GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, SizeChecks sizes) {
   checkCompany(scene);
   checkVehicleSurroundings(scene);
   checkSpeeds(scene, timeStep);
   checkSurfacesBetweenSides(scene);
-  GroundSetup ground;
+  coupling::GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, sizes);
   ground.obstacles = obstaclesOf(scene);
   const GrainKinds kinds = grainKinds(scene);
@@ -244,7 +249,7 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, S
   const std::vector<scene::Grain> placed = placedGrains(scene);
   checkStart(scene, placed, around, timeStep);
   ground.surfaces.assign(around.surfaces.begin(), around.surfaces.end());
-  GrainsSetup& grains = ground.grains.emplace();
+  coupling::GrainsSetup& grains = ground.grains.emplace();
   grains.model = grainModel(scene, kinds, timeStep, around, grains.boundaries);
   for (const Surroundings::Wall& wall : around.walls) grains.wallNames.push_back(wall.name);
   grains.manyKinds = kinds.many(), grains.materials = kinds.material;
@@ -258,8 +263,8 @@ GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, S
     grains.start.clear();
     if (isPutOnBed(scene)) {
       const scene::Scene alone = sceneOfBed(scene);
-      grains.bed->alone =
-          std::make_shared<const GroundSetup>(groundSetup(alone, chooseTimeStep(alone), ranks, SizeChecks::passed));
+      grains.bed->alone = std::make_shared<const coupling::GroundSetup>(
+          groundSetup(alone, chooseTimeStep(alone), ranks, SizeChecks::passed));
     }
   }
   grains.sources = sourcesOf(scene, timeStep);

@@ -2,6 +2,7 @@
 #include "runs/setup/lattice.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "terrain/partition.hpp"
 
 #include <fmt/format.h>

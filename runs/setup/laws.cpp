@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
+#include "runs/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

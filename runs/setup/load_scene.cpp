@@ -2,6 +2,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/table.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_space.hpp"
@@ -71,7 +72,7 @@ void requireFelt(const Section& section, const scene::Scene& scene, const SceneS
   if (scene.vehicle)
     section.fail("", "moves in a scene without grains, and a vehicle meets surfaces that rest alone; let it rest, or "
                      "remove it");
-  section.fail("", s.kind == SurfaceKind::plane
+  section.fail("", s.kind == coupling::SurfaceKind::plane
                        ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
                        : "stands in a scene without grains, and nothing else touches it; remove it");
 }

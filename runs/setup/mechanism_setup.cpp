@@ -3,6 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "base/rounded.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/mechanism_model.hpp"
 #include "runs/setup/time_scales.hpp"
 
@@ -26,15 +28,13 @@ constexpr double kStepsPerBounce = 20;
 constexpr double kManySteps = 1e6;
 /// Steps are printed and typed with some digits: 20 steps to a millionth are 20 [-].
 constexpr double kDigits = 1e-6;
-/// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
-constexpr double kRoundedRate = 1e-12;
 
 /// A mechanism at its start.
 struct Start {
   explicit Start(const scene::Scene& scene)
       : setup(mechanismSetup(scene)), state(multibody::makeState(setup.model)),
         loads(multibody::makeLoads(setup.model)), solver(setup.model, setup.solver) {
-    beginMotion(setup, solver, state, loads);
+    coupling::beginMotion(setup, solver, state, loads);
   }
   /// Shortest period of all springs and bushings against the masses [s]; infinite without any.
   double shortestSwing(std::string* spring) {
@@ -50,7 +50,7 @@ struct Start {
   /// The same of bodies that hang on taut joints and springs.
   double shortestTensionSwing() { return 2 * base::kPi / solver.geometricStiffnessRate(state, loads); }
 
-  const MechanismSetup setup;
+  const coupling::MechanismSetup setup;
   multibody::State state;
   multibody::Loads loads;
   multibody::Solver solver;
@@ -112,7 +112,8 @@ void checkTurns(const scene::Scene& scene, const multibody::Model& model, const 
       scene.fail("run", "time_step",
                  fmt::format("[s] turns body \"{}\" by {:.4g} rad a step at the start, above the {:.4g} rad of "
                              "run.steps_per_period = {:g} steps a turn: choose {} s or less, or \"auto\"",
-                             model.bodies()[b].name, rate * step, most, scene.run.stepsPerPeriod, atMost(most / rate)));
+                             model.bodies()[b].name, rate * step, most, scene.run.stepsPerPeriod,
+                             base::roundedDown(most / rate, 4)));
 }
 
 /// Throws InputError where a bounce off an end stop, half a swing, has too few steps.
@@ -126,8 +127,8 @@ void checkStops(const scene::Scene& scene, Start& start, double step) {
                          "which is {:.3g} steps and not {:g}, half of run.steps_per_period; choose {} s or less "
                          "(\"auto\": {} s), softer stops (stop_stiffness), run.tolerance instead of time_step, or "
                          "lower run.steps_per_period if you mean it",
-                         stop, bounce, bounce / step, wanted, atMost(bounce / wanted),
-                         atMost(automaticStep(scene).step)));
+                         stop, bounce, bounce / step, wanted, base::roundedDown(bounce / wanted, 4),
+                         base::roundedDown(automaticStep(scene).step, 4)));
 }
 
 /// Throws InputError where a damper would turn a velocity round in every step instead of braking it.
@@ -141,7 +142,8 @@ void checkDampers(const scene::Scene& scene, Start& start, double step) {
                          "it would change its direction in every step beyond {} s instead; choose that or less "
                          "(\"auto\": {} s), a weaker damper, or run.integrator = \"symplectic_euler\", which takes "
                          "dampers implicitly",
-                         damper, 0.5 * most, atMost(most), atMost(automaticStep(scene).step)));
+                         damper, 0.5 * most, base::roundedDown(most, 4),
+                         base::roundedDown(automaticStep(scene).step, 4)));
 }
 
 } // namespace
@@ -158,22 +160,13 @@ multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   return options;
 }
 
-MechanismSetup mechanismSetup(const scene::Scene& scene) {
-  MechanismSetup setup{
+coupling::MechanismSetup mechanismSetup(const scene::Scene& scene) {
+  coupling::MechanismSetup setup{
       buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, largestTurn(scene.run), {}, {}};
   for (const scene::BodySection& body : scene.mechanism.bodies) setup.boxes.push_back(body.box);
   if (scene.run.tolerance)
     setup.control = {*scene.run.tolerance, kLongestStep, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod)};
   return setup;
-}
-
-double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multibody::State& state,
-                   multibody::Loads& loads) {
-  loads.gravity = setup.gravity;
-  const bool imposed = std::any_of(setup.model.drives().begin(), setup.model.drives().end(),
-                                   [](const multibody::Drive& d) { return d.kind != multibody::DriveKind::kForce; });
-  if (!imposed && solver.velocityError(state) <= kRoundedRate) return 0;
-  return -solver.projectVelocities(state, loads);
 }
 
 double mechanismTimeStep(const scene::Scene& scene) {
@@ -208,7 +201,7 @@ std::string unresolvedSpring(const scene::Scene& scene) {
                      : scene.run.springs == multibody::Springs::kImplicit
                          ? "implicit springs are stable there, and show that swing too slow"
                          : "explicit springs are stable there, and show that swing too quick",
-                     atMost(swing / scene.run.stepsPerPeriod));
+                     base::roundedDown(swing / scene.run.stepsPerPeriod, 4));
 }
 
 /// Of "auto" where a damper alone asks for very many steps.

@@ -1,37 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/surface_setup.hpp"
+#include "coupling/obstacles.hpp"
 
-#include <cstddef>
-#include <functional>
-#include <optional>
 #include <vector>
+
+namespace grouser::scene {
+struct Scene;
+} // namespace grouser::scene
 
 namespace grouser::setup {
 
-/// A surface at rest as the parts of a vehicle meet it.
-struct Obstacle {
-  SurfaceSetup surface;
-  double friction{};                        ///< [-] of shoes, wheels and hull on it
-  std::optional<std::size_t> amongSurfaces; ///< its place among surfacesOf(); empty: a plane that is a wall to grains
-};
-
 /// Planes, boxes, cylinders and meshes of a scene that nothing moves; empty without a vehicle. Friction is that of
 /// vehicle.material and the surface's where the scene gives the vehicle one, else friction_ground of its file.
-std::vector<Obstacle> obstaclesOf(const scene::Scene& scene);
+std::vector<coupling::Obstacle> obstaclesOf(const scene::Scene& scene);
 
 /// Whether the hull of the scene's vehicle touches anything.
 bool hullTouches(const scene::Scene& scene);
-
-/// Height of the upper side of a plane, box, solid cylinder or mesh over (x, y) [m]; -infinity beside it, and of hollow
-/// cylinders and planes that look down or aside.
-double topOf(const SurfaceSetup& surface, double x, double y);
-
-/// Heights of a ground with the tops of those obstacles that stand on it or in it: their lowest point lies no more than
-/// 5 cm above the ground at their middle. What hangs or spans higher is no ground.
-std::function<double(double, double)> withObstacles(const std::function<double(double, double)>& ground,
-                                                    const std::vector<Obstacle>& obstacles);
 
 } // namespace grouser::setup

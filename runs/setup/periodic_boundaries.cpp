@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/periodic_boundaries.hpp"
 
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 
@@ -22,16 +23,6 @@ terrain::PeriodicBoundaries periodicBoundaries(const scene::Scene& scene) {
     if (run.domainY) sides[1] = *run.domainY;
   }
   return sides;
-}
-
-base::Vec3d toNearestImage(const terrain::PeriodicBoundaries& sides, base::Vec3d way) {
-  for (std::size_t a = 0; a < 2; ++a) {
-    if (!sides[a]) continue;
-    const double period = (*sides[a])[1] - (*sides[a])[0];
-    double& d = way[static_cast<int>(a)];
-    d -= period * std::floor(d / period + 0.5);
-  }
-  return way;
 }
 
 void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains) {
@@ -69,7 +60,7 @@ void checkSurfacesBetweenSides(const scene::Scene& scene) {
   if (!sides[0] && !sides[1]) return;
   const double largest = grainKinds(scene).largest;
   for (const SceneSurface& s : surfacesOf(scene))
-    if (const std::string fault = faultAtBoundaries(s, s.start, sides, largest); !fault.empty())
+    if (const std::string fault = coupling::faultAtBoundaries(s, s.start, sides, largest); !fault.empty())
       scene.fail(s.list(), s.number, "position", "[m]: it " + fault);
 }
 

@@ -4,10 +4,10 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
+#include "runs/scene/scene.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "vehicle/assembly.hpp"
-#include "vehicle/ground_plane.hpp"
 #include "vehicle/hull_clearance.hpp"
 #include "vehicle/part_masses.hpp"
 #include "vehicle/part_meshes.hpp"
@@ -68,7 +68,7 @@ vehicle::VehicleSpec vehicleSpec(const scene::Scene& scene) {
   return spec;
 }
 
-Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
+coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   const double heading = scene.vehicle->heading * base::kPi / 180;
   const std::optional<terrain::Rectangle> area = terrainArea(scene);
   if (!area) {
@@ -76,8 +76,8 @@ Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& sp
     return {place[0], place[1], heading};
   }
   const terrain::Rectangle f = footprint(spec, heading);
-  Placement p{along(base::cos(heading), f.xMin, f.xMax, area->xMin, area->xMax),
-              along(base::sin(heading), f.yMin, f.yMax, area->yMin, area->yMax), heading};
+  coupling::Placement p{along(base::cos(heading), f.xMin, f.xMax, area->xMin, area->xMax),
+                        along(base::sin(heading), f.yMin, f.yMax, area->yMin, area->yMax), heading};
   if (scene.vehicle->position) p.x = (*scene.vehicle->position)[0], p.y = (*scene.vehicle->position)[1];
   if (p.x + f.xMin < area->xMin || p.x + f.xMax > area->xMax || p.y + f.yMin < area->yMin || p.y + f.yMax > area->yMax)
     scene.fail(
@@ -146,17 +146,6 @@ void checkParts(const scene::Scene& scene) {
   for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})
     if (const std::optional<vehicle::SpecFault> fault = faultOf(spec, meshes))
       vehicle::refuse(scene.vehicle->source(), *fault);
-}
-
-base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,
-                   const std::function<double(double, double)>& surfaceHeight) {
-  const double c = base::cos(place.heading), s = base::sin(place.heading);
-  const vehicle::GroundPlane ground = vehicle::groundPlane(spec, place.x, place.y, c, s, surfaceHeight);
-  if (ground.ahead == 0 && ground.left == 0)
-    return vehicle::placeOnGround(spec, place.x, place.y, ground.top + clearance, 0, place.heading);
-  // The plane through the highest point, at the origin.
-  return vehicle::placeOnSlope(spec, place.x, place.y, ground.height + ground.highest, clearance, place.heading,
-                               ground.ahead, ground.left);
 }
 
 } // namespace grouser::setup

@@ -2,6 +2,7 @@
 #include "runs/setup/provenance.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/scene_surfaces.hpp"

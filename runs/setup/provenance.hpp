@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/scene/scene.hpp"
 #include "runs/scene/soil.hpp"
 
 #include <filesystem>
 #include <string>
 #include <vector>
+
+namespace grouser::scene {
+struct Scene;
+} // namespace grouser::scene
 
 namespace grouser::setup {
 

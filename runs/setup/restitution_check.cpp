@@ -3,6 +3,7 @@
 
 #include "base/rounded.hpp"
 #include "base/table.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"

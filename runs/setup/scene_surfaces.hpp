@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/surface_setup.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/setup/surface_setup.hpp"
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace grouser::setup {
 
 /// A surface with the section that it stands in.
-struct SceneSurface : SurfaceSetup {
+struct SceneSurface : coupling::SurfaceSetup {
   scene::SurfaceSection section;
 
   std::string list() const { return std::string(base::wordOf(kind)); } ///< "box" of [[box]]

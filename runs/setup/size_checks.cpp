@@ -2,6 +2,7 @@
 #include "runs/setup/size_checks.hpp"
 
 #include "runs/scene/bed_radii.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"

@@ -2,6 +2,7 @@
 #include "runs/setup/start_checks.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/sources.hpp"
@@ -79,7 +80,7 @@ public:
     for (std::size_t i = 0; i < around_.surfaces.size(); ++i) {
       const SceneSurface& s = around_.surfaces[i];
       if (s.aboveBed || (s.free && ball.time > 0)) continue;
-      if (const double depth = overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
+      if (const double depth = coupling::overlapAt(s, poseAt(i, ball.time), ball.position, ball.radius);
           isTooDeep(depth, ball.radius))
         refuse(ball, depth, fmt::format("{} {}", s.list(), s.number));
     }
@@ -94,7 +95,7 @@ private:
   base::Pose poseAt(std::size_t i, double time) const {
     const SceneSurface& s = around_.surfaces[i];
     if (!s.moves || time <= 0) return s.start;
-    const SurfaceMotion::State now = s.motion.at(time);
+    const coupling::SurfaceMotion::State now = s.motion.at(time);
     return {now.centre, now.turned * s.start.orientation};
   }
 
@@ -109,7 +110,7 @@ private:
         const Ball& other = balls_[j];
         if (ball.fixed && other.fixed) continue;
         const double depth =
-            ball.radius + other.radius - norm(toNearestImage(periodic_, ball.position - other.position));
+            ball.radius + other.radius - norm(terrain::toNearestImage(periodic_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
           refuse(ball, depth,
                  (other.setter == Setter::source ? fmt::format("one of source.{} ", other.number)
@@ -167,13 +168,13 @@ void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grai
   checkSources(scene);
   Placing placing(scene, around);
   placeStarting(scene, grains, placing);
-  const Sources sources = sourcesOf(scene, timeStep);
+  const coupling::Sources sources = sourcesOf(scene, timeStep);
   std::size_t checked = 0;
   for (auto step = sources.nextEntry(0); step && checked < kMostChecked; step = sources.nextEntry(*step + 1)) {
     const double time = static_cast<double>(*step) * timeStep;
     if (time > scene.run.duration) break;
     if (*step > 0) placing.forgetBalls();
-    for (const Sources::Batch& batch : sources.batchesAt(*step))
+    for (const coupling::Sources::Batch& batch : sources.batchesAt(*step))
       for (const terrain::GrainSpec& g : batch.grains) {
         placing.place({g.position, g.radius, Setter::source, batch.source, time});
         ++checked;

@@ -7,6 +7,7 @@
 #include "base/sphere.hpp"
 #include "base/table.hpp"
 #include "contact/restitution.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_contacts.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"

@@ -2,7 +2,9 @@
 #include "runs/setup/time_scales.hpp"
 
 #include "base/math.hpp"
+#include "base/rounded.hpp"
 #include "base/table.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/vehicle_setup.hpp"
 #include "vehicle/engine.hpp"
@@ -210,16 +212,11 @@ void checkTimeScales(const scene::Scene& scene, double timeStep) {
         "[{}] is under-resolved: steps of {:.4g} s are {:.3g} {} {}, fewer than run.steps_per_period = {:g}, "
         "and show another course than the one that is meant; set run.time_step to {} s or less (\"auto\" "
         "does){}, or lower run.steps_per_period if you mean it",
-        s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted, atMost(s.time / wanted),
+        s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted, base::roundedDown(s.time / wanted, 4),
         s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
   }
 }
 
 double largestTurn(const scene::RunSettings& run) { return 2 * base::kPi / run.stepsPerPeriod; }
-
-std::string atMost(double step) {
-  const std::string nearest = fmt::format("{:.4g}", step);
-  return std::strtod(nearest.c_str(), nullptr) <= step ? nearest : fmt::format("{:.4g}", 0.9995 * step);
-}
 
 } // namespace grouser::setup

@@ -37,7 +37,4 @@ void checkTimeScales(const scene::Scene& scene, double timeStep);
 /// The radians that a body or surface may turn in a step: a full turn in run.steps_per_period steps.
 double largestTurn(const scene::RunSettings& run);
 
-/// `step` to four digits, never above it.
-std::string atMost(double step);
-
 } // namespace grouser::setup

@@ -2,7 +2,9 @@
 #include "runs/setup/vehicle_setup.hpp"
 
 #include "base/math.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/obstacles.hpp"
+#include "runs/setup/placement.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
@@ -72,9 +74,9 @@ void removeVehicle(scene::Scene& scene) {
   scene.output.shoeForces = scene.output.gearContacts = false;
 }
 
-VehicleSetup vehicleSetup(const scene::Scene& scene) {
+coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
   const scene::Vehicle& v = *scene.vehicle;
-  VehicleSetup setup;
+  coupling::VehicleSetup setup;
   setup.spec = vehicleSpec(scene);
   if (scene.driver.drive == vehicle::SprocketDrive::engine && !setup.spec.engine)
     scene.fail(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/vehicle_surface.hpp"
 
+#include "runs/scene/scene.hpp"
 #include "vehicle/spec_file.hpp"
 
 namespace grouser::setup {

@@ -2,6 +2,7 @@
 #include "runs/setup/vehicle_surroundings.hpp"
 
 #include "base/math.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/scene_surfaces.hpp"
@@ -137,7 +138,7 @@ public:
         const double ground = ground_ ? ground_->height(p.x, p.y) : 0;
         for (int k = 0; k <= nz; ++k) {
           p.z = ground + kFree + radius + (c.height - kFree) * k / nz;
-          if (overlapAt(s, pose, p, radius) > 0) return true;
+          if (coupling::overlapAt(s, pose, p, radius) > 0) return true;
         }
       }
     return false;
@@ -166,7 +167,7 @@ private:
     base::Pose pose = s.start;
     if (!s.aboveBed || !ground_) return pose;
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
-    const double lowest = plane ? pose.position.z : boundsOf(s, pose).low.z;
+    const double lowest = plane ? pose.position.z : coupling::boundsOf(s, pose).low.z;
     pose.position.z += ground_->height(pose.position.x, pose.position.y) + *s.aboveBed - lowest;
     return pose;
   }
@@ -192,7 +193,7 @@ private:
 
   const scene::Scene& scene_;
   vehicle::VehicleSpec spec_;
-  Placement place_;
+  coupling::Placement place_;
   std::optional<terrain::HeightField> ground_;
   Corridor start_{};
 };
@@ -213,7 +214,7 @@ void checkVehicleSurroundings(const scene::Scene& scene) {
   for (const SceneSurface& s : all) {
     const bool atStart = course.meets(s, course.start());
     if (!atStart && !course.meets(s, course.way())) continue;
-    const std::string key = s.kind == SurfaceKind::plane ? "point" : "position";
+    const std::string key = s.kind == coupling::SurfaceKind::plane ? "point" : "position";
     scene.fail(
         s.list(), s.number, key,
         fmt::format("[m]: {} \"{}\" moves and stands {}; surfaces that move act on grains alone, and the vehicle "

@@ -7,6 +7,7 @@
 // CORPUS: files, or folders whose *.toml are taken. The mutations follow from the seed and the number of the case, so
 // that `--seed S --first CASE --cases 1` repeats one. With clang and GROUSER_LIBFUZZER libFuzzer makes the inputs.
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 

@@ -27,7 +27,7 @@ NARROW = {
     'runs/render': {'base', 'runs/support', 'runs/output'},
 }
 # Behind setup stands one SimulationSetup in a scene's place.
-BLIND = ['runs/simulation', 'runs/output', 'runs/render']
+BLIND = ['coupling', 'runs/output', 'runs/render']
 GENERATED = {'grouser_commit.hpp'}  # written by the build
 
 MAX_FILE_LINES = 500
@@ -45,7 +45,7 @@ STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp'
 UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')
 
 # Rooms that have a part in what a state becomes: elementary functions there are those of base/math.hpp.
-STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'runs/simulation']
+STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'coupling']
 LIBM = ('sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p pow '
         'cbrt hypot erf erfc tgamma lgamma fma sincos exp10 sinpi cospi rsqrt').split()
 # Who may speak to MPI: the ranks, and the file that HDF5 writes from all of them.

@@ -101,10 +101,10 @@ class Order(unittest.TestCase):
         for room in ('setup', 'studies', 'bench', 'commands'):
             files = {f'runs/{room}/x.cpp': '#include "runs/scene/scene.hpp"\nscene::Scene s;\n', **scene}
             self.assertEqual(faults(rules.order, files) + faults(rules.scenes, files), [], room)
-        self.assertEqual(faults(rules.scenes, {'runs/simulation/x.cpp': '// scene::Scene\nmy_scene::A a;\n'}), [])
+        self.assertEqual(faults(rules.scenes, {'coupling/x.cpp': '// scene::Scene\nmy_scene::A a;\n'}), [])
 
     def test_render_needs_no_physics(self):
-        for other in ('contact', 'terrain', 'runs/simulation', 'runs/setup'):
+        for other in ('contact', 'terrain', 'coupling', 'runs/setup'):
             files = {'runs/render/x.cpp': f'#include "{other}/y.hpp"\n', f'{other}/y.hpp': ''}
             self.assertEqual(len(faults(rules.order, files)), 1, other)
         for other in ('base', 'runs/support', 'runs/output'):

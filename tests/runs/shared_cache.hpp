@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/simulation/bed_cache.hpp"
-#include "runs/simulation/sphere_cache.hpp"
+#include "runs/storage/bed_cache.hpp"
+#include "runs/storage/sphere_cache.hpp"
 
 #include <cstdlib>
 #include <optional>
@@ -25,8 +25,8 @@ template <typename Cache> Cache* inSharedCache() {
 
 /// For simulations whose test is not about cutting parts, or settling beds; null where nothing is shared. What is taken
 /// has the bits of what would be cut or settled (KeptSpheres.*, KeptBeds.*, and the hashes of OneAnswer.*).
-inline simulation::SphereCache* sharedSpheres() { return inSharedCache<simulation::SphereCache>(); }
-inline simulation::BedCache* sharedBeds() { return inSharedCache<simulation::BedCache>(); }
+inline storage::SphereCache* sharedSpheres() { return inSharedCache<storage::SphereCache>(); }
+inline storage::BedCache* sharedBeds() { return inSharedCache<storage::BedCache>(); }
 
 /// Before a call of the program whose preparation is none of the test's claims.
 inline std::string withSharedCache() { return "export GROUSER_CACHE='" + sharedCache() + "'; "; }

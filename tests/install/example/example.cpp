@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/simulation_setup.hpp"
+
+#include "runs/scene/scene.hpp"
 #include <grouser/base/error.hpp>
 #include <grouser/runs/setup/load_scene.hpp>
 #include <grouser/runs/simulation/simulation.hpp>
@@ -12,8 +15,8 @@ int main(int count, char** words) {
   }
   try {
     const grouser::scene::Scene scene = grouser::setup::loadScene(words[1], {});
-    grouser::simulation::Simulation simulation(grouser::setup::simulationSetup(scene), grouser::base::cpuExec(1),
-                                               [](double, double) {});
+    grouser::coupling::Simulation simulation(grouser::setup::simulationSetup(scene), grouser::base::cpuExec(1),
+                                             [](double, double) {});
     while (simulation.time() < scene.run.duration) simulation.step();
     std::printf("state-hash %s step %lld\n", simulation.save().hash().c_str(),
                 static_cast<long long>(simulation.steps()));

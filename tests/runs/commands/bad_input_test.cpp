@@ -292,7 +292,7 @@ std::vector<Mistake> folders() {
   };
 }
 
-/// Checkpoints.
+/// session::Checkpoints.
 std::vector<Mistake> checkpoints() {
   return {
       badCheckpoint("CheckpointMissing", [](const fs::path& c) { fs::remove(c); }, {"checkpoint.h5", "no such file"}),

@@ -6,6 +6,8 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/support/locations.hpp"
 
+#include "runs/scene/scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,8 +57,8 @@ TEST(BedNotes, CountTheGrainsAtTheSurfaceOfABedThatIsCoarserBelow) {
                            "material = \"soil\"\ngrain_radius = 0.04\ndepth = 0.4\nfine_depth = 0.1\n"
                            "coarsening = 0.2\ncoarsest_radius = 0.07\nsettle_kinetic_energy = 0.3\n"
                            "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n";
-  const simulation::Simulation simulation(setup::simulationSetup(setup::parseScene(text, "scene.toml")),
-                                          base::cpuExec(2), [](double, double) {});
+  const coupling::Simulation simulation(setup::simulationSetup(setup::parseScene(text, "scene.toml")), base::cpuExec(2),
+                                        [](double, double) {});
   ASSERT_GT(simulation.ground().structure->meanDiameter, 0.085) << "of all";
   bool told = false;
   for (const std::string& note : bedNotes(simulation)) told |= note.find("a pad is 3.5 mean grains wide") == 0;
@@ -86,7 +88,7 @@ TEST(PorosityWarning, IsOneOfTheWarningsOfARunsBed) {
       "restitution = 0.3\nfriction = 0.5\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [0.4, 0.24]\n"
       "height_range = [0, 0]\nmaterial = \"m\"\ngrain_radius = 0.02\ndepth = 0.12\nporosity = 0.40\n",
       "scene.toml");
-  const simulation::Simulation simulation(setup::simulationSetup(scene), base::cpuExec(2), [](double, double) {});
+  const coupling::Simulation simulation(setup::simulationSetup(scene), base::cpuExec(2), [](double, double) {});
   const std::string porosity = porosityWarning(simulation);
   ASSERT_NE(porosity, "");
   const std::vector<std::string> warnings = bedWarnings(scene, simulation);

@@ -2,7 +2,7 @@
 // What the user sees of squeezed and crushed grains, and of soil that meets the shoes alone; on several ranks the same.
 #include "runs/support/hdf5_file.hpp"
 #include "tests/runs/ranks_fixture.hpp"
-#include "tests/runs/simulation/guard_scenes.hpp"
+#include "tests/system/guard_scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The guard's verdict is that of one rank: what it lets pass, when it stops, and which cause it names.
 #include "tests/runs/ranks_fixture.hpp"
-#include "tests/runs/simulation/guard_scenes.hpp"
+#include "tests/system/guard_scenes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "runs/commands/plan.hpp"
 
 #include "base/math.hpp"
-#include "runs/forecast/elastic_layer.hpp"
+#include "runs/campaigns/forecast/elastic_layer.hpp"
 #include "runs/setup/load_scene.hpp"
 
 #include <fmt/format.h>

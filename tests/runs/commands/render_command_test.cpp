@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
 #include "runs/commands/render_command.hpp"
+#include "runs/jobs/shared_work.hpp"
 #include "runs/output/frames_file.hpp"
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
 #include "runs/render/labels.hpp"
-#include "runs/support/shared_work.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -291,7 +291,7 @@ TEST_F(SharedWork, EveryPieceIsDoneOnceWhoeverDoesIt) {
     const fs::path folder = folder_ / std::to_string(processes);
     fs::create_directories(folder);
     int done = 0;
-    support::shareWork(
+    jobs::shareWork(
         processes, 5,
         [&](std::size_t i) { std::ofstream(folder / std::to_string(i), std::ios::app) << getpid() << '\n'; },
         [&] { ++done; });
@@ -319,7 +319,7 @@ TEST_F(SharedWork, WhoHasALongPieceLeavesTheOthersToTheRest) {
     }
     std::ofstream(folder_ / std::to_string(i)) << i;
   };
-  support::shareWork(2, 4, waits, [] {});
+  jobs::shareWork(2, 4, waits, [] {});
   EXPECT_TRUE(isThere(0));
 }
 
@@ -329,17 +329,16 @@ TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
     if (i != 0) usleep(20'000'000); // far beyond the test's time: it must be ended
   };
   const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < 20; ++k)
-    EXPECT_EQ(messageOf([&] { support::shareWork(3, 3, failing, [] {}); }), "piece 1 is bad");
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(messageOf([&] { jobs::shareWork(3, 3, failing, [] {}); }), "piece 1 is bad");
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)); // nobody was waited for
-  EXPECT_THROW(support::shareWork(
+  EXPECT_THROW(jobs::shareWork(
                    2, 2,
                    [](std::size_t i) {
                      if (i) std::raise(SIGKILL);
                    },
                    [] {}),
                std::runtime_error);
-  EXPECT_THROW(support::shareWork(
+  EXPECT_THROW(jobs::shareWork(
                    2, 2,
                    [](std::size_t i) {
                      if (i) _exit(0);

@@ -4,7 +4,9 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
-#include "runs/simulation/checkpoint.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/storage/checkpoint.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "tests/runs/folder_fixture.hpp"
@@ -83,14 +85,14 @@ protected:
 
   output::Summary run(const fs::path& folder, const scene::Scene& scene, std::optional<std::int64_t> steps = {},
                       bool force = false) {
-    RunRequest options;
+    session::RunRequest options;
     options.folder = folder, options.hash = true, options.steps = steps, options.force = force;
     return runScene(scene, setup::provenanceOf(scene), options);
   }
   output::Summary resume(const scene::Scene& scene, std::optional<std::int64_t> steps = {}, bool force = false) {
-    RunRequest options;
+    session::RunRequest options;
     options.folder = resumed_, options.hash = true, options.steps = steps, options.force = force;
-    options.resume = resumed_ / simulation::kCheckpointName;
+    options.resume = resumed_ / storage::kCheckpointName;
     return runScene(scene, setup::provenanceOf(scene), options);
   }
   /// Hash of the run straight through, in folder "straight".
@@ -115,8 +117,8 @@ protected:
         EXPECT_EQ(p.numbers(dataset), q.numbers(dataset)) << dataset;
       }
     EXPECT_FALSE(p.has("/000008"));
-    const simulation::Checkpoint c = simulation::readCheckpoint(resumed_ / simulation::kCheckpointName),
-                                 d = simulation::readCheckpoint(whole / simulation::kCheckpointName);
+    const storage::Checkpoint c = storage::readCheckpoint(resumed_ / storage::kCheckpointName),
+                              d = storage::readCheckpoint(whole / storage::kCheckpointName);
     EXPECT_EQ(c.state.hash(), d.state.hash());
     EXPECT_EQ(c.rows, d.rows);
     EXPECT_EQ(c.frames, d.frames);
@@ -137,10 +139,10 @@ TEST_F(ResumedRun, BedStoppedBetweenRowsEndsAsIfItHadNotBeenStopped) {
 TEST_F(ResumedRun, RowsAndFramesAfterTheCheckpointAreCut) {
   const std::string hash = straight();
   run(resumed_, bed(), 850);
-  fs::copy(resumed_ / simulation::kCheckpointName, folder_ / "earlier.h5");
+  fs::copy(resumed_ / storage::kCheckpointName, folder_ / "earlier.h5");
   resume(bed(), 1710);
   // As after a kill at step 1710 or later whose last checkpoint was of step 850.
-  fs::rename(folder_ / "earlier.h5", resumed_ / simulation::kCheckpointName);
+  fs::rename(folder_ / "earlier.h5", resumed_ / storage::kCheckpointName);
   EXPECT_EQ(resume(bed()).stateHash, hash);
   expectSameFolders();
 }
@@ -162,7 +164,7 @@ TEST_F(ResumedRun, KilledRunGoesOnFromItsLastCheckpoint) {
   if (child == 0) {
     // A step of this bed takes well under a millisecond: the run is cut at an arbitrary place.
     std::thread([this] {
-      while (!fs::exists(resumed_ / simulation::kCheckpointName)) usleep(200);
+      while (!fs::exists(resumed_ / storage::kCheckpointName)) usleep(200);
       usleep(30'000);
       kill(getpid(), SIGKILL);
     }).detach();
@@ -243,15 +245,15 @@ TEST_F(ResumedRun, WhatIsRefusedTouchesNothing) {
   const auto before = snapshot(resumed_);
   EXPECT_THROW(resume(bed({"run.seed=2"})), base::InputError) << "another scene";
   EXPECT_THROW(resume(bed(), 899), base::InputError) << "beyond the end";
-  const std::string whole = before.at(simulation::kCheckpointName);
+  const std::string whole = before.at(storage::kCheckpointName);
   const auto put = [&](const char* name, const std::string& bytes) {
     std::ofstream(resumed_ / name, std::ios::binary) << bytes;
     return snapshot(resumed_);
   };
-  const auto damaged = put(simulation::kCheckpointName, whole.substr(0, whole.size() - 100));
+  const auto damaged = put(storage::kCheckpointName, whole.substr(0, whole.size() - 100));
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), damaged);
-  put(simulation::kCheckpointName, whole);
+  put(storage::kCheckpointName, whole);
   const auto noRows = put("results.h5", before.at("results.h5").substr(0, 3000));
   EXPECT_THROW(resume(bed()), base::InputError);
   EXPECT_EQ(snapshot(resumed_), noRows);
@@ -289,13 +291,13 @@ TEST_F(ResumedRun, UnsoundRunKeepsItsLastSoundCheckpoint) {
   } catch (const base::SimulationError& error) {
     EXPECT_NE(std::string(error.what()).find("checkpoint.h5, step 4000"), std::string::npos) << error.what();
   }
-  EXPECT_EQ(simulation::readCheckpoint(resumed_ / simulation::kCheckpointName).state.steps, 4000);
+  EXPECT_EQ(storage::readCheckpoint(resumed_ / storage::kCheckpointName).state.steps, 4000);
 }
 
 TEST_F(ResumedRun, NewRunByForceTakesTheFormerCheckpointAway) {
   run(resumed_, bed(), 900);
   EXPECT_THROW(run(resumed_, unsound("0"), {}, true), base::SimulationError);
-  const auto left = simulation::readCheckpoint(resumed_ / simulation::kCheckpointName).state.grains;
+  const auto left = storage::readCheckpoint(resumed_ / storage::kCheckpointName).state.grains;
   ASSERT_TRUE(left);
   EXPECT_EQ(left->total, 1) << "it would be of the bed that was run before";
 }

@@ -2,7 +2,7 @@
 // Unsound scenes stop, before the run or in it, and the message names the true cause.
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
-#include "tests/runs/simulation/guard_scenes.hpp"
+#include "tests/system/guard_scenes.hpp"
 
 #include <gtest/gtest.h>
 

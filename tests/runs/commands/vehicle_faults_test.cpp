@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vehicles that cannot be, told by the program before it runs; vehicles that can, which run; sinkage from frames.
 #include "base/error.hpp"
+#include "coupling/simulation.hpp"
 #include "runs/render/image.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "runs/simulation/simulation.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/shared_cache.hpp"
@@ -112,7 +113,7 @@ class SoundVehicle : public ::testing::TestWithParam<Sound> {};
 /// the track is tightened (0.15 s) nothing moves faster than slack is taken up.
 TEST_P(SoundVehicle, RunsWithoutABlow) {
   const SpecVariant variant(GetParam().changes);
-  simulation::Simulation simulation(
+  coupling::Simulation simulation(
       setup::simulationSetup(setup::parseScene(rigidScene(variant.path()), GROUSER_SOURCE_DIR "/tests/scenes/x.toml")),
       testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
   double fastest = 0;

@@ -9,6 +9,7 @@
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
+#include "runs/setup/provenance.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -5,8 +5,9 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "coupling/mechanism.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "runs/simulation/mechanism.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,11 +45,11 @@ public:
   const std::vector<double>& all(const std::string& path) const { return columns_.at(path); }
   double operator()(const std::string& path) const { return all(path).at(0); }
   Vec3d vector(const std::string& path) const { return {all(path).at(0), all(path).at(1), all(path).at(2)}; }
-  simulation::Mechanism& mechanism() { return mechanism_; }
+  coupling::Mechanism& mechanism() { return mechanism_; }
 
 private:
-  setup::MechanismSetup setup_;
-  simulation::Mechanism mechanism_;
+  coupling::MechanismSetup setup_;
+  coupling::Mechanism mechanism_;
   std::map<std::string, std::vector<double>> columns_;
 };
 

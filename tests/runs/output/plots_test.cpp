@@ -4,6 +4,7 @@
 
 #include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"
+#include "runs/setup/provenance.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 

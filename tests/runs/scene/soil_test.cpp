@@ -9,7 +9,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "runs/simulation/checkpoint.hpp"
+#include "runs/storage/checkpoint.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
@@ -340,13 +340,13 @@ TEST_F(Soils, ASettledBedIsKnownByItsValuesNotByTheSoilsName) {
 TEST_F(Soils, ResumedRunsNeedTheSameSoil) {
   const std::string text = grainOf("a", 0.01, "[material.a]\nsoil = \"mine.toml\"\n");
   put(folder_ / "mine.toml", kLoam);
-  simulation::Checkpoint c;
+  storage::Checkpoint c;
   c.scene = resolvedToml(parse(text)), c.inputs = setup::inputsOf(parse(text));
   put(folder_ / "copy.toml", kLoam);
   const Scene copied = parse(text, {"material.a.soil=copy.toml"});
-  EXPECT_NO_THROW(simulation::checkSameScene(c, "c.h5", setup::provenanceOf(copied))) << "by its bytes";
+  EXPECT_NO_THROW(storage::checkSameScene(c, "c.h5", setup::provenanceOf(copied))) << "by its bytes";
   put(folder_ / "mine.toml", std::string(kLoam) + "# a remark\n");
-  EXPECT_THROW(simulation::checkSameScene(c, "c.h5", setup::provenanceOf(parse(text))), base::InputError);
+  EXPECT_THROW(storage::checkSameScene(c, "c.h5", setup::provenanceOf(parse(text))), base::InputError);
 }
 
 TEST(AssetSoils, AreReadAndSayTheirSources) {

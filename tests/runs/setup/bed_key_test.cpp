@@ -2,6 +2,7 @@
 // Which keys of a scene are part of the key of its kept bed: every key of every section, one after the other, against
 // a list that was gone through by hand. A key that cannot move a grain while the bed settles must not make another bed;
 // one that can must.
+#include "runs/scene/scene.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -442,7 +443,7 @@ TEST(PutBesideAVehicle, ThePieceOfTheBedHasNoHitchAndNoStop) {
         if (prepared) overrides.insert(overrides.end(), {tiled, flat, porous, deep});
         const scene::Scene scene =
             scene::readSceneText(sceneText(hitch + "[stop]\ndistance = 2\n" + put), "bed.toml", overrides);
-        GroundSetup ground;
+        coupling::GroundSetup ground;
         ASSERT_NO_THROW(ground = groundSetup(scene, chooseTimeStep(scene))) << hitch << put;
         ASSERT_TRUE(ground.grains->bed->alone);
         const scene::Scene without = scene::readSceneText(sceneText(put), "bed.toml", overrides);

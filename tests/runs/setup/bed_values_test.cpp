@@ -6,6 +6,7 @@
 #include "runs/setup/simulation_setup.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ scene::Scene bed(const std::string& more, const char* size = "0.8, 0.8", const c
 
 TEST(BedValues, SideWallsAreSmoothUnlessTheirFrictionIsGiven) {
   for (const auto& [more, friction] : {std::pair{"", 0.0}, {"wall_friction = 0.3\n", 0.3}}) {
-    const GroundSetup ground = groundSetup(bed(more), 1e-5);
+    const coupling::GroundSetup ground = groundSetup(bed(more), 1e-5);
     const terrain::Boundaries& around = ground.grains->boundaries;
     ASSERT_EQ(around.walls.size(), 4u);
     for (const terrain::Wall& wall : around.walls) EXPECT_EQ(wall.law.friction, friction);

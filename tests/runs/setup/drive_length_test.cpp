@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/math.hpp"
+#include "runs/scene/scene.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include "tests/message_of.hpp"
 #include "tests/png_fixture.hpp"
 
+#include "runs/scene/scene.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -65,7 +66,7 @@ TEST_F(FloorPlaces, FlatFloorBelowABedCountsAsOne) {
 
 TEST_F(FloorPlaces, PlannedMemoryHasTheSpringsOfTheRun) {
   const auto springs = [](const scene::Scene& scene) {
-    const GroundSetup ground = groundSetup(scene, 1e-5);
+    const coupling::GroundSetup ground = groundSetup(scene, 1e-5);
     return terrain::GrainConstants(ground.grains->model, ground.grains->boundaries, {}).springsWidth();
   };
   const scene::Scene hollow = valley(kHeight, 2), gentle = valley(0.001, 2);

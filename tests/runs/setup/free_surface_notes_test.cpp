@@ -6,6 +6,7 @@
 #include "base/sphere.hpp"
 #include "contact/restitution.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 
 #include <fmt/format.h>

@@ -2,13 +2,15 @@
 // Laws, radii, materials and blocks of grains, from the scene to the run.
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "coupling/simulation.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "runs/simulation/simulation.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
@@ -184,13 +186,13 @@ TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {
   for (const std::string precision : {"single", "double"}) {
     const scene::Scene s = parse(kMixed, {"run.precision=" + precision});
     const auto quiet = [](double, double) {};
-    simulation::Simulation one(simulationSetup(s), base::cpuExec(1), quiet),
+    coupling::Simulation one(simulationSetup(s), base::cpuExec(1), quiet),
         two(simulationSetup(s), base::cpuExec(2), quiet);
     EXPECT_EQ(one.ground().grains->system().constants.features & contact::kRollingFriction, contact::kRollingFriction);
     for (int i = 0; i < 300; ++i) one.step(), two.step();
-    const simulation::SimulationState saved = one.save();
+    const coupling::SimulationState saved = one.save();
     EXPECT_EQ(one.stateHash(), two.stateHash());
-    simulation::Simulation resumed(simulationSetup(s), base::cpuExec(1), saved);
+    coupling::Simulation resumed(simulationSetup(s), base::cpuExec(1), saved);
     for (int i = 0; i < 200; ++i) one.step(), resumed.step();
     EXPECT_EQ(one.stateHash(), resumed.stateHash());
     const auto ledger = one.ledger();

@@ -5,13 +5,15 @@
 #include "base/random.hpp"
 #include "base/sphere.hpp"
 #include "contact/restitution.hpp"
+#include "coupling/simulation.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/meeting_pairs.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "runs/simulation/simulation.hpp"
 #include "tests/message_of.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -141,7 +143,7 @@ TEST(Restitution, BallThatIsCriticallyDampedFollowsTheClosedForm) {
   double errors[2];
   for (int k = 0; k < 2; ++k) {
     const double dt = 1e-5 / (k + 1);
-    simulation::Simulation ball(
+    coupling::Simulation ball(
         simulationSetup(parsed(kBall, {"material.soil.restitution=0", "material.soil.attraction=true",
                                        "run.precision=double", fmt::format("run.time_step={}", dt)})),
         base::cpuExec(1), [](double, double) {});

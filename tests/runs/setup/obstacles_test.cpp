@@ -3,6 +3,7 @@
 #include "runs/setup/obstacles.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -42,7 +43,7 @@ TEST(Obstacles, WhatMovesWhereThereAreNoGrainsIsRefused) {
 }
 
 TEST(Obstacles, AreWhatRests) {
-  const std::vector<Obstacle> all =
+  const std::vector<coupling::Obstacle> all =
       obstaclesOf(sceneWith("[[plane]]\npoint = [0, 3, 0]\nnormal = [0, -1, 0]\nmaterial = \"steel\"\n" + box() +
                             "[[grain]]\nposition = [9, 0, 3]\nradius = 0.1\nmaterial = \"steel\"\n[[cylinder]]\n"
                             "position = [9, 9, 0]\nradius = 1\nlength = 1\nmaterial = \"steel\"\n"
@@ -72,63 +73,65 @@ TEST(Obstacles, TheHullTouchesOnRigidGroundUnlessItIsSaid) {
   EXPECT_TRUE(hullTouches(sceneWith("", "hull_touches = \"auto\"\n")));
 }
 
-SurfaceSetup only(const std::string& section) { return surfacesOf(sceneWith(section)).front(); }
+coupling::SurfaceSetup only(const std::string& section) { return surfacesOf(sceneWith(section)).front(); }
 
 TEST(TopOf, ABoxThatIsTurned) {
-  const SurfaceSetup ramp =
+  const coupling::SurfaceSetup ramp =
       only("[[box]]\nposition = [5, 0, 0]\nsize = [4, 2, 1]\naxis = [0, 1, 0]\nangle = -30\nmaterial = \"ice\"\n");
   const double slope = std::tan(std::acos(-1.0) / 6), up = 0.5 / std::cos(std::acos(-1.0) / 6);
-  for (const double x : {-1.0, 0.0, 0.7}) EXPECT_NEAR(topOf(ramp, 5 + x, 0.3), up + slope * x, 1e-12);
-  EXPECT_EQ(topOf(ramp, 5, 1.01), -INFINITY) << "beside it";
-  EXPECT_EQ(topOf(ramp, 7.1, 0), -INFINITY) << "beyond its end";
+  for (const double x : {-1.0, 0.0, 0.7}) EXPECT_NEAR(coupling::topOf(ramp, 5 + x, 0.3), up + slope * x, 1e-12);
+  EXPECT_EQ(coupling::topOf(ramp, 5, 1.01), -INFINITY) << "beside it";
+  EXPECT_EQ(coupling::topOf(ramp, 7.1, 0), -INFINITY) << "beyond its end";
 }
 
 TEST(TopOf, ALogAndAPost) {
-  const SurfaceSetup log =
+  const coupling::SurfaceSetup log =
       only("[[cylinder]]\nposition = [5, 0, 0.1]\naxis = [0, 1, 0]\nradius = 0.3\nlength = 2\nmaterial = \"ice\"\n");
-  EXPECT_NEAR(topOf(log, 5.18, 0.9), 0.1 + 0.24, 1e-12);
-  EXPECT_EQ(topOf(log, 5.31, 0), -INFINITY);
-  EXPECT_EQ(topOf(log, 5, 1.01), -INFINITY);
-  const SurfaceSetup post =
+  EXPECT_NEAR(coupling::topOf(log, 5.18, 0.9), 0.1 + 0.24, 1e-12);
+  EXPECT_EQ(coupling::topOf(log, 5.31, 0), -INFINITY);
+  EXPECT_EQ(coupling::topOf(log, 5, 1.01), -INFINITY);
+  const coupling::SurfaceSetup post =
       only("[[cylinder]]\nposition = [5, 0, 0.5]\nradius = 0.3\nlength = 1\nmaterial = \"ice\"\n");
-  EXPECT_NEAR(topOf(post, 5.2, 0.2), 1, 1e-12);
-  EXPECT_EQ(topOf(post, 5.25, 0.25), -INFINITY);
-  EXPECT_EQ(topOf(only("[[cylinder]]\nposition = [5, 0, 0.5]\nradius = 3\nlength = 1\nhollow = true\n"
-                       "material = \"ice\"\n"),
-                  5, 0),
+  EXPECT_NEAR(coupling::topOf(post, 5.2, 0.2), 1, 1e-12);
+  EXPECT_EQ(coupling::topOf(post, 5.25, 0.25), -INFINITY);
+  EXPECT_EQ(coupling::topOf(only("[[cylinder]]\nposition = [5, 0, 0.5]\nradius = 3\nlength = 1\nhollow = true\n"
+                                 "material = \"ice\"\n"),
+                            5, 0),
             -INFINITY)
       << "an arena is no ground";
 }
 
 TEST(TopOf, PlanesThatLookUp) {
-  const SurfaceSetup ramp =
+  const coupling::SurfaceSetup ramp =
       only("[[plane]]\npoint = [5, 0, 0]\nnormal = [-1, 0, 2]\nmaterial = \"ice\"\nname = \"ramp\"\n");
-  EXPECT_NEAR(topOf(ramp, 7, 1), 1, 1e-12);
-  EXPECT_NEAR(topOf(ramp, 3, 1), -1, 1e-12);
+  EXPECT_NEAR(coupling::topOf(ramp, 7, 1), 1, 1e-12);
+  EXPECT_NEAR(coupling::topOf(ramp, 3, 1), -1, 1e-12);
   for (const char* normal : {"[-1, 0, 0]", "[0, 0, -1]"})
-    EXPECT_EQ(topOf(only(fmt::format("[[plane]]\npoint = [5, 0, 0]\nnormal = {}\nmaterial = \"ice\"\nname = \"wall\"\n",
-                                     normal)),
-                    6, 0),
+    EXPECT_EQ(coupling::topOf(
+                  only(fmt::format("[[plane]]\npoint = [5, 0, 0]\nnormal = {}\nmaterial = \"ice\"\nname = \"wall\"\n",
+                                   normal)),
+                  6, 0),
               -INFINITY);
 }
 
 TEST(TopOf, AMeshIsItsTriangles) {
-  const SurfaceSetup hull =
+  const coupling::SurfaceSetup hull =
       only("[[mesh]]\nfile = \"meshes/chassis.obj\"\nposition = [5, 0, 1]\naxis = [0, 0, 1]\nangle = 90\n"
            "material = \"ice\"\nsphere_radius = 0.05\n");
-  EXPECT_NEAR(topOf(hull, 5, 1), 1.75, 1e-12) << "its deck";
-  EXPECT_NEAR(topOf(hull, 5 + 0.3, 2.8), 1 + 0.3 + 0.1 * 0.2, 1e-6) << "on the glacis, 0.05 m before its lower edge";
-  EXPECT_EQ(topOf(hull, 6.3, 1), -INFINITY);
+  EXPECT_NEAR(coupling::topOf(hull, 5, 1), 1.75, 1e-12) << "its deck";
+  EXPECT_NEAR(coupling::topOf(hull, 5 + 0.3, 2.8), 1 + 0.3 + 0.1 * 0.2, 1e-6)
+      << "on the glacis, 0.05 m before its lower edge";
+  EXPECT_EQ(coupling::topOf(hull, 6.3, 1), -INFINITY);
 }
 
 TEST(WithObstacles, WhatStandsIsGroundAndWhatHangsIsNot) {
   const auto ground = [](double, double) { return 0.1; };
-  const auto heights = withObstacles(ground, obstaclesOf(sceneWith(box())));
+  const auto heights = coupling::withObstacles(ground, obstaclesOf(sceneWith(box())));
   EXPECT_EQ(heights(5, 0), 0.2);
   EXPECT_EQ(heights(6.01, 0), 0.1);
   std::string roof = box();
   roof.replace(roof.find("0.1]"), 4, "2.1]");
-  EXPECT_EQ(withObstacles(ground, obstaclesOf(sceneWith(roof)))(5, 0), 0.1);
+  EXPECT_EQ(coupling::withObstacles(ground, obstaclesOf(sceneWith(roof)))(5, 0), 0.1);
 }
 
 TEST(Obstacles, AMeshBesideAVehicleOnGrainsIsRefused) {

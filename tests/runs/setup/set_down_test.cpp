@@ -9,6 +9,7 @@
 #include "vehicle/assembly.hpp"
 #include "vehicle/spec_file.hpp"
 
+#include "runs/scene/scene.hpp"
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -49,7 +50,7 @@ double clearanceOver(const base::Pose& pose, const std::function<double(double, 
 }
 
 TEST(SetDown, OnLevelGround_StandsLevel) {
-  const base::Pose pose = setDown(spec(), {1, 2, 0.3}, 0.002, [](double, double) { return 0.7; });
+  const base::Pose pose = coupling::setDown(spec(), {1, 2, 0.3}, 0.002, [](double, double) { return 0.7; });
   const base::Pose level = vehicle::placeOnGround(spec(), 1, 2, 0.702, 0, 0.3);
   EXPECT_EQ(pose.position, level.position);
   EXPECT_EQ(pose.orientation.w, level.orientation.w);
@@ -61,7 +62,7 @@ TEST(SetDown, OnASlope_LiesAlongIt) {
   for (const double heading : {0.0, 0.8, -2.0}) {
     const double a = 0.12, b = 0.1763;
     const auto ground = [&](double x, double y) { return 0.2 + a * x + b * y; };
-    const base::Pose pose = setDown(spec(), {2, 1, heading}, 0.002, ground);
+    const base::Pose pose = coupling::setDown(spec(), {2, 1, heading}, 0.002, ground);
     const Vec3d up = rotate(pose.orientation, {0, 0, 1}), ahead = rotate(pose.orientation, {1, 0, 0});
     const double n = std::sqrt(1 + a * a + b * b);
     EXPECT_NEAR(up.x, -a / n, 1e-12);
@@ -76,7 +77,7 @@ TEST(SetDown, OnASlope_LiesAlongIt) {
 TEST(SetDown, OnAMereSideSlope_LiesAlongIt) {
   for (const double slope : {0.1763, -0.1}) {
     const auto ground = [&](double, double y) { return slope * y; };
-    const base::Pose pose = setDown(spec(), {2, 0.5, 0}, 0.002, ground);
+    const base::Pose pose = coupling::setDown(spec(), {2, 0.5, 0}, 0.002, ground);
     const Vec3d up = rotate(pose.orientation, {0, 0, 1});
     EXPECT_NEAR(up.x, 0, 1e-12);
     EXPECT_NEAR(up.y, -slope / std::sqrt(1 + slope * slope), 1e-12);
@@ -90,7 +91,7 @@ TEST(SetDown, OverARidge_IsClearOfItsTop) {
     const double d = (x - 3.2) / 0.3;
     return 0.05 * y + (d * d < 1 ? 0.06 * (1 - d * d) : 0.0);
   };
-  const base::Pose pose = setDown(spec(), {2, 0, 0}, 0.002, ground);
+  const base::Pose pose = coupling::setDown(spec(), {2, 0, 0}, 0.002, ground);
   const double clear = clearanceOver(pose, ground);
   EXPECT_LT(clear, 0.0022);
   EXPECT_GT(clear, 0.0015); // its grid is 55 mm wide: the top lies between two points, 0.06 (0.027 / 0.3)^2 = 0.5 mm

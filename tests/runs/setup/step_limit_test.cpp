@@ -6,6 +6,7 @@
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/vehicle/spec_variant.hpp"
 #include "vehicle/spec_file.hpp"

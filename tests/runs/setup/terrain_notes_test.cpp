@@ -6,6 +6,7 @@
 #include "runs/setup/provenance.hpp"
 
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "tests/png_fixture.hpp"
 
 #include <fmt/format.h>

@@ -6,6 +6,7 @@
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/time_scales.hpp"
 
+#include "runs/scene/scene.hpp"
 #include "tests/vehicle/spec_variant.hpp"
 
 #include <gtest/gtest.h>

@@ -5,6 +5,7 @@
 #include "runs/setup/placement.hpp"
 
 #include "base/math.hpp"
+#include "runs/scene/scene.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -80,7 +81,7 @@ TEST(PairLawValues, EnergiesOfAdhesionGrowWithTheRadiusWhereAMaterialSaysSo) {
 TEST(PlacementValues, HeadingIsInDegreesAndTheTerrainReachesToBothSides) {
   const scene::Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
                                        {"vehicle.heading=30", "vehicle.position=[4, -0.5]", "terrain.size=[9, 8]"});
-  const Placement place = placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()));
+  const coupling::Placement place = placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()));
   EXPECT_NEAR(place.heading, base::kPi / 6, 1e-15);
   EXPECT_EQ(place.x, 4);
   EXPECT_EQ(place.y, -0.5);

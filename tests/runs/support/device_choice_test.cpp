@@ -3,7 +3,7 @@
 #include "runs/support/device_choice.hpp"
 
 #include "base/error.hpp"
-#include "runs/support/shared_work.hpp"
+#include "runs/jobs/shared_work.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST_F(FirstGpu, DiffersAmongProcessesThatShareWork) {
     for (int look = 0; look < 1000 && found().size() < 3; ++look)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
   };
-  shareWork(3, 3, work, [] {});
+  jobs::shareWork(3, 3, work, [] {});
   EXPECT_EQ(found(), (std::set<std::string>{"1", "2", "3"}));
 }
 

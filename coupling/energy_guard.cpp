@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/energy_guard.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::coupling {
+
+namespace {
+
+/// What is no alarm whatever was exchanged [J]: rounding, what is small beside the whole run, and what springs hide.
+double neverAlarms(const Ledger& now, double held, double hidden) {
+  return EnergyGuard::kRounding * held + EnergyGuard::kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
+         hidden;
+}
+
+} // namespace
+
+EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
+  Exchange x;
+  const double taken = now.dissipated.total() - last_.dissipated;
+  x.lost = now.integrationError - last_.error;
+  x.gained = std::min(-x.lost, -x.lost - taken);
+  x.given = std::min(-taken, -taken - x.lost);
+  x.taken = taken;
+  x.heat = taken - std::min(0.0, now.dissipated.ofGrains() - last_.ofGrains);
+  x.moved = now.turnover - last_.turnover + std::fabs(taken) + std::fabs(now.driveWork - last_.driveWork);
+  x.neverAlarms = neverAlarms(now, held, kSpringShare * std::fabs(now.elastic - last_.elastic));
+  return x;
+}
+
+std::string EnergyGuard::judge(const Ledger& now, double held) const {
+  const Exchange x = since(now, held);
+  if (!std::isfinite(x.lost) || !std::isfinite(x.moved)) return "the energies are no numbers any more";
+  const auto found = [&](const char* what, double energy) {
+    return fmt::format("{} {:.3g} J since the last look {} steps ago at most, in which {:.3g} J were exchanged", what,
+                       energy, kInterval, x.moved);
+  };
+  if (x.lost > kMostLost * x.moved + x.neverAlarms) return found("the steps have lost", x.lost);
+  if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMostChurned * x.moved + x.neverAlarms)
+    return found("the steps have made", -x.lost);
+  if (x.given > kMostGiven * x.moved + x.neverAlarms)
+    return found("steps too long for dampers have let these make", x.given);
+  return judgeHeat(now, held);
+}
+
+std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
+  if (now.dissipated.parts <= now.dissipated.ofGrains()) return {}; // sliding grains book what their steps make
+  const Exchange x = since(now, held);
+  // A large bed breathes before a vehicle has dissipated much, and its dashpots then seem to give what parts take.
+  if (-x.lost > kMostMade * (x.heat + x.lost) + x.neverAlarms)
+    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
+                       "most",
+                       -x.lost, x.heat, kInterval);
+  const double all = now.dissipated.total() - std::min(0.0, now.dissipated.ofGrains()), made = -now.integrationError;
+  const double bed = std::max(mostInGrains_, std::fabs(now.grainElastic));
+  const double hidden = std::clamp(kMostHidden * now.dissipated.parts, kBreath * bed, kSpringShare * bed);
+  if (std::max(all, made) <= kAtTheStart * held) return {};
+  if (made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
+    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
+  return {};
+}
+
+void EnergyGuard::look(const Ledger& now) {
+  last_ = {now.integrationError, now.turnover, now.dissipated.total(),
+           now.driveWork,        now.elastic,  now.dissipated.ofGrains()};
+  mostInGrains_ = std::max(mostInGrains_, std::fabs(now.grainElastic));
+}
+
+void EnergyGuard::restore(const std::vector<double>& saved) {
+  if (saved.size() != 7)
+    throw base::InputError("the checkpoint keeps another energy guard; resume with the program that was run");
+  last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5]};
+  mostInGrains_ = saved[6];
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/grain_part_model.hpp"
+
+#include "contact/strongest_force.hpp"
+
+#include <algorithm>
+
+namespace grouser::coupling {
+
+contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::Grains& grains, double margin) {
+  const terrain::GrainModel& bed = grains.model();
+  contact::GrainPartModel model;
+  model.radius = bed.radius, model.mass = bed.mass, model.timeStep = bed.timeStep;
+  // A grain listed at one end of its half skin may touch at the other.
+  model.margin = bed.skin * bed.radius + margin;
+  model.law = setup.partLaws.laws.front();
+  model.manyRadii = setup.manyKinds;
+  model.scale = grains.scale();
+  double pressed = 0;
+  for (const contact::ContactLaw& law : setup.partLaws.laws)
+    pressed = std::max(pressed, contact::strongestForce(law, bed.radius, contact::kForcePress));
+  // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
+  model.force = base::fixedPointFor(pressed, 36);
+  model.torque = base::fixedPointFor(pressed * contact::leverScale(bed.radius), 36);
+  model.energy = base::fixedPointFor(pressed * bed.radius, 36);
+  return model;
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/grain_part_contacts.hpp"
+#include "coupling/ground_setup.hpp"
+#include "terrain/grains.hpp"
+
+namespace grouser::coupling {
+
+/// Constants of the contacts between grains and rigid parts made of spheres. `margin`: parts may move so far before
+/// pairs are looked for anew [m].
+contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::Grains& grains, double margin);
+
+} // namespace grouser::coupling

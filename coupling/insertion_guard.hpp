@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/sources.hpp"
+#include "terrain/grains.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// Makes `grains` refuse entering grains that would overlap others, which is known only when they enter: InputError
+/// before the first step, SimulationError later, both naming the source. `surfaces`: names of those that the grains
+/// know.
+void guardInsertion(terrain::Grains& grains, const Sources& sources, const std::vector<std::string>& surfaces);
+
+} // namespace grouser::coupling

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/mechanism.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "base/rounded.hpp"
+#include "multibody/readings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace grouser::coupling {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The longest stable step goes as the inverse root of the tension. It is computed again when the largest force reaches
+/// kTensionShare of what the present step bears, but not before it has grown kLeastGrowth times (an unstable
+/// oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
+constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
+
+/// Steps that a bounce off an end stop wants, as "auto" gives them [-].
+constexpr double kBounceSteps = 20;
+
+/// Turns of a step are typed with some digits [-].
+constexpr double kTurnDigits = 1e-6;
+
+} // namespace
+
+Mechanism::Mechanism(const MechanismSetup& setup, double timeStep)
+    : timeStep_(timeStep), largestTurn_(setup.largestTurn), model_(setup.model), state_(multibody::makeState(model_)),
+      loads_(multibody::makeLoads(model_)), solver_(model_, setup.solver),
+      startBlow_(beginMotion(setup, solver_, state_, loads_)) {
+  if (setup.control) controller_ = std::make_unique<StepController>(*setup.control, setup.largestTurn);
+  for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
+}
+
+void Mechanism::fail(const std::string& message) const {
+  throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, state_.time, message));
+}
+
+void Mechanism::advance() {
+  if (controller_) {
+    controller_->advance(solver_, state_, loads_, static_cast<double>(steps_ + 1) * timeStep_,
+                         [this] { watchDrift(); });
+    ++steps_;
+    return;
+  }
+  try {
+    solver_.step(state_, loads_, timeStep_);
+  } catch (const base::SimulationError& error) {
+    throw base::SimulationError(tensionStepWarning_.empty() ? error.what()
+                                                            : fmt::format("{}; {}", error.what(), tensionStepWarning_));
+  } catch (const base::InputError& error) { // what the step bore at the start it no longer bears
+    fail(error.what());
+  }
+  ++steps_;
+  watchDrift();
+  if (!overTension_) watchTension();
+  if (steps_ % kJudgeInterval == 0) judge();
+}
+
+void Mechanism::watchDrift() {
+  const multibody::StepReport& report = solver_.lastStep();
+  worst_.position = std::max(worst_.position, report.maxPositionError);
+  worst_.iterations = std::max(worst_.iterations, report.iterations);
+  worst_.singularSteps += report.singularRows > 0;
+}
+
+void Mechanism::judge() {
+  if (overTension_) judgeTension();
+  judgeTurns();
+}
+
+/// A body that turns far in a step precesses too slowly: one of moments 1, 1, 2 with spin (0.5, 0, 1) by 0.07 % at 0.1
+/// rad a step, 0.65 % at a turn in 20 steps, 3.4 % at 0.75 rad (measured).
+void Mechanism::judgeTurns() const {
+  for (std::size_t b = 0; b < state_.twist.size(); ++b) {
+    const double rate = norm(state_.twist[b].w), turn = timeStep_ * rate;
+    if (turn <= largestTurn_ * (1 + kTurnDigits)) continue;
+    const std::string spunUp =
+        turn > 2 * startTurn_[b] ? fmt::format(" (spun up from {:.4g} rad a step at the start)", startTurn_[b]) : "";
+    fail(fmt::format("body \"{}\" turns by {:.4g} rad a step{}, above the {:.4g} rad of run.steps_per_period = {:g} "
+                     "steps a turn, beyond which its motion is no longer resolved; set run.time_step to {} s or less, "
+                     "limit what drives it, or lower run.steps_per_period if you mean it{}",
+                     model_.bodies()[b].name, turn, spunUp, largestTurn_, 2 * base::kPi / largestTurn_,
+                     base::roundedDown(largestTurn_ / rate, 4),
+                     tensionStepWarning_.empty() ? "" : "; " + tensionStepWarning_));
+  }
+}
+
+void Mechanism::judgeTension() {
+  std::string part;
+  const double r = timeStep_ / stableStepUnderTension(&part);
+  overTension_ = r > 1;
+  if (swings_.bears(r, kJudgeInterval)) return;
+  fail(fmt::format(
+      "swings across the pull in joints may have grown {:g} times, for it stays above what the step bears, now "
+      "{:.3g} times that ({}): {}; set run.time_step to {} s or less",
+      SwingGrowth::kMost, r, part, tensionStepWarning_, base::roundedDown(0.5 * timeStep_ / r, 4)));
+}
+
+/// Growing forces in joints and springs lower the longest stable step. That is noted, and judged from the next
+/// judgement on: a peak may pass before any oscillation has grown. The first tension that the step does not bear is
+/// kept, not the largest: later ones contain the forces of the oscillation itself.
+void Mechanism::watchTension() {
+  double force = 0;
+  for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));
+  for (const multibody::SpringReading& spring : state_.spring) force = std::max(force, std::fabs(spring.force));
+  if (!(force > boundedTension_)) return;
+  const double most = checkTension();
+  overTension_ = timeStep_ >= most;
+  boundedTension_ =
+      force * std::clamp(kTensionShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
+}
+
+/// The longest step that is stable under the present tension [s].
+double Mechanism::checkTension() {
+  std::string part;
+  const double most = stableStepUnderTension(&part);
+  if (timeStep_ >= most && tensionStepWarning_.empty())
+    tensionStepWarning_ =
+        fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
+  return most;
+}
+
+const std::string& Mechanism::tensionStepWarning() {
+  if (tensionStepWarning_.empty()) checkTension();
+  return tensionStepWarning_;
+}
+
+std::string Mechanism::bounceNote() {
+  std::string stop;
+  const double rate = controller_ ? 0 : solver_.stopRate(state_, loads_, &stop);
+  const double steps = rate > 0 ? base::kPi / (rate * timeStep_) : kBounceSteps;
+  if (steps >= kBounceSteps) return {};
+  return fmt::format("a bounce off {} lasts {:.2g} s, {:.2g} steps of it where {:g} are wanted", stop, base::kPi / rate,
+                     steps, kBounceSteps);
+}
+
+Mechanism::DriveReading Mechanism::drive(int index) const {
+  return {model_.drives()[at(index)].law.value(state_.time), multibody::driveForce(model_, state_, index),
+          multibody::drivePower(model_, state_, index)};
+}
+
+double Mechanism::axisSpringForce(int index) const {
+  const multibody::AxisSpring& s = model_.axisSprings()[at(index)];
+  const multibody::AxisReading axis = multibody::axisReading(model_, state_, s.joint, s.axis);
+  return s.preload - s.stiffness * (axis.position - s.freePosition) - s.damping * axis.rate;
+}
+
+Mechanism::Ledger Mechanism::ledger() const {
+  const multibody::Balance b = multibody::balance(model_, state_, loads_);
+  const multibody::Totals& t = b.now;
+  Ledger ledger;
+  ledger.driveWork = b.driveWork;
+  ledger.kinetic = t.kinetic, ledger.potential = t.gravity, ledger.elastic = t.elastic;
+  ledger.jointDamping = b.jointDamping, ledger.springDamping = b.springDamping, ledger.stopDamping = b.stopDamping;
+  ledger.dissipated = b.dissipated();
+  ledger.integrationError = b.integrationError, ledger.leftOver = b.leftOver, ledger.turnover = b.turnover;
+  ledger.linearMomentum = t.linearMomentum, ledger.angularMomentum = t.angularMomentum;
+  ledger.linearLeftOver = b.linearLeftOver, ledger.angularLeftOver = b.angularLeftOver;
+  return ledger;
+}
+
+void Mechanism::addTo(coupling::Ledger& l) const {
+  const Ledger m = ledger();
+  l.driveWork += m.driveWork, l.kinetic += m.kinetic, l.work += m.kinetic - m.leftOver, l.turnover += m.turnover;
+  l.potential += m.potential, l.elastic += m.elastic, l.dissipated.joints += m.dissipated;
+  l.momentum += m.linearMomentum, l.angularMomentum += m.angularMomentum;
+  l.momentumResidual += m.linearLeftOver, l.angularResidual += m.angularLeftOver;
+}
+
+Mechanism::Drift Mechanism::drift() const {
+  Drift drift = worst_;
+  drift.velocity = solver_.velocityError(state_);
+  return drift;
+}
+
+std::vector<std::uint32_t> MechanismState::words() const {
+  std::vector<double> all = bodies;
+  if (!all.empty()) all.resize(all.size() - multibody::State::kBooks);
+  if (!control.empty() && control.front() > 0) all.push_back(control.front());
+  std::vector<std::uint32_t> words(2 * all.size());
+  if (!all.empty()) std::memcpy(words.data(), all.data(), all.size() * sizeof(double));
+  return words;
+}
+
+MechanismState Mechanism::save() const {
+  const StepController::Record steps = controller_ ? controller_->record() : StepController::Record{};
+  return {
+      state_.save(),
+      {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)},
+      {static_cast<double>(steps_), boundedTension_, overTension_ ? 1.0 : 0.0, swings_.save()[0], swings_.save()[1]},
+      {steps.next, static_cast<double>(steps.taken), static_cast<double>(steps.rejected), steps.smallest,
+       steps.largest}};
+}
+
+void Mechanism::restore(const MechanismState& saved) {
+  state_.restore(saved.bodies);
+  if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5)
+    throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
+  worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
+  steps_ = static_cast<std::int64_t>(saved.judged[0]);
+  boundedTension_ = saved.judged[1];
+  overTension_ = saved.judged[2] != 0;
+  swings_.restore(saved.judged[3], saved.judged[4]);
+  if (overTension_) checkTension();
+  const std::vector<double>& c = saved.control;
+  if (controller_)
+    controller_->restore({c[0], static_cast<std::int64_t>(c[1]), static_cast<std::int64_t>(c[2]), c[3], c[4]});
+}
+
+} // namespace grouser::coupling

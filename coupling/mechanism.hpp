@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/math.hpp"
+#include "multibody/solver.hpp"
+#include "multibody/state.hpp"
+#include "coupling/mechanism_setup.hpp"
+#include "coupling/ledger.hpp"
+#include "coupling/mechanism_state.hpp"
+#include "coupling/step_controller.hpp"
+#include "coupling/swing_growth.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
+class Mechanism {
+public:
+  Mechanism(const MechanismSetup& setup, double timeStep);
+  Mechanism(const Mechanism&) = delete;
+  Mechanism& operator=(const Mechanism&) = delete;
+
+  /// One step. Throws base::SimulationError, also where the motion has become too quick for the step: at every
+  /// kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.
+  void advance();
+  static constexpr std::int64_t kJudgeInterval = 50;
+
+  const multibody::Model& model() const { return model_; }
+  const multibody::State& state() const { return state_; }
+  const multibody::Solver& solver() const { return solver_; }
+
+  /// What a drive does now.
+  struct DriveReading {
+    double value = 0;  ///< what it imposes [rad/s, rad, N m, or m/s, m, N]
+    double torque = 0; ///< [N m] or [N]
+    double power = 0;  ///< [W]
+  };
+  DriveReading drive(int index) const;
+  /// Force [N] or torque [N m] of a spring on an axis at its present position and rate, stops left out.
+  double axisSpringForce(int index) const;
+
+  /// Energies [J] and momenta [N s, N m s] of now; works and losses since the first step. With gains since the start
+  ///   kinetic + potential + elastic + dissipated + integrationError = driveWork + leftOver.
+  struct Ledger {
+    double driveWork{}, kinetic{}, potential{}, elastic{};
+    double dissipated{};                                   ///< sum of the three causes
+    double jointDamping{}, springDamping{}, stopDamping{}; ///< what dampers of joints, of springs, of end stops took
+    double integrationError{};                             ///< of the step: falls with it
+    double leftOver{};                                     ///< what is not booked: rounding
+    double turnover{};                           ///< sum of absolute works, kinetic energy of the start included
+    base::Vec3d linearMomentum, angularMomentum; ///< about the world's origin
+    base::Vec3d linearLeftOver, angularLeftOver; ///< what no impulse from outside explains: rounding
+  };
+  Ledger ledger() const;
+
+  void addTo(coupling::Ledger& ledger) const;
+
+  /// Kinetic energy that the drives gave in an impact, since the velocities of the scene did not fit theirs [J].
+  double startBlow() const { return startBlow_; }
+
+  /// Up to which step a swing across the tension of joints and springs does not grow [s]; infinite without. `part`, if
+  /// given, receives the name of what has the greatest part in it.
+  double stableStepUnderTension(std::string* part = nullptr) {
+    return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
+  }
+  /// What the last judgement of a pull above what the step bears says: when and where the tension of joints and springs
+  /// first needed a shorter step, and which; empty: never, nor now.
+  const std::string& tensionStepWarning();
+  /// End stops off which a bounce has too few steps, in words; empty: none, or steps follow an error.
+  std::string bounceNote();
+
+  /// How well the joints are closed.
+  struct Drift {
+    double position = 0;   ///< largest since the last call of restartMeans() [m, rad]
+    double velocity = 0;   ///< now [m/s, rad/s]
+    int iterations = 0;    ///< most of a step since then
+    int singularSteps = 0; ///< steps through a singular position since then
+  };
+  Drift drift() const;
+  void restartMeans() { worst_ = {}; }
+
+  /// What its steps were; null where they are fixed.
+  const StepController* controller() const { return controller_.get(); }
+
+  MechanismState save() const;
+  /// Throws base::InputError where the state is of another mechanism.
+  void restore(const MechanismState& saved);
+
+private:
+  void watchDrift();
+  void judge();
+  void judgeTurns() const;
+  void judgeTension();
+  void watchTension();
+  double checkTension();
+  [[noreturn]] void fail(const std::string& message) const;
+
+  const double timeStep_, largestTurn_;
+  const multibody::Model model_;
+  multibody::State state_;
+  multibody::Loads loads_;
+  multibody::Solver solver_;
+  double startBlow_;
+  Drift worst_;
+  std::int64_t steps_ = 0;
+  double boundedTension_ = 0; ///< up to this force in joints and springs the step is short enough [N]
+  std::string tensionStepWarning_;
+  bool overTension_ = false; ///< the pull was above what the step bears when last looked at
+  SwingGrowth swings_;
+  std::unique_ptr<StepController> controller_; ///< null: fixed steps
+  std::vector<double> startTurn_;              ///< of each body in the first step [rad]
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/solver.hpp"
+#include "multibody/state.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// Steps that follow the error.
+struct StepControl {
+  double tolerance = 0; ///< error that steps add a second [m/s, rad/s]
+  double first = 0;     ///< step to begin with [s]
+  double longest = 0;   ///< that drives allow [s]
+};
+
+/// A mechanism as its solver takes it.
+struct MechanismSetup {
+  multibody::Model model;
+  multibody::SolverOptions solver;
+  base::Vec3d gravity;                ///< [m/s2]
+  double largestTurn;                 ///< of a body in a step [rad]
+  std::optional<StepControl> control; ///< empty: fixed steps
+  std::vector<std::optional<base::Vec3d>>
+      boxes; ///< edges of each body as it is drawn [m]; empty: as its inertia has it
+};
+
+/// Brings `state`, as the model says it, and `loads` to the start: gravity, and velocities that fit joints and drives.
+/// Returns the kinetic energy that the drives gave in an impact, since the velocities did not fit theirs [J].
+double beginMotion(const MechanismSetup& setup, multibody::Solver& solver, multibody::State& state,
+                   multibody::Loads& loads);
+
+} // namespace grouser::coupling

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// All of a mechanism on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
+struct MechanismState {
+  std::vector<double> bodies; ///< multibody::State::save()
+  std::vector<double> worst;  ///< what the next row says of the steps since the last one
+  std::vector<double> judged; ///< what the next judgement of the pull in joints goes on from
+
+  std::vector<double> control; ///< error-controlled steps: the next [s], how many, rejected, smallest, largest [s]
+
+  /// For the hash: what the next step depends on.
+  std::vector<std::uint32_t> words() const;
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "contact/grain_part_contacts.hpp"
+#include "coupling/ground_setup.hpp"
+#include "coupling/sphere_sets.hpp"
+#include "terrain/grains.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// How a mesh is cut for contact with bodies of `contactSize` [m] and larger.
+PartCut meshCut(const SurfaceSetup& surface, double contactSize);
+
+/// Grains against the [[mesh]]es of a scene, each cut into spheres as the parts of a vehicle are. All have one
+/// material.
+class MeshContacts {
+public:
+  /// Registers with the grains' migration, so that history follows them to other ranks; must outlive their steps.
+  /// `kept`: where sphere sets are kept; null: all are cut.
+  MeshContacts(const GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
+  MeshContacts(const MeshContacts&) = delete;
+  MeshContacts& operator=(const MeshContacts&) = delete;
+
+  /// One step: contacts with the meshes where they are, one motion a mesh.
+  void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+                       bool slotsChanged);
+  /// For the grains' step, after computeContacts().
+  const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
+  /// On each mesh about its centre, of all ranks, after computeContacts().
+  const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
+
+  contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }
+  std::size_t spheres() const;
+  const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; }
+  /// The meshes that press a grain; all ranks call it.
+  std::vector<contact::GrainPartContacts::Press> pressing(std::uint32_t grain) const {
+    return contacts_->pressing(grain);
+  }
+  std::optional<contact::GrainPartContacts::MostPressed> mostPressed() const { return contacts_->mostPressed(); }
+  void forgetPressed() { contacts_->forgetPressed(); }
+  /// Grains that were crushed to their middle in this step, by id; of all ranks, which all call it.
+  std::vector<std::uint32_t> endedGrains() const {
+    return (sums_.host() + sets_.size())->force.x == 0 ? std::vector<std::uint32_t>{} : contacts_->ended();
+  }
+  void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
+  contact::SavedGrainPatches save() const { return contacts_->save(); }
+  void restore(const contact::SavedGrainPatches& saved);
+
+private:
+  bool haveLeft(const std::vector<contact::PartMotion>& motions) const;
+
+  base::Exec exec_;
+  base::Comm comm_;
+  std::vector<base::SphereSet> sets_;
+  std::vector<spheredecomp::CutReport> cutReports_; ///< one a mesh
+  std::vector<double> reach_;                       ///< radius about each frame's origin [m]
+  std::unique_ptr<contact::GrainPartContacts> contacts_;
+  base::Mirrored<contact::PartMotion> motion_;
+  base::Mirrored<contact::PartLoad> sums_;
+  base::FixedPoint force_, torque_;
+  contact::GrainLoadsView grainLoads_;
+  std::vector<terrain::SurfaceLoad> loads_;
+  std::vector<contact::PartMotion> listedAt_; ///< empty: the lists are to be made
+  double room_;                               ///< that a mesh may move between two lists [m]
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/obstacle_contacts.hpp"
+
+#include "base/error.hpp"
+#include "contact/part_surface.hpp"
+#include "coupling/mesh_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::coupling {
+
+using base::Vec3d;
+using terrain::SurfaceContacts;
+
+std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const vehicle::Assembly& assembly, const VehicleParts& parts,
+                                                         const std::vector<Obstacle>& obstacles,
+                                                         const terrain::HeightField* hullOn, const base::Exec& exec,
+                                                         const Model& model, const base::Comm& comm,
+                                                         SphereSets* kept) {
+  if (obstacles.empty() && !hullOn) return nullptr;
+  std::unique_ptr<ObstacleContacts> made(new ObstacleContacts);
+  std::vector<PartCut> cuts;
+  for (const Obstacle& o : obstacles) {
+    if (!o.surface.mesh) continue;
+    cuts.push_back(meshCut(o.surface, VehicleParts::contactSize(assembly.spec)));
+  }
+  made->sets_ = cutParts(cuts, kept, comm, &made->cutReports_);
+  std::vector<const base::SphereSet*> sets = parts.sets();
+  const std::vector<int> setOfPart = parts.setOfContactPart();
+  const int count = static_cast<int>(setOfPart.size());
+  int nextSet = static_cast<int>(sets.size());
+  for (const base::SphereSet& set : made->sets_) sets.push_back(&set);
+
+  const vehicle::ContactSpec& spec = assembly.spec.contact;
+  std::vector<SurfaceContacts::Surface> surfaces;
+  std::vector<SurfaceContacts::Pair> pairs;
+  using Kind = SurfaceContacts::Surface::Kind;
+  for (const Obstacle& o : obstacles) {
+    const int index = static_cast<int>(surfaces.size());
+    surfaces.push_back({o.surface.mesh ? Kind::mesh : Kind::shape, o.surface.geometry, o.surface.mesh ? nextSet++ : -1,
+                        count + index, o.friction});
+    made->motions_.push_back(startingPose(o.surface).motion);
+    for (int part = 0; part < count; ++part) pairs.push_back({part, index});
+  }
+  if (hullOn) {
+    const int index = static_cast<int>(surfaces.size());
+    surfaces.push_back({Kind::field, {}, -1, count + index, spec.frictionGround});
+    made->motions_.push_back({{}, base::Mat3d::identity(), {}, {}, {}});
+    for (int part = 0; part < count; ++part)
+      if (assembly.parts[parts.partOf(static_cast<std::size_t>(part))].kind == vehicle::PartKind::kChassis)
+        pairs.push_back({part, index});
+  }
+  const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, 0, spec.tangentialRatio};
+  made->contacts_ =
+      std::make_unique<SurfaceContacts>(exec, SurfaceContacts::Model{law, model.quanta, model.timeStep, model.margin},
+                                        sets, setOfPart, surfaces, pairs, hullOn);
+  return made;
+}
+
+namespace {
+
+constexpr double kMostLift = 0.1; // [m]
+constexpr double kClear = 1e-4;   // [m] that is left between the two
+constexpr int kMostTries = 1000;  // what is set down higher again and again stands beside a wall
+
+/// A part in the world as it is assembled.
+struct Placed {
+  base::Pose pose; ///< X_WP
+  const base::SphereSet* set;
+  double reach; ///< about the pose's origin [m]
+  std::string name;
+};
+
+std::vector<Placed> placedParts(const vehicle::Assembly& assembly, const VehicleParts& parts) {
+  const std::vector<const base::SphereSet*> sets = parts.sets();
+  const std::vector<int> setOfPart = parts.setOfContactPart();
+  std::vector<double> reach;
+  for (const base::SphereSet* set : sets) reach.push_back(contact::enclosingRadius(*set));
+  std::vector<Placed> placed;
+  for (std::size_t c = 0; c < setOfPart.size(); ++c) {
+    const vehicle::Part& part = assembly.parts[parts.partOf(c)];
+    const base::Pose& body = assembly.model.bodies()[static_cast<std::size_t>(part.body)].pose;
+    const auto set = static_cast<std::size_t>(setOfPart[c]);
+    placed.push_back({multibody::compose(body, part.pose_B), sets[set], reach[set], part.name});
+  }
+  return placed;
+}
+
+/// Deepest overlap of a part's surface with an obstacle [m], the part lifted by `lift`; 0 where they are apart.
+double depthIn(const Placed& part, const SurfaceSetup& surface, double lift) {
+  const Vec3d up{0, 0, lift};
+  const base::Pose& at = surface.start;
+  if (overlapAt(surface, at, part.pose.position + up, part.reach) <= 0) return 0;
+  double deepest = 0;
+  for (std::size_t k = 0; k < part.set->surfaceCount; ++k) {
+    const base::SetSphere& s = part.set->spheres[k];
+    deepest = std::max(deepest, overlapAt(surface, at, part.pose.toWorld(s.centre) + up, s.radius));
+  }
+  return deepest;
+}
+
+} // namespace
+
+double liftOffObstacles(const vehicle::Assembly& assembly, const VehicleParts& parts,
+                        const std::vector<Obstacle>& obstacles) {
+  if (obstacles.empty()) return 0;
+  const std::vector<Placed> placed = placedParts(assembly, parts);
+  double lift = 0;
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    double most = 0;
+    const Placed* part = nullptr;
+    const Obstacle* obstacle = nullptr;
+    for (const Placed& p : placed)
+      for (const Obstacle& o : obstacles)
+        if (const double depth = depthIn(p, o.surface, lift); depth > most) most = depth, part = &p, obstacle = &o;
+    if (!part) return lift;
+    lift += most + kClear;
+    if (lift > kMostLift || tries + 1 == kMostTries)
+      throw base::InputError(fmt::format(
+          "{}: stands in the {} where the vehicle is set down, {} mm above the ground to clear it would not "
+          "be enough; move it or vehicle.position",
+          obstacle->surface.place, part->name, 1e3 * kMostLift));
+  }
+  return lift;
+}
+
+} // namespace grouser::coupling

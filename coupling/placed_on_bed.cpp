@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/placed_on_bed.hpp"
+
+#include "base/error.hpp"
+#include "coupling/insertion_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+namespace grouser::coupling {
+
+using base::Vec3d;
+using terrain::GrainState;
+
+namespace {
+
+/// A surface that is put on a bed may press a grain by this share of its radius: what rounded digits leave.
+constexpr double kPressed = 0.01;
+
+constexpr double kNoGrain = -1e300;
+
+std::string pointOf(const Vec3d& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
+
+/// A grain of this rank's rows.
+struct Row {
+  std::uint32_t id;
+  Vec3d position; ///< [m]
+  double radius;  ///< [m]
+};
+
+std::vector<Row> rowsOf(const terrain::Grains& bed) {
+  const terrain::GrainSnapshot s = bed.snapshot();
+  std::vector<Row> rows(s.position.size());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    rows[k] = {s.id[k], s.position[k], s.radius.empty() ? bed.model().radius : double{s.radius[k]}};
+  return rows;
+}
+
+/// Whether a ball reaches into [low, high] along x or y, or one of its images beyond periodic boundaries does.
+bool isOver(int axis, double place, double radius, const SurfaceBounds& b,
+            const terrain::PeriodicBoundaries& sides) {
+  const auto reaches = [&](double x) { return x + radius > b.low[axis] && x - radius < b.high[axis]; };
+  const auto& periodic = sides[static_cast<std::size_t>(axis)];
+  if (!periodic) return reaches(place);
+  const double period = (*periodic)[1] - (*periodic)[0];
+  return reaches(place) || reaches(place + period) || reaches(place - period);
+}
+
+/// How far to lift what these bounds hold, so that its lowest point stands `above` over the highest grain under it.
+double liftOf(const std::vector<Row>& rows, const SurfaceBounds& bounds, double above,
+              const terrain::PeriodicBoundaries& sides, const std::string& place, const base::Comm& comm) {
+  double top = kNoGrain;
+  for (const Row& g : rows)
+    if (isOver(0, g.position.x, g.radius, bounds, sides) && isOver(1, g.position.y, g.radius, bounds, sides))
+      top = std::max(top, g.position.z + g.radius);
+  comm.maximum(&top, 1);
+  if (top == kNoGrain)
+    throw base::InputError(fmt::format("{}.above_bed [m]: no grain of the bed lies under it, between x = {:.6g} and "
+                                       "{:.6g} m, y = {:.6g} and {:.6g} m; move it over the bed, or give its height "
+                                       "instead",
+                                       place, bounds.low.x, bounds.high.x, bounds.low.y, bounds.high.y));
+  return top + above - bounds.low.z;
+}
+
+SurfaceBounds boundsOf(const SurfaceSetup& s) {
+  constexpr double kWide = 1e300;
+  if (s.geometry.shape == terrain::SurfaceShape::plane && !s.mesh)
+    return {{-kWide, -kWide, s.start.position.z}, {kWide, kWide, kWide}};
+  return boundsOf(s, s.start);
+}
+
+SurfaceBounds boundsOf(const std::vector<terrain::GrainSpec>& grains) {
+  SurfaceBounds b{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+  for (const terrain::GrainSpec& g : grains) {
+    const Vec3d reach{g.radius, g.radius, g.radius};
+    b.low = base::min(b.low, g.position - reach), b.high = base::max(b.high, g.position + reach);
+  }
+  return b;
+}
+
+/// The grain that something stands in deepest.
+struct Deepest {
+  double share = kNoGrain, depth = 0; ///< of the radius [-], [m]
+  Row grain{};
+};
+
+Deepest deepestIn(const SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
+  const SurfaceBounds b = boundsOf(surface);
+  const bool plane = surface.geometry.shape == terrain::SurfaceShape::plane && !surface.mesh;
+  Deepest deepest;
+  for (const Row& g : rows) {
+    bool near = true;
+    for (int a = 0; a < 3 && !plane; ++a)
+      near = near && g.position[a] + g.radius > b.low[a] && g.position[a] - g.radius < b.high[a];
+    if (!near) continue;
+    const double depth = startingOverlap(surface, g.position, g.radius);
+    if (depth > deepest.share * g.radius) deepest = {depth / g.radius, depth, g};
+  }
+  // Of all ranks: the deepest, of equal ones the first.
+  for (const Deepest& other : comm.gatherValue(deepest))
+    if (other.share > deepest.share || (other.share == deepest.share && other.grain.id < deepest.grain.id))
+      deepest = other;
+  return deepest;
+}
+
+void requireRoomInBed(const SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
+  const Deepest d = deepestIn(surface, rows, comm);
+  if (!(d.share > kPressed)) return;
+  throw base::InputError(fmt::format(
+      "{}: {} would stand {:.3g} m deep in grain {} of the settled bed, of radius {:g} m at {}, more than "
+      "{:g} of that; give above_bed [m], which puts it on the settled bed, move it, or set placed = "
+      "\"before\", with which the bed is laid around it",
+      surface.place, surface.name, d.depth, d.grain.id, d.grain.radius, pointOf(d.grain.position), kPressed));
+}
+
+/// What Grains::add() does not see: meshes, and walls where the height was not known before.
+void requireRoomFor(const PlacedGrains& section, const GroundSetup& scene) {
+  const GrainsSetup& all = *scene.grains;
+  const auto refuse = [&](const terrain::GrainSpec& g, double depth, const std::string& what) {
+    if (depth > all.model.maxEntryOverlap * g.radius)
+      throw base::InputError(fmt::format("{}: a grain of radius {:g} m {} would stand {:.3g} m deep in {}, more than "
+                                         "{:g} of its radius (run.max_overlap); move it",
+                                         section.place, g.radius, pointOf(g.position), depth, what,
+                                         all.model.maxEntryOverlap));
+  };
+  for (const terrain::GrainSpec& g : section.grains) {
+    for (const SurfaceSetup& s : scene.surfaces)
+      if (s.mesh) refuse(g, startingOverlap(s, g.position, g.radius), s.name);
+    for (std::size_t w = 0; section.aboveBed && w < all.boundaries.walls.size(); ++w)
+      refuse(g, g.radius - dot(all.boundaries.walls[w].normal, g.position) + all.boundaries.walls[w].offset,
+             all.wallNames[w]);
+  }
+}
+
+/// Where the grains of a state lie, all of them on every rank.
+std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const terrain::GrainModel& model,
+                                        const base::PositionScale& scale, const std::vector<int>& materials,
+                                        const base::Comm& comm) {
+  std::vector<terrain::GrainSpec> mine;
+  for (std::size_t k = 0; k < rows.rows(); ++k)
+    mine.push_back({scale.toMetres(rows.position[k]),
+                    {},
+                    {},
+                    rows.radius.empty() ? model.radius : double{rows.radius[k]},
+                    materials[rows.material.empty() ? 0 : rows.material[k]],
+                    !rows.fixed.empty() && rows.fixed[k] != 0});
+  if (comm.alone()) return mine;
+  std::vector<terrain::GrainSpec> all;
+  for (const std::vector<terrain::GrainSpec>& part : comm.gatherAll(mine))
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+void makeGrains(Ground& ground, const GroundSetup& scene, const std::vector<terrain::GrainSpec>& start,
+                const base::Exec& exec, const base::Comm& comm) {
+  const GrainsSetup& g = *scene.grains;
+  terrain::PartitionOptions partition = g.partition;
+  partition.comm = comm;
+  ground.grains = std::make_unique<terrain::Grains>(exec, g.model, g.boundaries, start, partition);
+  guardInsertion(*ground.grains, g.sources, namesOfShapes(scene));
+}
+
+/// The place of each of the bed's boundaries among those of the scene: walls, places of the floor, then surfaces.
+/// Beside larger grains a floor may have more places than alone.
+std::vector<std::size_t> boundariesInScene(const GroundSetup& scene, const terrain::GrainLayout& alone,
+                                           const terrain::GrainLayout& layout) {
+  std::size_t surfaces = 0, later = 0;
+  for (const SurfaceSetup& s : scene.surfaces)
+    if (!s.mesh) ++surfaces, later += s.placedLater ? 1 : 0;
+  const std::size_t fixed = static_cast<std::size_t>(alone.boundaries) - (surfaces - later);
+  std::size_t next = static_cast<std::size_t>(layout.boundaries) - surfaces;
+  std::vector<std::size_t> places(fixed);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  for (const SurfaceSetup& s : scene.surfaces) {
+    if (s.mesh) continue;
+    if (!s.placedLater) places.push_back(next);
+    ++next;
+  }
+  return places;
+}
+
+/// Velocities and springs of the bed's grains, in rows that lie as `bed` does.
+void takeMotion(const GrainState& bed, bool sameUnits, GrainState& scene) {
+  scene.velocity = bed.velocity, scene.spin = bed.spin, scene.remainders = bed.remainders;
+  if (!sameUnits)
+    for (terrain::Remainders& r : scene.remainders) r.position = 0; // its place has been rounded
+  if (scene.layout.periodic) scene.crossings = bed.crossings;
+  scene.contacts = bed.contacts, scene.neighbour = bed.neighbour;
+  const auto orNone = [&]<class T>(const std::vector<T>& springs) {
+    return springs.empty() ? std::vector<T>(bed.neighbour.size()) : springs;
+  };
+  if (scene.layout.friction) scene.contactShear = orNone(bed.contactShear);
+  if (scene.layout.rolling) scene.contactRolling = orNone(bed.contactRolling);
+  if (scene.layout.plastic)
+    scene.contactDeepest = orNone(bed.contactDeepest), scene.contactOrigin = orNone(bed.contactOrigin);
+}
+
+/// What holds them on walls, floor and surfaces.
+void takeBoundaries(const GrainState& bed, const std::vector<std::size_t>& places, GrainState& scene) {
+  const auto from = static_cast<std::size_t>(bed.layout.boundaries),
+             to = static_cast<std::size_t>(scene.layout.boundaries);
+  for (std::size_t k = 0; k < bed.rows(); ++k)
+    for (std::size_t b = 0; b < from; ++b) {
+      if (!(bed.wallBits[k] >> b & 1u)) continue;
+      const std::size_t place = places[b];
+      scene.wallBits[k] |= 1u << place;
+      if (!bed.wallShear.empty()) scene.wallShear[k * to + place] = bed.wallShear[k * from + b];
+      if (!bed.wallRolling.empty()) scene.wallRolling[k * to + place] = bed.wallRolling[k * from + b];
+      if (!bed.wallDeepest.empty()) {
+        scene.wallDeepest[k * to + place] = bed.wallDeepest[k * from + b];
+        scene.wallOrigin[k * to + place] = bed.wallOrigin[k * from + b];
+      }
+    }
+}
+
+/// The normals by which a floor of several places knows its contacts again.
+void takeFloorNormals(const GrainState& bed, const terrain::Boundaries& boundaries, const base::PositionScale& scale,
+                      GrainState& scene) {
+  const auto places = static_cast<std::size_t>(scene.layout.places);
+  if (bed.layout.places > 0) scene.floorNormal = bed.floorNormal;
+  if (places == 0 || bed.layout.places > 0) return;
+  for (std::size_t k = 0; k < scene.rows(); ++k)
+    if (scene.wallBits[k] >> boundaries.walls.size() & 1u)
+      scene.floorNormal[k * places] =
+          boundaries.floor->closestPoint(scale.toMetres(scene.position[k])).normal.as<float>();
+}
+
+} // namespace
+
+std::vector<double> liftsOnto(const terrain::Grains& bed, const GroundSetup& scene, const base::Comm& comm) {
+  const std::vector<Row> rows = rowsOf(bed);
+  const terrain::PeriodicBoundaries& sides = scene.grains->boundaries.periodic;
+  std::vector<double> lifts;
+  for (const SurfaceSetup& s : scene.surfaces)
+    lifts.push_back(s.aboveBed ? liftOf(rows, boundsOf(s), *s.aboveBed, sides, s.place, comm) : 0.0);
+  for (const PlacedGrains& p : scene.grains->onBed)
+    lifts.push_back(p.aboveBed ? liftOf(rows, boundsOf(p.grains), *p.aboveBed, sides, p.place, comm) : 0.0);
+  return lifts;
+}
+
+void lift(GroundSetup& scene, const std::vector<double>& lifts) {
+  GrainsSetup& grains = *scene.grains;
+  if (lifts.size() != scene.surfaces.size() + grains.onBed.size())
+    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+  for (Obstacle& o : scene.obstacles)
+    if (o.amongSurfaces) o.surface.lift(lifts[*o.amongSurfaces]);
+  auto way = lifts.begin();
+  auto boundary = grains.boundaries.surfaces.begin();
+  for (SurfaceSetup& s : scene.surfaces) {
+    s.lift(*way++);
+    if (!s.mesh) (boundary++)->start = startingPose(s);
+  }
+  for (PlacedGrains& p : grains.onBed) {
+    for (terrain::GrainSpec& g : p.grains) g.position.z += *way;
+    ++way;
+  }
+}
+
+void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const base::Comm& comm) {
+  const std::vector<Row> rows = rowsOf(bed);
+  for (const SurfaceSetup& s : scene.surfaces)
+    if (s.placedLater) requireRoomInBed(s, rows, comm);
+  for (const PlacedGrains& p : scene.grains->onBed) requireRoomFor(p, scene);
+}
+
+void takeIntoScene(Ground& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm) {
+  const GrainsSetup &alone = *scene.grains->bed->alone->grains, &all = *scene.grains;
+  const GrainState bed = ground.grains->state();
+  const base::PositionScale scale = ground.grains->scale();
+  std::vector<int> materials(std::max<std::size_t>(1, alone.model.materials.count()), all.bed->material);
+  for (std::size_t k = 0; k < alone.materials.size(); ++k)
+    materials[k] = static_cast<int>(std::find(all.materials.begin(), all.materials.end(), alone.materials[k]) -
+                                    all.materials.begin());
+  const std::vector<terrain::GrainSpec> start = specsOf(bed, alone.model, scale, materials, comm);
+  ground.grains.reset(); // memory for one of them
+  makeGrains(ground, scene, start, exec, comm);
+  GrainState rows = ground.grains->state();
+  takeMotion(bed, scale.unit == ground.grains->scale().unit, rows);
+  takeBoundaries(bed, boundariesInScene(scene, bed.layout, rows.layout), rows);
+  takeFloorNormals(bed, all.boundaries, ground.grains->scale(), rows);
+  ground.grains->restore(rows);
+}
+
+Ground groundAt(const GroundSetup& scene, const GrainState& rows, const base::Exec& exec,
+                const base::Comm& comm) {
+  Ground ground;
+  ground.surface = scene.surface, ground.rigid = scene.rigid;
+  ground.walls = scene.grains->bed->walls;
+  std::vector<int> materials(std::max<std::size_t>(1, scene.grains->materials.size()));
+  for (std::size_t k = 0; k < materials.size(); ++k) materials[k] = static_cast<int>(k);
+  const terrain::GrainModel& model = scene.grains->model;
+  makeGrains(ground, scene, specsOf(rows, model, base::positionScale(2 * model.radius), materials, comm), exec, comm);
+  return ground;
+}
+
+void putGrains(Ground& ground, const GroundSetup& scene) {
+  terrain::Grains& grains = *ground.grains;
+  for (const PlacedGrains& p : scene.grains->onBed) {
+    grains.onInsertionOverlap([&](const terrain::InsertionOverlap& o) {
+      throw base::InputError(fmt::format(
+          "{}: its grain {} would stand {:.3g} m deep in {}, more than {:g} of the radius (run.max_overlap); give "
+          "above_bed [m], which puts it on the settled bed, or move it",
+          p.place, pointOf(p.grains[o.entering].position), o.overlap,
+          o.grain ? fmt::format("grain {} {}", *o.grain, pointOf(o.position)) : namesOfShapes(scene)[o.surface],
+          grains.model().maxEntryOverlap));
+    });
+    grains.add(p.grains);
+  }
+  grains.onInsertionOverlap({});
+  guardInsertion(grains, scene.grains->sources, namesOfShapes(scene));
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/grains.hpp"
+
+#include <chrono>
+
+namespace grouser::coupling {
+
+/// Runs work that every rank repeats (bodies and track of the vehicle) and reports its duration, which the load balance
+/// subtracts from the rank's busy time: no cut between subdomains could move such work. On one rank it just runs it.
+class ReplicatedWork {
+public:
+  ReplicatedWork() = default;
+  /// `grains` outlive it; null without.
+  explicit ReplicatedWork(terrain::Grains* grains) : ranks_(grains ? grains->distribution() : nullptr) {}
+
+  template <class Work> void run(const Work& work) const {
+    if (!ranks_) return work();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    ranks_->noteReplicated(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+
+private:
+  terrain::GrainDistribution* ranks_{nullptr}; ///< null on one rank
+};
+
+} // namespace grouser::coupling

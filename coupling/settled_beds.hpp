@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/comm.hpp"
+#include "coupling/ground.hpp"
+
+namespace grouser::coupling {
+
+/// Where settled beds come from that need not settle again.
+class SettledBeds {
+public:
+  SettledBeds() = default;
+  SettledBeds(const SettledBeds&) = default;
+  SettledBeds(SettledBeds&&) = default;
+  SettledBeds& operator=(const SettledBeds&) = default;
+  SettledBeds& operator=(SettledBeds&&) = default;
+  virtual ~SettledBeds() = default;
+  /// The ground that settledGround() returns, bit for bit. All ranks call it.
+  virtual SettledGround settle(const GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
+                               const base::Comm& comm) = 0;
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/settling.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "terrain/bed_tops.hpp"
+#include "terrain/grain_forces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::coupling {
+
+namespace {
+
+constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another law
+constexpr double kPreparedPull = 1e-4;                     // of cohesion and adhesion [-]; 0 would be another law
+constexpr double kClose = 0.002;                           // of porosities [-]
+constexpr double kOff = 0.01;                              // of the ends, that are as far as bisection goes [-]
+constexpr int kTrials = 10;
+constexpr double kSteep = 1;          // floor's slope [-] above which every bed slides, whatever its friction
+constexpr double kStep = 4;           // radii: a lower one is none to a bed
+constexpr double kLookEvery = 0.02;   // [s] from one look whether a bed rests to the next
+constexpr std::size_t kCalmLooks = 5; // one after the other, at which it does
+constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains rock for long
+
+/// Porosity of the small bed settled with this friction.
+double porosityAt(const PreparationSetup& preparation, double friction, const base::Exec& exec,
+                  const SettleProgress& progress) {
+  Ground ground = layGround(*preparation.sample, exec);
+  SettleReport report;
+  settleWithFriction(*preparation.sample->grains->bed, *ground.grains, friction, progress, report);
+  keepSurface(ground, exec);
+  return structureOf(ground).porosity;
+}
+
+/// What helps a bed on a floor too steep to lie on; empty where it is not.
+std::string steepnessText(const Ground& ground) {
+  const terrain::HeightFieldBounds& floor = ground.rigid->bounds();
+  if (!(floor.slope > kSteep) || floor.highest - floor.lowest < kStep * ground.grains->model().radius) return "";
+  return fmt::format(
+      "; but first of all: the floor follows terrain.heightmap, which rises by up to {:.3g} m a metre, and "
+      "grains slide off it: set terrain.floor = \"flat\", lower terrain.height_range or enlarge "
+      "terrain.size",
+      floor.slope);
+}
+
+/// Fills in how high the bed stands.
+void measureHeight(const Ground& ground, SettleReport& report) {
+  const base::Exec& exec = ground.grains->system().exec;
+  const terrain::Rectangle& w = *ground.walls;
+  const terrain::BedSurface surface(exec, *ground.grains, ground.rigid->view(), w);
+  report.meanHeight = terrain::heightsOf(extentOf(ground, surface)).mean;
+  // From a corner all are near enough.
+  const terrain::NodeGrid corners{2, 2, w.width(), w.length(), w.xMin, w.yMin};
+  const double all = w.width() + w.length();
+  report.highest = terrain::highestTops(exec, *ground.grains, corners, all).front();
+}
+
+} // namespace
+
+void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Grains& grains, double fall,
+                     const SettleProgress& progress, SettleReport& report) {
+  const terrain::GrainModel& model = grains.model();
+  const double g = norm(model.gravity), dt = model.timeStep;
+  const double unit = bed.restEnergy * static_cast<double>(grains.count() - grains.system().fixedCount);
+  // Loose grains fall first; nothing is judged before they have landed.
+  const double landed = report.time + std::sqrt(2 * fall / g), limit = report.time + wanted.timeLimit;
+  const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(kLookEvery / dt));
+  double forceRatio = 0;
+  std::size_t looks = 0, calm = 0;
+  std::array<double, kCalmLooks> energies{}, ratios{}; // of the last looks: a deep bed breathes between them
+  while (report.time < limit) {
+    try {
+      for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
+    } catch (const base::SimulationError& error) {
+      throw base::SimulationError(fmt::format("while the {} settled, before the run begins: {}",
+                                              bed.tile ? "bed of copied tiles" : "bed", error.what()));
+    }
+    report.steps += checkEvery;
+    report.time = static_cast<double>(report.steps) * dt;
+    if (wanted.forceRatio)
+      forceRatio = terrain::forceRatio(grains.system()); // before anything else is done with the step
+    const terrain::GrainLedger ledger = grains.ledger();
+    report.agitation = (ledger.kinetic + (wanted.spins ? ledger.rotational : 0)) / unit;
+    progress(report.time, report.agitation);
+    const bool rests =
+        report.agitation < wanted.kineticEnergy && (!wanted.forceRatio || forceRatio < *wanted.forceRatio);
+    calm = rests ? calm + 1 : 0;
+    if (calm >= kCalmLooks && report.time > landed) return;
+    energies[looks % kCalmLooks] = report.agitation;
+    ratios[looks++ % kCalmLooks] = forceRatio;
+  }
+  const auto most = [](const auto& values) { return *std::max_element(values.begin(), values.end()); };
+  throw base::SimulationError(fmt::format(
+      "the bed has not settled within {:g} s: in the last {} looks, {:.2g} s apart, the kinetic energy a grain "
+      "is up to {:.3g} of m g radius, wanted is less than {:.3g}{}; raise terrain.settle_time_limit, lower "
+      "the material's restitution or raise terrain.settle_kinetic_energy{}",
+      wanted.timeLimit, std::min(looks, kCalmLooks), static_cast<double>(checkEvery) * dt, most(energies),
+      wanted.kineticEnergy,
+      wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain up to {:.3g} of its weight, "
+                                      "wanted is {:.3g}",
+                                      most(ratios), *wanted.forceRatio)
+                        : "",
+      wanted.forceRatio ? " and settle_force_ratio" : ""));
+}
+
+void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double friction,
+                        const SettleProgress& progress, SettleReport& report) {
+  const terrain::GrainModel own = grains.model();
+  terrain::GrainModel prepared = own;
+  // What sticks while it falls lies as loosely as no soil that machines have passed over.
+  const auto prepare = [friction](contact::ContactLaw& law) {
+    law = law.pulling(kPreparedPull);
+    if (law.friction > 0) law.friction = friction;
+  };
+  prepare(prepared.law);
+  for (contact::ContactLaw& law : prepared.materials.grains) prepare(law);
+  // Where gravity leans, a bed of so little friction would flow: it leans when the grains have their own again.
+  prepared.gravity = {0, 0, -norm(own.gravity)};
+  grains.replaceLaws(prepared);
+  SettleSetup nearly = bed.settle;
+  nearly.kineticEnergy *= kStillPrepared, nearly.forceRatio.reset();
+  settleUntilRest(bed, nearly, grains, bed.fall, progress, report);
+  grains.replaceLaws(own);
+  settleUntilRest(bed, bed.settle, grains, 0, progress, report);
+}
+
+double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress) {
+  const double wanted = preparation.porosity;
+  const auto at = [&](double friction) { return porosityAt(preparation, friction, exec, progress); };
+  double low = kLeastFriction, high = kMostFriction;
+  const double densest = at(low), loosest = at(high);
+  if (wanted < densest - kOff || wanted > loosest + kOff)
+    throw base::InputError(fmt::format(
+        "{} cannot be reached: settled with friction {:g} these grains come to {:.3f}, with {:g} to {:.3f}; "
+        "choose a porosity between these, or give the grains rolling_friction for looser beds and a wider "
+        "radius_distribution for denser ones",
+        preparation.place, low, densest, high, loosest));
+  if (wanted <= densest + kClose) return low;
+  if (wanted >= loosest - kClose) return high;
+  // Between 0.01 and 1 the porosity rises about evenly with the logarithm of the friction: there each trial is where a
+  // line through the ends of the interval has the porosity wanted, but within its middle three fifths.
+  low = 0.01;
+  double below = densest - wanted, above = loosest - wanted, friction = high;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const double share = std::clamp(below / (below - above), 0.2, 0.8);
+    friction = low * base::pow(high / low, share);
+    const double off = at(friction) - wanted;
+    if (std::fabs(off) <= kClose) break;
+    if (off < 0)
+      low = friction, below = off;
+    else
+      high = friction, above = off;
+  }
+  return friction;
+}
+
+SettleReport settle(const BedSetup& bed, const Ground& ground, const SettleProgress& progress) {
+  terrain::Grains& grains = *ground.grains;
+  SettleReport report;
+  try {
+    if (bed.preparation) {
+      report.friction = frictionFor(*bed.preparation, grains.system().exec, progress);
+      settleWithFriction(bed, grains, report.friction, progress, report);
+    } else {
+      settleUntilRest(bed, bed.settle, grains, bed.fall, progress, report);
+    }
+  } catch (const base::SimulationError& error) {
+    const std::string message = error.what() + steepnessText(ground);
+    if (progress.failed) progress.failed(grains, message);
+    throw base::SimulationError(message);
+  }
+  measureHeight(ground, report);
+  return report;
+}
+
+} // namespace grouser::coupling

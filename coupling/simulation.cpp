@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/simulation.hpp"
+
+#include "base/error.hpp"
+#include "coupling/placed_on_bed.hpp"
+#include "terrain/grain_faults.hpp"
+#include "terrain/grain_removal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace grouser::coupling {
+
+Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
+                       const base::Comm& comm, SettledBeds* beds, SphereSets* spheres)
+    : setup_(std::move(setup)), exec_(exec), comm_(comm) {
+  if (hasBed()) {
+    const BedSetup& bed = *bedGround().grains->bed;
+    const bool kept = beds && bed.settle.timeLimit > 0;
+    SettledGround settled =
+        kept ? beds->settle(bedGround(), exec, progress, comm) : settledGround(bedGround(), exec, progress, comm);
+    ground_ = std::move(settled.ground), settled_ = settled.report;
+    keepSurface(ground_, exec);
+    if (bed.settle.timeLimit > 0) {
+      ground_.structure = structureOf(ground_);
+      checkStructure(bed, *ground_.structure);
+    }
+    if (isPutOnBed()) {
+      lifts_ = liftsOnto(*ground_.grains, setup_.ground, comm);
+      lift(setup_.ground, lifts_);
+      requireRoom(*ground_.grains, setup_.ground, comm);
+      takeIntoScene(ground_, setup_.ground, exec, comm);
+    }
+  } else {
+    ground_ = buildGround(setup_.ground, exec, comm);
+  }
+  surface_ = withObstacles(surfaceHeight(ground_), setup_.ground.obstacles);
+  if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, spheres);
+  if (setup_.mechanism) mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
+  if (ground_.grains) ground_.grains->setSteps(0);
+  makeSurfaces(nullptr);
+  if (isPutOnBed()) putGrains(ground_, setup_.ground);
+  if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains, spheres);
+  start_ = wholeLedger();
+  addGrains();
+}
+
+/// What stops a grain in `advance`, with the cause that energies and parts show.
+template <class Advance> void Simulation::namingCause(const Advance& advance) {
+  try {
+    advance();
+  } catch (const terrain::GrainFault& fault) {
+    const std::string cause = causeOf(fault);
+    if (cause.empty()) throw;
+    throw base::SimulationError(fault.fact + "; " + cause);
+  }
+}
+
+void Simulation::step(StepObserver* observer) {
+  const auto done = [observer](Stage stage) {
+    if (observer) observer->after(stage);
+  };
+  terrain::Grains* grains = ground_.grains.get();
+  if (vehicle_) vehicle_->setSurfacePoses();
+  done(Stage::surfacePoses);
+  const bool slotsChanged = grains && grains->refreshNeighbours();
+  done(Stage::neighbourList);
+  if (vehicle_) vehicle_->refreshLists(grains, slotsChanged);
+  done(Stage::partLists);
+  if (vehicle_ && grains) grains->beginBoundaries();
+  done(Stage::boundaries);
+  if (vehicle_) vehicle_->computeContacts(grains, observer);
+  if (vehicle_) base::synchronize(exec_), vehicle_->collectLoads();
+  done(Stage::partLoads);
+  if (surfaces_) surfaces_->computeContacts(*grains, steps_, slotsChanged);
+  if (grains) grains->beginStep(partLoads());
+  done(Stage::grainStep);
+  // The device works on the grains while the host solves vehicle or mechanism.
+  if (vehicle_) vehicle_->advance();
+  if (mechanism_) mechanism_->advance();
+  done(Stage::multibody);
+  if (grains) namingCause([&] { grains->endStep(); });
+  if (surfaces_) surfaces_->advance(*grains, steps_);
+  done(Stage::grainStepEnded);
+  ++steps_;
+  takeOutCrushed();
+  addGrains();
+  if (vehicle_ && steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
+  afterStep();
+  done(Stage::checks);
+}
+
+/// `last`: the next step is not to be launched ahead of this one's end.
+void Simulation::stepAhead(bool last) {
+  terrain::Grains& grains = *ground_.grains;
+  vehicle_->setSurfacePoses();
+  if (!ahead_->nextIsLaunched()) {
+    const bool slotsChanged = grains.refreshNeighbours();
+    vehicle_->refreshLists(&grains, slotsChanged);
+  } else if (!vehicle_->contacts().listsHold()) {
+    throw base::SimulationError(fmt::format("step {}, time {:.4g} s: a part of the vehicle was thrown: within one step "
+                                            "it has moved more than four times as "
+                                            "far as in the step before; use a smaller time_step or gentler driving",
+                                            steps_, time()));
+  }
+  ahead_->begin();
+  // An alarm leaves the state as this step has made it, to be looked at.
+  const bool mayAlarm = (steps_ + 1) % VehicleRig::kAlarmInterval == 0;
+  if (!last && !mayAlarm) ahead_->launchNext();
+  ahead_->awaitLoads();
+  vehicle_->collectLoads();
+  vehicle_->advance();
+  namingCause([&] { ahead_->end(); });
+  ++steps_;
+  if (steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
+  afterStep();
+}
+
+/// Whether nothing but grains and vehicle takes part in a step, so that the device can be given work ahead.
+bool Simulation::canStepAhead() const {
+  return vehicle_ && ground_.grains && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
+         setup_.ground.grains->sources.empty() && !setup_.crushes() && terrain::GrainsAhead::canLaunch(*ground_.grains);
+}
+
+std::int64_t Simulation::advance(std::int64_t most) {
+  const bool grainsAlone =
+      ground_.grains && !vehicle_ && !mechanism_ && !surfaces_ && setup_.ground.grains->sources.empty();
+  const std::int64_t toLook = EnergyGuard::kInterval - steps_ % EnergyGuard::kInterval;
+  if (!grainsAlone && steps_ > 0 && canStepAhead()) {
+    if (!ahead_) ahead_ = std::make_unique<StepsAhead>(exec_, *ground_.grains, *vehicle_);
+    const std::int64_t count = std::min(most, toLook);
+    try {
+      for (std::int64_t k = 1; k <= count; ++k) {
+        stepAhead(k == count);
+        if (!vehicle_->ended().empty()) return k; // at a look at the alarm, before which no step is launched
+      }
+    } catch (...) {
+      ahead_->callOff();
+      throw;
+    }
+    return count;
+  }
+  if (!grainsAlone) {
+    step();
+    return 1;
+  }
+  std::int64_t taken = 0;
+  namingCause([&] { taken = ground_.grains->advance(std::min(most, toLook)); });
+  steps_ += taken;
+  afterStep();
+  return taken;
+}
+
+/// Of the rigid parts that touch the grains in this step; null without.
+const contact::GrainLoadsView* Simulation::partLoads() const {
+  if (vehicle_) return vehicle_->contacts().grainLoads();
+  return surfaces_ ? surfaces_->grainLoads() : nullptr;
+}
+
+/// Makes the surfaces and gives the grains their poses of this step. The grains were built with the poses of t = 0, so
+/// in a resumed run this comes before any contact is computed.
+void Simulation::makeSurfaces(const SurfaceStates* former) {
+  if (!ground_.grains || setup_.ground.surfaces.empty()) return;
+  surfaces_ = std::make_unique<Surfaces>(setup_.ground, setup_.gravity, setup_.timeStep);
+  if (former) surfaces_->restore(*former);
+  surfaces_->place(*ground_.grains, steps_);
+}
+
+/// Adds the grains of the sources that enter before the next step. What they bring with them belongs to the ledger's
+/// start, so that it does not count as a change.
+void Simulation::addGrains() {
+  if (!ground_.grains || setup_.ground.grains->sources.empty()) return;
+  const std::vector<terrain::GrainSpec> entering = setup_.ground.grains->sources.enteringAt(steps_);
+  if (entering.empty()) return;
+  const Ledger before = wholeLedger();
+  ground_.grains->add(entering);
+  start_.move(before, wholeLedger());
+}
+
+/// Takes out the grains that were crushed to their middle in this step, so that none passes through a part. What their
+/// contacts with parts held is dissipated; all else that they had the ledger goes on counting as it was.
+void Simulation::takeOutCrushed() {
+  if (!setup_.crushes()) return;
+  const std::vector<std::uint32_t> ids = vehicle_ ? vehicle_->contacts().endedGrains() : surfaces_->endedGrains();
+  if (ids.empty()) return;
+  if (vehicle_)
+    vehicle_->takeOut(ids);
+  else
+    surfaces_->takeOut(ids);
+  const Ledger before = wholeLedger();
+  const double mass = terrain::removeGrains(*ground_.grains, ids);
+  const Ledger after = wholeLedger();
+  start_.move(before, after);
+  taken_.grains += static_cast<double>(ids.size()), taken_.mass += mass;
+  taken_.energy += before.kinetic - after.kinetic + before.potential - after.potential + before.elastic - after.elastic;
+  taken_.momentum += before.momentum - after.momentum;
+}
+
+void Simulation::checkAlarm() {
+  const std::string alarm = vehicle_->alarm(steps_);
+  if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
+}
+
+Ledger Simulation::wholeLedger() {
+  Ledger l;
+  if (ground_.grains) {
+    const terrain::GrainLedger g = ground_.grains->ledger();
+    l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = l.grainElastic = g.elastic;
+    l.dissipated = {g.damped, g.rubbed, g.slipped, g.rolled, g.yielded, 0, 0, 0};
+    l.work = g.work, l.turnover = g.turnover;
+    l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;
+    l.momentumResidual = g.momentum - g.impulse, l.angularResidual = g.angularMomentum - g.angularImpulse;
+    l.grainContacts = g.contacts, l.boundaryContacts = g.boundaryContacts;
+    l.squeezedPairs = g.squeezed, l.squeezedAtBoundaries = g.squeezedAtBoundaries;
+    l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
+  }
+  if (vehicle_) vehicle_->addTo(l);
+  if (surfaces_) surfaces_->addTo(l);
+  if (mechanism_) mechanism_->addTo(l);
+  return l;
+}
+
+Ledger Simulation::ledger() {
+  Ledger l = wholeLedger();
+  l.countFrom(start_);
+  return l;
+}
+
+/// The grain that has stopped the run, and what it touches: vehicle and meshes too.
+PressedGrain Simulation::pressed(std::uint32_t grain) {
+  PressedGrain pressed = pressedGrain(
+      *ground_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
+  std::vector<std::pair<std::string, double>> parts;
+  if (vehicle_) parts = vehicle_->contacts().pressing(grain);
+  if (surfaces_) parts = surfaces_->meshesPressing(grain);
+  for (const auto& [name, overlap] : parts) pressed.by.insert(pressed.by.begin(), {name, overlap, {}, true});
+  return pressed;
+}
+
+std::optional<PressedMost> Simulation::pressedMost() const {
+  if (vehicle_) return vehicle_->contacts().pressedMost();
+  return surfaces_ ? surfaces_->pressedMost() : std::nullopt;
+}
+
+/// Hertz contacts of faster impacts are stiffer than the step was chosen for.
+std::string Simulation::impactNote(const Ledger& now) const {
+  if (!ground_.grains || !setup_.ground.grains->impactSpeed) return {};
+  const double chosen = *setup_.ground.grains->impactSpeed;
+  if (now.fastestGrain <= chosen) return {};
+  return fmt::format(
+      " (grains move at up to {:.3g} m/s, hertz contacts were taken at run.impact_speed = {:g} m/s: raise it "
+      "to what they meet at)",
+      now.fastestGrain, chosen);
+}
+
+std::string Simulation::causeOf(const terrain::GrainFault& fault) {
+  using terrain::Fault;
+  if (fault.fault != Fault::overlap && fault.fault != Fault::speed && fault.fault != Fault::through) return {};
+  const Ledger now = ledger();
+  if (const std::string verdict = energyVerdict(now); !verdict.empty())
+    return verdict + fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step{}",
+                                 timeStep(), impactNote(now));
+  const PressedGrain grain = pressed(fault.id);
+  if (fault.fault == Fault::speed)
+    return grain.fallsFreely(setup_.gravity)
+               ? "it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before"
+               : "";
+  std::string by = grain.sentence();
+  if (const PressedGrain::Presser* through = fault.fault == Fault::through ? grain.rigidPresser() : nullptr)
+    by = fmt::format("{} has taken {:.3g} mm of its radius of {:.3g} mm{}", through->name, 1e3 * through->overlap,
+                     1e3 * grain.radius, by.empty() ? by : "; " + by);
+  return fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
+                     "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or {}",
+                     by.empty() ? by : by + "; ", norm(grain.velocity),
+                     vehicle_ && fault.fault == Fault::through
+                         ? "keep soil out of the running gear (vehicle.soil_meets)"
+                         : "raise run.max_overlap");
+}
+
+/// Ledger and guard, after each step.
+void Simulation::afterStep() {
+  // What contacts of parts hold is known of the beginning of the last step: after the first one, of the start.
+  if (steps_ == 1) start_.elastic += partsElastic();
+  if (steps_ % EnergyGuard::kInterval != 0) return;
+  const Ledger now = ledger();
+  checkEnergy(now);
+  guard_.look(now);
+}
+
+double Simulation::partsElastic() const {
+  return (vehicle_ ? vehicle_->contacts().ledger().elastic : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
+}
+
+void Simulation::checkEnergy() {
+  const Ledger now = ledger();
+  // Within a contact of grains energies swing: what a few steps make, the next ones take back.
+  const bool early = !mechanism_ && steps_ % EnergyGuard::kInterval < EnergyGuard::kOneContact;
+  if (early && std::isfinite(now.integrationError) && std::isfinite(now.turnover)) return;
+  checkEnergy(now);
+}
+
+double Simulation::energyHeld(const Ledger& now) const {
+  return std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic) + weightHeld();
+}
+
+/// What rests on stiff contacts holds next to no energy, yet its weight works on the resolution of its place.
+double Simulation::weightHeld() const {
+  if (!ground_.grains) return 0;
+  const terrain::GrainModel& model = ground_.grains->model();
+  const double one = hasBed() ? setup_.ground.grains->bed->restEnergy : model.mass * norm(model.gravity) * model.radius;
+  return one * static_cast<double>(ground_.grains->count() - ground_.grains->system().fixedCount);
+}
+
+std::string Simulation::energyVerdict(const Ledger& now) const { return guard_.judge(now, energyHeld(now)); }
+
+void Simulation::checkEnergy(const Ledger& now) {
+  const std::string verdict = energyVerdict(now);
+  if (verdict.empty()) return;
+  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
+  if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
+  if (mechanism_)
+    if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
+  if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
+  if (vehicle_ && now.dissipated.parts > now.dissipated.ofGrains())
+    remedy += "; most has been dissipated where shoes touch " + mostDissipating(vehicle_->assembly(), vehicle_->save());
+  throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
+}
+
+std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation) {
+  std::vector<spheredecomp::CutReport> all;
+  const auto add = [&](const std::vector<spheredecomp::CutReport>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (const VehicleRig* vehicle = simulation.vehicle())
+    add(vehicle->parts().cutReports()), add(obstacleReports(vehicle->contacts()));
+  if (simulation.surfaces()) add(simulation.surfaces()->cutReports());
+  return all;
+}
+
+} // namespace grouser::coupling

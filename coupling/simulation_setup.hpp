@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/ground_setup.hpp"
+#include "coupling/mechanism_setup.hpp"
+#include "coupling/vehicle_setup.hpp"
+
+#include <optional>
+
+namespace grouser::coupling {
+
+/// Everything that a simulation is made of, checked, with every law that follows from it, as plain typed values.
+struct SimulationSetup {
+  double timeStep{};   ///< [s]
+  base::Vec3d gravity; ///< [m/s2]
+  GroundSetup ground;
+  std::optional<VehicleSetup> vehicle;
+  std::optional<MechanismSetup> mechanism;
+
+  bool crushes() const {
+    return ground.grains && ground.grains->partLaws.crush();
+  } ///< whether grains do, against parts
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/ground.hpp"
+#include "coupling/mechanism_state.hpp"
+#include "coupling/surface_state.hpp"
+#include "coupling/vehicle_state.hpp"
+#include "terrain/grain_state.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// Grains that were crushed to their middle and taken out.
+struct TakenOut {
+  double grains{}, mass{}; ///< [-], [kg]
+  double energy{};         ///< kinetic, potential and elastic that they had [J]
+  base::Vec3d momentum;    ///< [N s]
+};
+
+/// All of a simulation on which later bits or later output depend. Free of device, threads and lists.
+struct SimulationState {
+  std::int64_t steps{};
+  std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
+  SettleReport settled;
+  std::optional<terrain::BedStructure> bed; ///< before anything touched it
+  std::vector<double> ledgerAtStart;        ///< Ledger::counted(): the ledger counts from here
+  std::vector<double> guard;                ///< EnergyGuard::save()
+  std::optional<terrain::GrainState> grains;
+  std::optional<SurfaceStates> surfaces;
+  std::optional<VehicleState> vehicle;
+  std::optional<MechanismState> mechanism;
+  std::vector<double> lifts; ///< of what was put on a settled bed [m]; empty without
+  TakenOut taken;            ///< since the start
+
+  /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of
+  /// which call it.
+  std::string hash(const base::Comm& comm = {}) const;
+};
+
+} // namespace grouser::coupling

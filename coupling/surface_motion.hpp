@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <limits>
+
+namespace grouser::coupling {
+
+/// The constants of a prescribed motion; see SurfaceMotion.
+struct SurfaceMotionLaw {
+  base::Vec3d pivot;                                     ///< [m] that it turns about
+  base::Vec3d velocity, spin, amplitude;                 ///< [m/s], [rad/s], [m]
+  double frequency{}, phase{};                           ///< [Hz], [turns]
+  double start{};                                        ///< [s]
+  double until{std::numeric_limits<double>::infinity()}; ///< [s]
+};
+
+/// How a rigid surface is moved: closed functions of time, so that nothing adds up and a resumed run has the same bits.
+///
+/// With s the time since `start`, held at `until`:
+///   pivot(s) = pivot + velocity s + amplitude (sin(2 pi frequency s + phase) - sin(phase))
+///   turn(s)  = |spin| s about spin,   centre(s) = pivot(s) + turn(s) (centre - pivot)
+class SurfaceMotion {
+public:
+  SurfaceMotion() = default; ///< at rest at the origin
+  SurfaceMotion(const SurfaceMotionLaw& law, const base::Vec3d& centre) : law_(law), arm_(centre - law.pivot) {}
+
+  struct State {
+    base::Vec3d centre;         ///< [m]
+    base::Quat turned;          ///< since the start
+    base::Vec3d velocity, spin; ///< of the centre [m/s], [rad/s]
+    base::Vec3d pivot;          ///< [m]
+  };
+  State at(double time) const;
+  void lift(double way) { law_.pivot.z += way; } ///< all of it, upwards [m]
+
+private:
+  SurfaceMotionLaw law_;
+  base::Vec3d arm_; ///< from the pivot to the centre at the start [m]
+};
+
+} // namespace grouser::coupling

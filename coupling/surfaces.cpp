@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/surfaces.hpp"
+
+#include "base/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::coupling {
+
+using base::Vec3d;
+
+Surfaces::Surfaces(const GroundSetup& setup, const Vec3d& gravity, double timeStep)
+    : setup_(setup), surfaces_(setup.surfaces), gravity_(gravity), timeStep_(timeStep) {
+  for (const SurfaceSetup& s : surfaces_)
+    if (!s.mesh) ++shapes_;
+  states_.surfaces.resize(surfaces_.size());
+}
+
+Vec3d Surfaces::freeAxis(std::size_t i) const { return surfaces_[i].free ? surfaces_[i].free->axis : Vec3d{}; }
+
+terrain::SurfacePose Surfaces::placement(std::size_t i, std::int64_t step) const {
+  const SurfaceMotion::State law = surfaces_[i].motion.at(static_cast<double>(step) * timeStep_);
+  const SurfaceState& s = states_.surfaces[i];
+  const Vec3d centre = law.centre + freeAxis(i) * s.offset, velocity = law.velocity + freeAxis(i) * s.speed;
+  return {{centre, (law.turned * surfaces_[i].start.orientation).matrix(), centre, velocity, law.spin},
+          law.turned.matrix()};
+}
+
+base::Pose Surfaces::pose(std::size_t i, std::int64_t step) const {
+  const SurfaceMotion::State law = surfaces_[i].motion.at(static_cast<double>(step) * timeStep_);
+  return {law.centre + freeAxis(i) * states_.surfaces[i].offset, law.turned * surfaces_[i].start.orientation};
+}
+
+void Surfaces::makeMeshContacts(const base::Exec& exec, terrain::Grains& grains, SphereSets* kept) {
+  if (shapes_ == surfaces_.size()) return;
+  meshes_ = std::make_unique<MeshContacts>(setup_, exec, grains, kept);
+  if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
+}
+
+void Surfaces::computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
+  if (!meshes_) return;
+  std::vector<contact::PartMotion> motions;
+  for (std::size_t i = shapes_; i < surfaces_.size(); ++i) motions.push_back(placement(i, step).motion);
+  meshes_->computeContacts(grains, motions, slotsChanged);
+}
+
+SurfaceStates Surfaces::save() const {
+  SurfaceStates states = states_;
+  if (meshes_) states.patches = meshes_->save();
+  return states;
+}
+
+void Surfaces::place(terrain::Grains& grains, std::int64_t step) const {
+  std::vector<terrain::SurfacePose> placements;
+  for (std::size_t i = 0; i < shapes_; ++i) placements.push_back(placement(i, step));
+  grains.setSurfacePoses(placements);
+}
+
+/// A surface that moves more than half a radius in a step could pass through a grain without contact.
+void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const {
+  const bool plane = surfaces_[i].geometry.shape == terrain::SurfaceShape::plane;
+  const double across = plane ? std::fabs(dot(freeAxis(i), placement(i, step).normal())) : 1;
+  const double speed = std::fabs(states_.surfaces[i].speed), most = 0.5 * smallestRadius / timeStep_;
+  if (speed * across <= most) return;
+  throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {}, which forces move, goes at {:.4g} m/s, more "
+                                          "than half the smallest grain's radius in a "
+                                          "step ({:.4g} m/s): it could pass through a grain unfelt; lower its load, "
+                                          "raise its mass, or use a smaller time_step",
+                                          step, static_cast<double>(step) * timeStep_, surfaces_[i].name, speed, most));
+}
+
+/// Meshes have many corners: these are looked at now and then.
+void Surfaces::checkPlace(std::size_t i, std::int64_t step) const {
+  constexpr std::int64_t kInterval = 50;
+  const terrain::PeriodicBoundaries& sides = setup_.grains->boundaries.periodic;
+  if ((!sides[0] && !sides[1]) || !surfaces_[i].moves || (surfaces_[i].mesh && step % kInterval != 0)) return;
+  const std::string fault = faultAtBoundaries(surfaces_[i], pose(i, step), sides, setup_.grains->model.radius);
+  if (!fault.empty())
+    throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {} {}; change what moves it", step,
+                                            static_cast<double>(step) * timeStep_, surfaces_[i].name, fault));
+}
+
+void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
+  const double time = static_cast<double>(step) * timeStep_;
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const terrain::SurfaceLoad& load =
+        i < shapes_ ? grains.system().boundaries.surfaceLoads()[i] : meshes_->loads()[i - shapes_];
+    const SurfaceMotion::State law = surfaces_[i].motion.at(time);
+    SurfaceState& s = states_.surfaces[i];
+    const Vec3d centre = law.centre + freeAxis(i) * s.offset;
+    double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
+    if (const auto& free = surfaces_[i].free) {
+      // Symplectic Euler, as the grains.
+      const double mass = free->mass, given = free->loadAt(time), before = s.speed;
+      s.speed += (dot(load.force + gravity_ * mass, freeAxis(i)) + given) / mass * timeStep_;
+      s.offset += s.speed * timeStep_;
+      s.turnover += 0.5 * mass * std::fabs(s.speed * s.speed - before * before);
+      checkSpeed(i, step, grains.system().constants.smallestRadius);
+      power += given * 0.5 * (before + s.speed);
+    }
+    checkPlace(i, step + 1);
+    s.work += power * timeStep_;
+    s.impulse -= load.force * timeStep_;
+    s.angularImpulse -= (load.torque + cross(centre, load.force)) * timeStep_;
+    s.force += load.force, s.torque += load.torque, s.power += power;
+    s.pivotTorque += load.torque + cross(law.centre - law.pivot, load.force);
+  }
+  ++states_.meanSteps;
+  place(grains, step + 1);
+}
+
+Surfaces::Observation Surfaces::observe(std::size_t i, std::int64_t step) const {
+  const SurfaceState& s = states_.surfaces[i];
+  const double share = states_.meanSteps > 0 ? 1 / static_cast<double>(states_.meanSteps) : 0.0;
+  return {s.force * share, s.torque * share, s.pivotTorque * share, s.power * share, pose(i, step).position};
+}
+
+std::vector<std::pair<std::string, double>> Surfaces::meshesPressing(std::uint32_t grain) const {
+  std::vector<std::pair<std::string, double>> named;
+  if (!meshes_) return named;
+  for (const contact::GrainPartContacts::Press& p : meshes_->pressing(grain))
+    named.emplace_back(fmt::format("mesh '{}'", surfaces_[shapes_ + static_cast<std::size_t>(p.part)].name),
+                       static_cast<double>(p.overlap));
+  return named;
+}
+
+std::optional<PressedMost> Surfaces::pressedMost() const {
+  if (!meshes_) return {};
+  const auto most = meshes_->mostPressed();
+  if (!most) return PressedMost{};
+  return PressedMost{static_cast<int>(shapes_) + most->part, most->grain, most->share};
+}
+
+void Surfaces::restartMeans() {
+  if (meshes_) meshes_->forgetPressed();
+  for (SurfaceState& s : states_.surfaces) s.force = s.torque = s.pivotTorque = {}, s.power = 0;
+  states_.meanSteps = 0;
+}
+
+void Surfaces::addTo(Ledger& ledger) const {
+  if (meshes_) {
+    const contact::GrainPartContacts::Ledger m = meshes_->ledger();
+    ledger.elastic += m.elastic, ledger.partContacts += m.contacts, ledger.squeezedByParts += m.squeezed;
+    ledger.dissipated.damping += m.damped, ledger.dissipated.friction += m.rubbed,
+        ledger.dissipated.rolling += m.rolled, ledger.dissipated.microSlip += m.slipped;
+    ledger.dissipated.crushing += m.crushed, ledger.cappedNow += m.capped, ledger.cutImpulse += m.cutImpulse;
+  }
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const SurfaceState& s = states_.surfaces[i];
+    ledger.driveWork += s.work;
+    ledger.momentumResidual -= s.impulse, ledger.angularResidual -= s.angularImpulse;
+    if (!surfaces_[i].free) continue;
+    const double mass = surfaces_[i].free->mass, kinetic = 0.5 * mass * s.speed * s.speed;
+    ledger.kinetic += kinetic, ledger.work += kinetic, ledger.turnover += s.turnover;
+    ledger.potential -= mass * dot(gravity_, freeAxis(i)) * s.offset;
+  }
+}
+
+void Surfaces::restore(const SurfaceStates& states) {
+  if (states.surfaces.size() != surfaces_.size())
+    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+  states_ = states;
+}
+
+} // namespace grouser::coupling

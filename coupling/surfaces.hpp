@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/ground_setup.hpp"
+#include "coupling/ledger.hpp"
+#include "coupling/mesh_contacts.hpp"
+#include "coupling/pressed_grain.hpp"
+#include "coupling/surface_state.hpp"
+#include "terrain/grains.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// The moving surfaces of a scene: where they are at each step, what they take to be moved, and how those that forces
+/// move give way. The same on all ranks.
+class Surfaces {
+public:
+  /// `setup` outlives it.
+  Surfaces(const GroundSetup& setup, const base::Vec3d& gravity, double timeStep);
+  Surfaces(const Surfaces&) = delete;
+  Surfaces& operator=(const Surfaces&) = delete;
+
+  /// The meshes' contacts; after grains have been restored, before the first computeContacts().
+  void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
+
+  /// Contacts of grains with meshes in step `step`.
+  void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
+  /// For the grains' step; null without meshes.
+  const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
+  /// Where they are at step `step`, to the grains.
+  void place(terrain::Grains& grains, std::int64_t step) const;
+  /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step. Throws
+  /// SimulationError where a surface moves so fast that it could pass through a grain in one step, or has come to a
+  /// periodic boundary, beyond which grains do not feel it.
+  void advance(terrain::Grains& grains, std::int64_t step);
+
+  std::size_t count() const { return surfaces_.size(); }
+  const SurfaceSetup& surface(std::size_t i) const { return surfaces_[i]; }
+  base::Pose pose(std::size_t i, std::int64_t step) const;
+
+  /// Loads by the grains, about the centre, and the power of what moves the surface: means since restartMeans().
+  struct Observation {
+    base::Vec3d force, torque; ///< [N], [N m]
+    base::Vec3d pivotTorque;   ///< about the pivot [N m]
+    double power{};            ///< [W]
+    base::Vec3d position;      ///< of the centre now [m]
+  };
+  Observation observe(std::size_t i, std::int64_t step) const;
+  void restartMeans();
+  /// Names of the meshes that press a grain, and by how much [m]; all ranks call it.
+  std::vector<std::pair<std::string, double>> meshesPressing(std::uint32_t grain) const;
+
+  /// Grains that a mesh has crushed to their middle in this step, by id; all ranks call it.
+  std::vector<std::uint32_t> endedGrains() const {
+    return meshes_ ? meshes_->endedGrains() : std::vector<std::uint32_t>{};
+  }
+  std::vector<spheredecomp::CutReport> cutReports() const {
+    return meshes_ ? meshes_->cutReports() : std::vector<spheredecomp::CutReport>{};
+  }
+  void takeOut(const std::vector<std::uint32_t>& grains) { meshes_->takeOut(grains); }
+  std::optional<PressedMost> pressedMost() const; ///< by a mesh since restartMeans(); empty without meshes
+
+  /// Adds the work of what moves them, energies of surfaces that forces move, and contacts with meshes.
+  void addTo(Ledger& ledger) const;
+  double meshElastic() const { return meshes_ ? meshes_->ledger().elastic : 0.0; } ///< in contacts with meshes [J]
+
+  SurfaceStates save() const;
+  /// Throws InputError when they are of other surfaces.
+  void restore(const SurfaceStates& states);
+
+private:
+  terrain::SurfacePose placement(std::size_t i, std::int64_t step) const;
+  void checkPlace(std::size_t i, std::int64_t step) const;
+  void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
+
+  base::Vec3d freeAxis(std::size_t i) const; ///< zero where it is not free
+
+  const GroundSetup& setup_;
+  const std::vector<SurfaceSetup>& surfaces_;
+  base::Vec3d gravity_;
+  double timeStep_;
+  SurfaceStates states_;
+  std::size_t shapes_{0}; ///< surfaces that are no meshes
+  std::unique_ptr<MeshContacts> meshes_;
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/ground_setup.hpp"
+#include "terrain/grains.hpp"
+#include "terrain/height_field.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// A bed made of copies of one settled tile.
+///
+/// A piece of the bed of about terrain.tile, with periodic boundaries on level ground, is laid and settled alone, then
+/// copied over the terrain with the springs of its contacts, so that the copies are in balance across their seams.
+/// Grains that would stand in a wall are left out, and, where the ground is not level, those with their centre above
+/// the height-map; what lay against them has to come to rest again. Every rank makes the same tile.
+class TiledBed {
+public:
+  /// `settled`: the grains of tile.ground, at rest; `surface`: of the whole terrain.
+  TiledBed(const TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface);
+
+  /// Where the grains are, by id.
+  std::vector<terrain::GrainSpec> start(int material) const;
+  /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
+  void bringToRest(terrain::Grains& grains, std::size_t floor) const;
+
+private:
+  /// Where a grain of the tile stands in one of the copies.
+  struct Copy {
+    std::array<std::int64_t, 2> tile;
+    std::size_t grain; ///< row of the tile's state
+  };
+  base::Vec3l place(const Copy& copy) const;
+  double radiusOf(std::size_t grain) const {
+    return tile_.radius.empty() ? radius_ : static_cast<double>(tile_.radius[grain]);
+  }
+  bool isFixed(std::size_t grain) const { return !tile_.fixed.empty() && tile_.fixed[grain] != 0; }
+  std::int64_t idOf(std::array<std::int64_t, 2> tile, std::size_t grain) const;
+
+  std::array<bool, 2> periodic_{};
+  std::array<std::int64_t, 2> copies_{};
+  base::PositionScale scale_;
+  double radius_;       ///< where all are alike [m]
+  base::Period period_; ///< of the tile
+  base::Vec3l lift_{};  ///< from the tile's own place to the first copy
+  terrain::GrainState tile_;
+  std::vector<Copy> grains_;     ///< by id
+  std::vector<std::int64_t> id_; ///< [copies x][copies y][grains of the tile]; -1: left out
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/towing.hpp"
+
+#include "base/error.hpp"
+
+namespace grouser::coupling {
+
+using base::Vec3d;
+
+void Towing::pull(const vehicle::Assembly& vehicle, const multibody::State& state, const vehicle::Driver& driver,
+                  double dt, const Vec3d& gravity, multibody::Loads& loads) {
+  const auto hull = static_cast<std::size_t>(vehicle.chassis);
+  const vehicle::HitchMotion motion = vehicle::hitchMotion(vehicle, state, hitch_.options().point);
+  before_ = state.twist[hull];
+  ahead_ = {motion.forwardX, motion.forwardY, 0};
+  lever_ = motion.position - state.pose[hull].position;
+  wrench_ = {};
+  if (const std::optional<double> start = driver.driveStart())
+    wrench_.force = hitch_.step(motion, state.time - *start, dt, gravity);
+  wrench_.torque = cross(lever_, wrench_.force);
+  loads.external[hull].force += wrench_.force, loads.external[hull].torque += wrench_.torque;
+}
+
+void Towing::book(const vehicle::Assembly& vehicle, const multibody::State& state, double dt) {
+  const multibody::Twist& now = state.twist[static_cast<std::size_t>(vehicle.chassis)];
+  const Vec3d v = 0.5 * (before_.v + now.v), w = 0.5 * (before_.w + now.w);
+  const double power = dot(wrench_.force, v) + dot(wrench_.torque, w);
+  work_ += power * dt;
+  const Vec3d left{-ahead_.y, ahead_.x, 0};
+  forces_ += Vec3d{dot(wrench_.force, ahead_), dot(wrench_.force, left), wrench_.force.z};
+  speeds_ += dot(v + cross(w, lever_), ahead_), taken_ -= power, ++steps_;
+}
+
+HitchObservation Towing::observe() const {
+  const double share = steps_ > 0 ? 1 / static_cast<double>(steps_) : 0.0;
+  HitchObservation o;
+  o.force = forces_ * share, o.pull = 0.0 - o.force.x;
+  o.speed = speeds_ * share, o.power = taken_ * share, o.work = work_;
+  o.towedWay = hitch_.way(), o.towedSpeed = hitch_.towedSpeed();
+  return o;
+}
+
+std::vector<double> Towing::books() const {
+  return {work_.sum, work_.lost, forces_.x, forces_.y, forces_.z, speeds_, taken_, static_cast<double>(steps_)};
+}
+
+void Towing::restore(const std::vector<double>& state, const std::vector<double>& books) {
+  hitch_.restore(state);
+  if (books.size() != this->books().size())
+    throw base::InputError("hitch: the checkpoint is of another hitch; resume with the scene that was run");
+  work_.sum = books[0], work_.lost = books[1], forces_ = {books[2], books[3], books[4]};
+  speeds_ = books[5], taken_ = books[6], steps_ = static_cast<std::int64_t>(books[7]);
+}
+
+} // namespace grouser::coupling

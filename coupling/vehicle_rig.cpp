@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/vehicle_rig.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "base/rounded.hpp"
+#include "coupling/grains_under_shoes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::coupling {
+
+using base::Vec3d;
+
+namespace {
+
+/// Set down along the ground, `lift` [m] higher than its surface asks for.
+vehicle::Assembly assembled(const VehicleSetup& setup,
+                            const std::function<double(double, double)>& surfaceHeight, double lift) {
+  const Placement& place = setup.place;
+  vehicle::AssemblyOptions options;
+  options.fixChassis = setup.fixChassis;
+  options.guide = setup.guide, options.right = !setup.single;
+  options.drive = setup.driver.drive;
+  options.pose_W = setup.onTerrain ? setDown(setup.spec, place, setup.clearance, surfaceHeight)
+                                   : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
+  options.pose_W.position.z += lift;
+  return vehicle::assemble(setup.spec, options);
+}
+
+base::Comm commOf(const Ground& ground) { return ground.grains ? ground.grains->system().comm : base::Comm{}; }
+
+/// So much that no shoe stands in a grain, and no part in an obstacle.
+double liftFor(const SimulationSetup& setup, const Ground& ground, const VehicleParts& parts,
+               const std::function<double(double, double)>& surfaceHeight) {
+  const VehicleSetup& vehicle = *setup.vehicle;
+  double lift = 0;
+  if (vehicle.onTerrain && ground.grains) lift = liftOffGrains(assembled(vehicle, surfaceHeight, 0), *ground.grains);
+  if (setup.ground.obstacles.empty()) return lift;
+  return lift + liftOffObstacles(assembled(vehicle, surfaceHeight, lift), parts, setup.ground.obstacles);
+}
+
+/// The first shoe that is not `within` [m] inside the terrain, and where; null while all are.
+struct ShoeAtEdge {
+  const vehicle::Part* shoe;
+  Vec3d place;
+};
+/// From each end of the terrain to a place [m]; negative beyond it.
+std::array<double, 4> marginsOf(const terrain::Rectangle& area, const Vec3d& p) {
+  return {p.x - area.xMin, area.xMax - p.x, p.y - area.yMin, area.yMax - p.y};
+}
+
+/// A shoe nearer to an end of the terrain than `within`, which is given for each end.
+std::optional<ShoeAtEdge> shoeAtEdge(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
+                                     const multibody::State& state, const std::array<double, 4>& within) {
+  if (!area) return {};
+  for (const int index : assembly.groundParts) {
+    const vehicle::Part& part = assembly.parts[static_cast<std::size_t>(index)];
+    const Vec3d& p = state.pose[static_cast<std::size_t>(part.body)].position;
+    const std::array<double, 4> margins = marginsOf(*area, p);
+    for (std::size_t side = 0; side < 4; ++side)
+      if (margins[side] < within[side]) return ShoeAtEdge{&part, p};
+  }
+  return {};
+}
+
+/// How near a shoe must come to each end for `edge` to end the run: a vehicle that was set down nearer than that has to
+/// come nearer still.
+std::array<double, 4> edgesToMeet(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
+                                  double edge) {
+  constexpr double kNearer = 0.05; // [m] more than shoes come and go where a loop turns round
+  std::array<double, 4> edges{edge, edge, edge, edge};
+  for (const int index : assembly.groundParts) {
+    const auto body = static_cast<std::size_t>(assembly.parts[static_cast<std::size_t>(index)].body);
+    const std::array<double, 4> margins = marginsOf(*area, assembly.model.bodies()[body].pose.position);
+    for (std::size_t side = 0; side < 4; ++side) edges[side] = std::min(edges[side], margins[side] - kNearer);
+  }
+  return edges;
+}
+
+/// Which shoe has left the terrain, in words; empty while none has.
+std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
+                       const multibody::State& state) {
+  const std::optional<ShoeAtEdge> at = shoeAtEdge(area, assembly, state, {});
+  if (!at) return {};
+  return fmt::format("the {} has left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position, "
+                     "shorten run.duration, or let stop.edge end the run before",
+                     at->shoe->name, at->place.x, at->place.y);
+}
+
+} // namespace
+
+VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
+                       const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
+                       std::optional<double> lift)
+    : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), stop_(setup.vehicle->stop),
+      gravity_(setup.gravity), area_(setup.ground.area), surfaceHeight_(surfaceHeight),
+      replicated_(ground.grains.get()),
+      parts_(std::make_unique<VehicleParts>(
+          assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle, commOf(ground), kept,
+          ground.grains ? ground.grains->system().constants.smallestRadius : base::kInfinity)),
+      lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
+      assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
+      solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
+      loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
+      observer_(std::make_unique<vehicle::Observer>(assembly_,
+                                                    vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone,
+                                                                             .heading = setup.vehicle->place.heading,
+                                                                             .gravity = gravity_})),
+      blows_(assembly_.mass * norm(gravity_)) {
+  contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
+                                                setup.vehicle->soilMeetsShoesAlone, kept);
+  if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
+}
+
+void VehicleRig::collectLoads() {
+  contacts_->collect(loads_);
+  for (ForceMeans* means : {&rowMeans_, &alarmMeans_}) {
+    means->sums.resize(parts_->contactParts() + contacts_->surfaces());
+    for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);
+    ++means->steps;
+  }
+}
+
+/// What the driver asks for in this step; without a course and without engines a function of time alone.
+vehicle::Controls VehicleRig::controls() {
+  vehicle::Controls controls = driver_.course()
+                                   ? driver_.step(state_.time, timeStep_, vehicle::hullMotion(assembly_, state_))
+                                   : driver_.at(state_.time);
+  if (driver_.options().drive == vehicle::SprocketDrive::engine) vehicle::addEngineTorques(assembly_, state_, controls);
+  return controls;
+}
+
+void VehicleRig::advance() {
+  vehicle::applyControls(assembly_, controls(), gravity_, loads_);
+  replicated_.run([this] {
+    if (towing_) towing_->pull(assembly_, state_, driver_, timeStep_, gravity_, loads_);
+    solver_->step(state_, loads_, timeStep_);
+    if (towing_) towing_->book(assembly_, state_, timeStep_);
+    observer_->update(state_, timeStep_);
+    contacts_->trackTravel(state_);
+  });
+}
+
+vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
+  vehicle::GroundLoads loads;
+  if (!contacts_->onGround() && contacts_->surfaces() == 0) return loads;
+  loads.force.resize(assembly_.model.bodies().size());
+  const double share = means.steps > 0 ? 1 / static_cast<double>(means.steps) : 0.0;
+  for (std::size_t c = 0; c < std::min(means.sums.size(), parts_->contactParts()); ++c) {
+    const auto body = static_cast<std::size_t>(assembly_.parts[parts_->partOf(c)].body);
+    loads.force[body] += contacts_->groundForceQuantum().value(means.sums[c]) * share;
+  }
+  return loads;
+}
+
+vehicle::Observation VehicleRig::observe() const {
+  vehicle::Observation seen = observer_->observe(state_, groundLoads(rowMeans_), surfaceHeight_);
+  if (towing_) {
+    seen.drawbarPull = 0.0 - seen.along.of(towing_->observe().force);
+  } else {
+    // The ground's force less the share that holds the weight on a slope.
+    const double c = base::cos(seen.heading), s = base::sin(seen.heading);
+    const Vec3d weight = gravity_ * (assembly_.mass * driver_.at(state_.time).weight);
+    seen.drawbarPull += seen.along.of({weight.x * c + weight.y * s, 0, weight.z});
+  }
+  seen.blows = blows_;
+  return seen;
+}
+
+void VehicleRig::restartMeans() {
+  rowMeans_.restart();
+  contacts_->forgetPressed();
+  observer_->restartMeans();
+  if (towing_) towing_->restartMeans();
+}
+
+Vec3d VehicleRig::groundForce(const ForceMeans& means) const {
+  Vec3d sum;
+  for (const Vec3d& force : groundLoads(means).force) sum += force;
+  return sum;
+}
+
+Vec3d VehicleRig::meanForceOn(std::size_t obstacle) const {
+  const std::size_t place = parts_->contactParts() + obstacle;
+  if (rowMeans_.steps == 0 || place >= rowMeans_.sums.size()) return {};
+  return contacts_->groundForceQuantum().value(rowMeans_.sums[place]) * (1 / static_cast<double>(rowMeans_.steps));
+}
+
+/// Lets a driver that waits know whether the vehicle rests.
+std::string VehicleRig::judgeRest() {
+  if (!driver_.waits() || !contacts_->onGround()) return {};
+  const double g = norm(gravity_);
+  const Vec3d down = g > 0 ? gravity_ * (1 / g) : Vec3d{0, 0, -1};
+  return driver_.judge(state_.time, dot(state_.twist[assembly_.chassis].v, down),
+                       g > 0 ? -dot(groundForce(alarmMeans_), down) / (assembly_.mass * g) : 0.0);
+}
+
+/// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.
+std::string VehicleRig::judgeTurns() const {
+  std::size_t quickest = 0;
+  double rate = 0;
+  for (std::size_t b = 0; b < state_.twist.size(); ++b)
+    if (const double w = norm(state_.twist[b].w); !(w <= rate)) rate = w, quickest = b;
+  if (rate * timeStep_ <= largestTurn_) return {};
+  return fmt::format("{} turns by {:.4g} rad a step, above the {:.4g} rad of run.steps_per_period = {:g} steps a turn, "
+                     "beyond which its contacts are no longer resolved; drive more gently (driver), or set "
+                     "run.time_step to {} s or less",
+                     assembly_.model.bodies()[quickest].name, rate * timeStep_, largestTurn_,
+                     2 * base::kPi / largestTurn_, base::roundedDown(largestTurn_ / rate, 4));
+}
+
+/// As of mechanisms: swings across the pull of the track, and of whatever else bears forces.
+std::string VehicleRig::judgeTension() {
+  std::string part;
+  const double r = timeStep_ * solver_->geometricStiffnessRate(state_, loads_, &part) / solver_->stabilityLimit();
+  if (swings_.bears(r, kTensionInterval)) return {};
+  return fmt::format("swings across the pull in joints may have grown {:g} times, for it stays above what the step "
+                     "bears, now {:.3g} times that ({}); set run.time_step to {} s or less, or lower what pulls "
+                     "(idler.preload of the vehicle file, driver)",
+                     SwingGrowth::kMost, r, part, base::roundedDown(0.5 * timeStep_ / r, 4));
+}
+
+/// Whether every track whose sprocket turns moves the hull at less than a twentieth of its speed.
+bool VehicleRig::stalls() const {
+  constexpr double kShare = 0.05, kTurns = 0.01; // [-], [m/s]
+  const std::optional<double> start = driver_.driveStart();
+  if (!start || state_.time < *start + driver_.options().driveRamp) return false;
+  bool driven = false;
+  for (std::size_t i = 0; i < assembly_.tracks.size(); ++i) {
+    const multibody::JointReading& sprocket = state_.joint[assembly_.tracks[i].sprocketJoint];
+    const double speed = std::fabs(sprocket.rate) * assembly_.spec.pitchRadius();
+    if (speed < kTurns) continue;
+    driven = true;
+    if (std::fabs(vehicle::trackSpeed(assembly_, static_cast<int>(i), state_)) >= kShare * speed) return false;
+  }
+  return driven;
+}
+
+/// By the state alone, so that a resumed run ends where it ended.
+std::string VehicleRig::judgeEnd() const {
+  const auto origin = [](const base::Pose& hull, const Vec3d& centre) { return hull.toWorld(-centre); };
+  const auto hull = static_cast<std::size_t>(assembly_.chassis);
+  const Vec3d& centre = assembly_.spec.chassis.centre;
+  const Vec3d way = origin(state_.pose[hull], centre) - origin(assembly_.model.bodies()[hull].pose, centre);
+  const double distance = std::sqrt(way.x * way.x + way.y * way.y);
+  if (stop_.distance && distance >= *stop_.distance)
+    return fmt::format("stop.distance: the vehicle is {:.3f} m from where it was set down", distance);
+  if (const auto at = stop_.edge && area_
+                          ? shoeAtEdge(area_, assembly_, state_, edgesToMeet(area_, assembly_, *stop_.edge))
+                          : std::nullopt)
+    return fmt::format("stop.edge: the {} is at ({:.2f}, {:.2f}) m, within {:g} m of the end of the terrain",
+                       at->shoe->name, at->place.x, at->place.y, *stop_.edge);
+  const double stalled = static_cast<double>(stalledSteps_) * timeStep_;
+  if (stop_.immobile && stalled >= *stop_.immobile)
+    return fmt::format("stop.immobile: for {:.3g} s the tracks have been driven and the hull has moved at less than a "
+                       "twentieth of their speed",
+                       stalled);
+  return {};
+}
+
+std::string VehicleRig::alarm(std::int64_t step) {
+  // Both before the track: what they see throws it.
+  std::string alarm = step % kTensionInterval == 0 ? judgeTension() : "";
+  if (alarm.empty()) alarm = judgeTurns();
+  if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
+  if (alarm.empty()) alarm = judgeRest();
+  if (const double g = norm(gravity_); g > 0) blows_.add(state_.time, -dot(groundForce(alarmMeans_), gravity_) / g);
+  alarmMeans_.restart();
+  stalledSteps_ = stalls() ? stalledSteps_ + kAlarmInterval : 0;
+  ended_ = judgeEnd();
+  return alarm.empty() && ended_.empty() ? offTerrain(area_, assembly_, state_) : alarm;
+}
+
+void VehicleRig::addTo(Ledger& ledger) const {
+  const multibody::Balance b = bodiesBalance();
+  const VehicleContacts::Ledger c = contacts_->ledger();
+  ledger.kinetic += b.now.kinetic, ledger.work += b.now.kinetic - b.leftOver, ledger.turnover += b.turnover;
+  ledger.driveWork += b.driveWork + (towing_ ? towing_->work() : 0);
+  ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;
+  ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
+  ledger.dissipated.microSlip += c.slipped, ledger.dissipated.crushing += c.crushed;
+  ledger.cappedNow += c.capped, ledger.cutImpulse += c.cutImpulse;
+  ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += b.dissipated();
+  ledger.momentum += b.now.linearMomentum, ledger.angularMomentum += b.now.angularMomentum;
+  // The grains' own residual still lacks what the parts gave them.
+  ledger.momentumResidual += b.linearLeftOver - c.impulseOnGrains;
+  ledger.angularResidual += b.angularLeftOver + c.angularOnParts;
+  ledger.partContacts += c.grainContacts, ledger.patches += c.patches, ledger.squeezedByParts += c.squeezed;
+  ledger.impulseResidual += c.impulseOnParts + c.impulseOnGrains;
+}
+
+VehicleState VehicleRig::save() const {
+  VehicleState s;
+  s.lift = lift_;
+  s.bodies = state_.save();
+  s.observers = observer_->save();
+  s.driver = driver_.save();
+  if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->books();
+  contacts_->save(s);
+  s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
+  s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
+  s.judged = swings_.save();
+  const std::vector<double> blows = blows_.save();
+  s.judged.insert(s.judged.end(), blows.begin(), blows.end());
+  s.stalledSteps = stalledSteps_;
+  return s;
+}
+
+void VehicleRig::restore(const VehicleState& s) {
+  const std::size_t most = parts_->contactParts() + contacts_->surfaces(), swings = swings_.save().size();
+  if (s.groundForces.size() > most || s.alarmForces.size() > most ||
+      (s.judged.size() != swings && s.judged.size() != swings + vehicle::BlowMeter::kNumbers))
+    throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
+  state_.restore(s.bodies);
+  observer_->restore(s.observers);
+  driver_.restore(s.driver);
+  if (towing_) towing_->restore(s.hitch, s.hitchBooks);
+  contacts_->restore(s);
+  rowMeans_ = {s.groundForces, s.meanSteps};
+  alarmMeans_ = {s.alarmForces, s.alarmSteps};
+  swings_.restore(s.judged[0], s.judged[1]);
+  stalledSteps_ = s.stalledSteps;
+  if (s.judged.size() > swings) // older ones do not know of blows
+    blows_.restore({s.judged.begin() + static_cast<std::ptrdiff_t>(swings), s.judged.end()});
+  if (std::llround(state_.time / timeStep_) % kAlarmInterval == 0) ended_ = judgeEnd();
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "multibody/readings.hpp"
+#include "multibody/solver.hpp"
+#include "coupling/simulation_setup.hpp"
+#include "coupling/ledger.hpp"
+#include "coupling/swing_growth.hpp"
+#include "coupling/towing.hpp"
+#include "coupling/vehicle_contacts.hpp"
+#include "coupling/vehicle_parts.hpp"
+#include "coupling/vehicle_state.hpp"
+#include "vehicle/assembly.hpp"
+#include "vehicle/driver.hpp"
+#include "vehicle/observers.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// The vehicle of a scene: its bodies and joints, its driver, what its parts touch, and what is observed of it.
+class VehicleRig {
+public:
+  /// Reads the meshes, cuts them into spheres, places the vehicle above the ground: `lift` [m] higher than its surface
+  /// asks for; where not given, so high that no shoe stands in a grain. `kept` as in VehicleParts.
+  VehicleRig(const SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
+             const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
+             std::optional<double> lift = {});
+  VehicleRig(const VehicleRig&) = delete;
+  VehicleRig& operator=(const VehicleRig&) = delete;
+
+  // One step, in this order; see VehicleContacts.
+  void setSurfacePoses() { contacts_->setPoses(state_); }
+  void refreshLists(const terrain::Grains* grains, bool slotsChanged) { contacts_->refreshLists(grains, slotsChanged); }
+  void computeContacts(const terrain::Grains* grains, StepObserver* observer) { contacts_->compute(grains, observer); }
+  void collectLoads();                                   ///< once the device has them
+  void advance();                                        ///< multibody step
+  VehicleContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
+
+  const vehicle::Assembly& assembly() const { return assembly_; }
+  const multibody::State& state() const { return state_; }
+  const VehicleParts& parts() const { return *parts_; }
+  const VehicleContacts& contacts() const { return *contacts_; }
+  /// Pose of part `i` of the assembly in the world.
+  base::Pose partPose(std::size_t i) const { return vehicle::partPose(assembly_.parts[i], state_); }
+
+  /// Ground loads are means since the last restartMeans(): on grains a single step says little.
+  vehicle::Observation observe() const;
+  void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
+  void restartMeans();
+  const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
+  /// Sum over all parts, mean since restartMeans() [N].
+  base::Vec3d meanGroundForce() const { return groundForce(rowMeans_); }
+  /// Of the vehicle on one of setup.ground.obstacles, mean since restartMeans() [N].
+  base::Vec3d meanForceOn(std::size_t obstacle) const;
+  /// When the drive began [s]; empty while it waits for the vehicle to rest.
+  std::optional<double> driveStart() const { return driver_.driveStart(); }
+  /// Steps between two calls of alarm(), and of those that look at the pull of the tracks, which takes a millisecond.
+  static constexpr std::int64_t kAlarmInterval = 50, kTensionInterval = 2000;
+  /// A thrown or skipped track, a part that turns too far a step, a pull in the track that the step does not bear, a
+  /// shoe that has left the terrain, a vehicle that does not come to rest, in words; empty while all is well. Judges by
+  /// the loads since it was last asked, and so whether a vehicle that was set down rests and drives off: to be called
+  /// at fixed steps.
+  std::string alarm(std::int64_t step);
+
+  /// What of the scene's [stop] has come to pass, in words, as alarm() has found it: the run is over. Empty: it goes
+  /// on.
+  const std::string& ended() const { return ended_; }
+
+  /// The books of the bodies alone; what contacts of parts hold and lose is in contacts().ledger().
+  multibody::Balance bodiesBalance() const { return multibody::balance(assembly_.model, state_, loads_); }
+  /// Adds the bodies' energies and momenta, and those of contacts of parts with parts and ground.
+  void addTo(Ledger& ledger) const;
+
+  /// Bodies, contact history and sums, for hash and checkpoint.
+  VehicleState save() const;
+  /// Throws InputError when the state is of another vehicle.
+  void restore(const VehicleState& state);
+
+private:
+  /// Sums over steps of the ground's force on each contact part, then of that on each surface: whole quanta, so that a
+  /// checkpoint keeps them exactly.
+  struct ForceMeans {
+    std::vector<base::Vec3l> sums;
+    std::int64_t steps{0};
+    void restart() { sums.assign(sums.size(), {}), steps = 0; }
+  };
+  vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
+  base::Vec3d groundForce(const ForceMeans& means) const; ///< sum over all parts [N]
+  vehicle::Controls controls();
+  std::string judgeRest();
+  std::string judgeTurns() const;
+  std::string judgeTension();
+  bool stalls() const;
+  std::string judgeEnd() const;
+
+  double timeStep_, largestTurn_;
+  StopSetup stop_;
+  base::Vec3d gravity_;
+  std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
+  std::function<double(double, double)> surfaceHeight_;
+  ReplicatedWork replicated_;
+  std::unique_ptr<VehicleParts> parts_;
+  double lift_; ///< [m]
+  vehicle::Assembly assembly_;
+  std::unique_ptr<multibody::Solver> solver_;
+  multibody::State state_;
+  multibody::Loads loads_;
+  vehicle::Driver driver_;
+  std::optional<Towing> towing_;
+  std::unique_ptr<vehicle::Observer> observer_;
+  vehicle::BlowMeter blows_;
+  std::unique_ptr<VehicleContacts> contacts_;
+  ForceMeans rowMeans_, alarmMeans_;
+  SwingGrowth swings_;          ///< of track and arms
+  std::int64_t stalledSteps_{}; ///< for which driven tracks have not moved the hull
+  std::string ended_;
+};
+
+} // namespace grouser::coupling

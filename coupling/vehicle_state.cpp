@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/vehicle_state.hpp"
+
+#include "contact/part_surface.hpp"
+#include "multibody/state.hpp"
+#include "vehicle/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <map>
+
+namespace grouser::coupling {
+
+std::vector<std::uint32_t> VehicleState::words() const {
+  std::vector<std::uint32_t> words;
+  const auto add = [&](const std::vector<double>& numbers, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint32_t raw[2];
+      std::memcpy(raw, &numbers[i], sizeof raw);
+      words.insert(words.end(), raw, raw + 2);
+    }
+  };
+  add(bodies, bodies.empty() ? 0 : bodies.size() - multibody::State::kBooks);
+  add(driver, driver.size());
+  add(hitch, hitch.size());
+  for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
+    words.insert(words.end(), more.begin(), more.end());
+  // Of surfaces those patches that are in touch: what is out of reach is no part of the state.
+  for (std::size_t k = 0; k < surfaces.states.size(); ++k) {
+    const contact::PatchState& s = surfaces.states[k];
+    if (s.stiffness == 0) continue;
+    words.push_back(static_cast<std::uint32_t>(k));
+    const std::vector<double> numbers{s.shear.x, s.shear.y, s.shear.z, s.stiffness};
+    add(numbers, numbers.size());
+  }
+  return words;
+}
+
+std::string mostDissipating(const vehicle::Assembly& assembly, const VehicleState& state) {
+  std::map<std::string, double> by;
+  for (std::size_t k = 0; k < state.track.states.size(); ++k) {
+    const vehicle::PartPair& pair = assembly.pairs[k / static_cast<std::size_t>(contact::kClusters)];
+    by[assembly.parts[static_cast<std::size_t>(pair.other)].name] += state.track.states[k].dissipated;
+  }
+  for (const contact::PatchState& patch : state.ground.states) by["ground"] += patch.dissipated;
+  for (const contact::PatchState& patch : state.surfaces.states) by["obstacles and hull"] += patch.dissipated;
+  std::vector<std::pair<double, std::string>> most;
+  for (const auto& [name, energy] : by) most.emplace_back(energy, name);
+  std::sort(most.begin(), most.end(), std::greater<>());
+  constexpr std::size_t kNamed = 3;
+  std::string words;
+  for (std::size_t k = 0; k < std::min(kNamed, most.size()); ++k)
+    words += fmt::format("{}{} {:.3g} J", k > 0 ? ", " : "", most[k].second, most[k].first);
+  return words;
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/campaigns/events/event_plan.hpp"
+#include "runs/campaigns/forecast/probe.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// How long a set of events will take.
+namespace grouser::events {
+
+/// Of one event: all its levels and seeds, one run after the other.
+struct EventTime {
+  Event event{};
+  int runs = 0;
+  double grains = 0; ///< of the largest of its beds
+  double here = 0;   ///< on this machine, with all its cores [s]
+  double h200 = 0;   ///< on one NVIDIA H200 [s]
+};
+
+/// Probes the first level of each event for about a second, as `grouser plan` does, and scales it to the others by
+/// steps and grains. A run is taken to last until its course is driven at the commanded speed.
+///
+/// For an H200: 161 us a step of vehicle and soil up to 285,000 grains (docs/paper.md), 0.43 us more for each thousand
+/// beyond that (docs/speed.md, Hertz contacts, many radii), a second of steps for the bed to settle; on rigid ground,
+/// where the host does all the work, as here.
+std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::path& folder);
+
+/// Table with the sum, in hours; `jobs` runs at the same time share the cores.
+std::string timesText(const std::vector<EventTime>& times);
+
+} // namespace grouser::events

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/events/event_plan.hpp"
+
+#include "base/error.hpp"
+#include "runs/campaigns/sweeps/check_cases.hpp"
+#include "runs/campaigns/sweeps/overrides.hpp"
+#include "runs/campaigns/sweeps/scene_check.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/scene/soil.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/support/locations.hpp"
+#include "vehicle/spec_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+namespace grouser::events {
+
+namespace fs = std::filesystem;
+using base::InputError;
+
+namespace {
+
+constexpr const char* kRigid = "rigid";
+constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
+constexpr double kFewOnPad = 6;         // grains on the width of a pad; of four tracks skip teeth (docs/events.md)
+constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
+constexpr double kStart = 1.2, kSlower = 1.2; // s until it drives; over the time at full speed
+
+/// The names of the ready vehicles.
+std::vector<std::string> readyVehicles() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(support::shareFolder() / "assets" / "vehicles", error))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// The file of a vehicle by name or path, from where grouser is called or among the assets.
+std::string vehicleFile(const std::string& word) {
+  const bool isPath = word.find('/') != std::string::npos || word.ends_with(".toml");
+  std::vector<fs::path> tried;
+  const fs::path found =
+      support::findInput(isPath ? word : "vehicles/" + word + ".toml", fs::current_path() / "events.toml", tried);
+  if (found.empty() || word.empty())
+    throw InputError(fmt::format("--vehicle {}: is no vehicle; ready ones: {}; or give the path of a vehicle file",
+                                 word, fmt::join(readyVehicles(), ", ")));
+  return fs::absolute(found).lexically_normal().string();
+}
+
+scene::Soil soilOf(const std::string& word) {
+  if (word.find('/') != std::string::npos || word.ends_with(".toml"))
+    throw InputError(fmt::format("--soil {}: give a soil's name; a file of your own is found by its name in the folder "
+                                 "soils/ of where grouser is called",
+                                 word));
+  std::vector<fs::path> tried;
+  const fs::path here = fs::current_path() / "events.toml", file = scene::findSoil(word, here, tried);
+  if (file.empty())
+    throw InputError(
+        fmt::format("--soil {}: is neither {} ground nor a soil; {}", word, kRigid, scene::soilHint(word, here)));
+  return scene::readSoil(file);
+}
+
+/// The vehicle's file with the keys that the user has changed in it.
+vehicle::VehicleSpec specOf(const std::string& file, const EventOptions& options) {
+  std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", file)};
+  for (const std::string& set : options.fixed)
+    if (set.starts_with("spec.")) sets.push_back(set);
+  const scene::Scene scene = setup::loadScene(sceneOf(Event::acceleration), sets);
+  return vehicle::readVehicleSpec(scene.vehicle->source());
+}
+
+Course courseOf(const EventOptions& options, const std::string& file, double& grainRadius) {
+  Course c;
+  c.shape = shapeOf(specOf(file, options));
+  c.speed = options.speed.value_or(std::round(100 * kLightSpeed * std::sqrt(c.shape.pitchRadius / kLightRadius)) / 100);
+  c.rigid = options.soil == kRigid, c.soil = options.soil;
+  if (c.rigid) {
+    for (const auto& [given, name] : {std::pair{options.grainRadius.has_value(), "--grain-radius"},
+                                      {options.depth.has_value(), "--depth"},
+                                      {options.seeds.has_value(), "--seeds"}})
+      if (given) throw InputError(fmt::format("{}: rigid ground has no grains; name a --soil, or leave it out", name));
+    return c;
+  }
+  const scene::Soil soil = soilOf(options.soil);
+  const double pad = c.shape.padWidth;
+  const BedCare& care = options.care();
+  grainRadius = options.grainRadius.value_or(pad / (2 * care.grainsOnPad));
+  c.depth = options.depth.value_or(pad * care.depth);
+  c.margin = pad * care.margin;
+  c.soilFriction = soil.material.friction, c.rollingFriction = soil.material.rollingFriction;
+  return c;
+}
+
+/// What all runs of these events have in common.
+std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& plan) {
+  std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", plan.vehicleFile),
+                                   fmt::format("vehicle.sphere_radius={:.3g}", kSphere * plan.course.shape.padWidth),
+                                   "output.plots=false", "output.picture_width=800",
+                                   fmt::format("output.frames={}", options.frames)};
+  if (!plan.course.rigid)
+    for (const std::string& set :
+         {std::string("terrain.kind=\"granular\""), fmt::format("terrain.material=\"{}\"", options.soil),
+          fmt::format("terrain.grain_radius={:.4g}", plan.grainRadius),
+          fmt::format("terrain.depth={:.4g}", plan.course.depth)})
+      sets.push_back(set);
+  if (!plan.course.rigid && plan.course.shape.padWidth < kFewOnPad * 2 * plan.grainRadius)
+    sets.emplace_back("vehicle.soil_meets=\"shoes\"");
+  return sets;
+}
+
+std::string runName(Event event, double level, int seed, bool seeded) {
+  std::string name(base::wordOf(event));
+  if (!levelText(event).empty()) name += fmt::format("={:g}", level);
+  if (seeded) name += fmt::format(",seed={}", seed);
+  return name;
+}
+
+/// When its course will be driven [s]. The duration of a scene is the limit up to which it may take.
+double expectedEnd(const PlannedTrial& planned, double limit) {
+  const Trial& trial = planned.trial;
+  if (trial.angle > 0) return limit;
+  const double speed = planned.event == Event::drawbar ? (1 - planned.level) * trial.speed : trial.speed;
+  return speed > 0 ? std::min(limit, kStart + kSlower * trial.distance / speed) : limit;
+}
+
+std::vector<Event> chosen(const EventOptions& options) {
+  if (options.only.empty()) return allEvents();
+  std::set<Event> asked;
+  for (const std::string& word : options.only) asked.insert(eventOf(word));
+  return {asked.begin(), asked.end()};
+}
+
+/// Levels as a user gives them, in the order of all tables.
+std::vector<double> fromTheEasiest(Event event, std::vector<double> levels) {
+  std::sort(levels.begin(), levels.end());
+  if (event == Event::softSoil) std::reverse(levels.begin(), levels.end());
+  return levels;
+}
+
+void checkLevels(const EventOptions& options, const std::vector<Event>& events) {
+  if (options.levels.empty()) return;
+  if (events.size() != 1 || options.only.empty() || levelText(events[0]).empty())
+    throw InputError("--levels: are of one event that has levels; name it with --only, e.g. --only step");
+  std::vector<double> sorted = options.levels;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() || !(sorted.front() > 0) ||
+      !std::isfinite(sorted.back()))
+    throw InputError("--levels: give each once, all above 0 and finite");
+}
+
+/// A fault of a key that the command has set for a word of the user's, told of that word instead of --set.
+std::string inWordsOfTheUser(const std::string& fault, const EventOptions& options, Event event, double level) {
+  static constexpr std::string_view kSet = "--set: ";
+  if (!fault.starts_with(kSet)) return fault;
+  const std::string rest = fault.substr(kSet.size());
+  for (const std::string& set : options.fixed)
+    if (rest.starts_with(set.substr(0, set.find('=')))) return fault;
+  if (options.depth && rest.starts_with("terrain.depth")) return fmt::format("--depth: {}", rest);
+  if (options.grainRadius && (rest.starts_with("terrain.grain_radius") || rest.starts_with("terrain.depth")))
+    return fmt::format("--grain-radius: {}", rest);
+  if (options.speed && rest.starts_with("driver.")) return fmt::format("--speed: {}", rest);
+  if (!options.levels.empty()) return fmt::format("--levels {:g}: {}", level, rest);
+  return fmt::format("event {}: {}", base::wordOf(event), rest);
+}
+
+/// Loads the scene of a run and, with the first seed, checks it: another lays the same bed otherwise.
+void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial& planned, int seed) {
+  try {
+    run.scene = setup::loadScene(run.file, run.overrides);
+    if (seed == 1) sweeps::checkScene(run.scene);
+  } catch (const InputError& fault) {
+    throw InputError(inWordsOfTheUser(fault.what(), options, planned.event, planned.level));
+  }
+}
+
+} // namespace
+
+fs::path sceneOf(Event event) {
+  // Soft soil is the scene of the resistance over another material.
+  const Event file = event == Event::softSoil ? Event::motionResistance : event;
+  return support::shareFolder() / "runs" / "scenes" / fmt::format("event_{}.toml", base::wordOf(file));
+}
+
+bool EventPlan::shoesAlone() const {
+  return !course.rigid && sweep.runs.front().scene.vehicle->soilMeets == scene::SoilMeets::shoes;
+}
+
+EventPlan planEvents(const EventOptions& options) {
+  const std::vector<Event> events = chosen(options);
+  checkLevels(options, events);
+  sweeps::checkGivenOnce(options.fixed);
+  EventPlan plan;
+  plan.vehicleFile = vehicleFile(options.vehicle);
+  plan.course = courseOf(options, plan.vehicleFile, plan.grainRadius);
+  plan.seeds = plan.course.rigid ? 1 : options.seeds.value_or(options.care().seeds);
+  const std::vector<std::string> common = commonOf(options, plan);
+  plan.sweep.keys = {"event", sweeps::kSeedKey};
+  for (const Event event : events) {
+    if (const std::string why = omission(event, plan.course); !why.empty()) {
+      plan.omitted[event] = why;
+      continue;
+    }
+    const std::vector<double> levels =
+        options.levels.empty() ? levelsOf(event, plan.course, options.quick) : fromTheEasiest(event, options.levels);
+    for (const double level : levels) {
+      PlannedTrial planned{event, level, trialOf(event, level, plan.course), {}};
+      for (int seed = 1; seed <= plan.seeds; ++seed) {
+        sweeps::SweepRun run;
+        run.file = sceneOf(event);
+        run.name = runName(event, level, seed, !plan.course.rigid);
+        run.overrides = common;
+        for (const std::string& set : planned.trial.overrides) sweeps::putOverride(run.overrides, set);
+        if (!plan.course.rigid) run.overrides.push_back(fmt::format("{}={}", sweeps::kSeedKey, seed));
+        for (const std::string& set : options.fixed) sweeps::putOverride(run.overrides, set);
+        run.values = {fmt::format("{}={:g}", base::wordOf(event), level), fmt::format("{}", seed)};
+        load(run, options, planned, seed);
+        run.expectedEnd = expectedEnd(planned, run.scene.run.duration);
+        planned.runs.push_back(plan.sweep.runs.size());
+        plan.sweep.runs.push_back(std::move(run));
+      }
+      plan.trials.push_back(std::move(planned));
+    }
+  }
+  if (plan.sweep.runs.empty())
+    throw InputError(
+        fmt::format("--only {}: {}", base::wordOf(plan.omitted.begin()->first), plan.omitted.begin()->second));
+  plan.sweep.scene = plan.sweep.runs.front().file;
+  return plan;
+}
+
+} // namespace grouser::events

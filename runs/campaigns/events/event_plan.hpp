@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/campaigns/events/event_table.hpp"
+#include "runs/campaigns/sweeps/sweep_plan.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The runs of a set of events.
+namespace grouser::events {
+
+/// How fine, deep and wide beds are, in widths of a pad, and how many seeds each level has.
+struct BedCare {
+  double grainsOnPad; ///< mean diameters on its width
+  double depth;
+  double margin; ///< beside the tracks
+  int seeds;
+};
+inline constexpr BedCare kFullCare{10.4, 1.6, 4, 3}, kQuickCare{3, 1.1, 2, 2};
+
+/// What the user asks for.
+struct EventOptions {
+  std::string vehicle = "light_tracked"; ///< a file of assets/vehicles by its name, or a path that ends in .toml
+  std::string soil = "rigid";            ///< rigid, or a soil by its name
+  std::vector<std::string> only;         ///< events; empty: all
+  std::vector<double> levels;            ///< of the one event that is asked for; empty: those of the event
+  std::vector<std::string> fixed;        ///< "key=value", of all runs
+  std::optional<double> speed;           ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
+  std::optional<double> grainRadius;     ///< in the middle of the distribution [m]
+  std::optional<double> depth;           ///< of the bed [m]
+  std::optional<int> seeds;              ///< of a bed; empty: those of the care
+  bool quick = false;
+  bool frames = false; ///< for films
+  const BedCare& care() const { return quick ? kQuickCare : kFullCare; }
+};
+
+/// A level of an event, and its runs.
+struct PlannedTrial {
+  Event event{};
+  double level = 0;
+  Trial trial;
+  std::vector<std::size_t> runs; ///< of the plan, one a seed
+};
+
+struct EventPlan {
+  Course course;
+  std::string vehicleFile; ///< as the runs take it
+  double grainRadius = 0;  ///< [m]; 0 on rigid ground
+  int seeds = 1;           ///< one on rigid ground, which has no chance in it
+  sweeps::SweepPlan sweep; ///< all runs; each names its scene
+  std::vector<PlannedTrial> trials;
+  std::map<Event, std::string> omitted; ///< of those that were asked for: why
+  bool shoesAlone() const;              ///< the soil meets the shoes alone, not the running gear
+};
+
+/// Reads the vehicle and the soil, and loads and checks the scene of every run as `grouser plan` does. Throws
+/// base::InputError for a vehicle, soil, event, level or key that is none.
+EventPlan planEvents(const EventOptions& options);
+
+/// The scene of an event: runs/scenes/event_NAME.toml of this installation.
+std::filesystem::path sceneOf(Event event);
+
+} // namespace grouser::events

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/events/event_report.hpp"
+
+#include "base/counted.hpp"
+#include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/support/csv_cell.hpp"
+#include "runs/support/estimate.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace grouser::events {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of what every sweep measures in the steady part of a run.
+constexpr const char* kSteady[] = {"speed [m/s]",        "slip [-]",        "sinkage mean [m]",     "sinkage max [m]",
+                                   "drive torque [N m]", "drive power [W]", "motion resistance [N]"};
+
+bool isOfSteadyPart(const std::string& figure) {
+  return std::find(std::begin(kSteady), std::end(kSteady), figure) != std::end(kSteady);
+}
+
+/// Whether means over the second half of a run tell of steady driving straight on, or on a circle.
+bool isSteady(Event event) {
+  return event != Event::pivotTurn && event != Event::step && event != Event::gap && event != Event::ditch &&
+         event != Event::halfRound;
+}
+
+/// Figures of the runs of one level, by name in the order in which they came.
+class Gathered {
+public:
+  void add(const std::string& name, double value) {
+    if (!std::isfinite(value)) return;
+    if (!values_.contains(name)) order_.push_back(name);
+    values_[name].push_back(value);
+  }
+  std::vector<FigureOverSeeds> figures() const {
+    std::vector<FigureOverSeeds> all;
+    for (const std::string& name : order_) {
+      const std::vector<double>& v = values_.at(name);
+      all.push_back({name, static_cast<int>(v.size()), support::interval95(v)});
+    }
+    return all;
+  }
+
+private:
+  std::vector<std::string> order_;
+  std::map<std::string, std::vector<double>> values_;
+};
+
+/// What a finished run says.
+Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs::path& folder, Gathered& gathered) {
+  const sweeps::RunSeries series = sweeps::readSeries(folder);
+  const double start = sweeps::RunManifest(folder).figure("drive_start_s");
+  if (std::isnan(start)) return {false, "never drove off"};
+  const Motion motion = motionOf(series, start, planned.event == Event::steadyTurn);
+  double pull = 0;
+  for (const Figure& f : figuresOf(planned.event, motion, series, start, planned.trial, course)) {
+    gathered.add(f.name, f.value);
+    if (f.name == kPull) pull = f.value;
+  }
+  // A carriage that imposes the slip goes its way whatever the vehicle does.
+  if (planned.event == Event::drawbar)
+    return {pull > 0, fmt::format("{} {:.3g} kN", pull > 0 ? "pulls" : "is pulled with", std::fabs(pull) / 1000)};
+  return judge(motion, planned.trial);
+}
+
+std::string goText(const EventRow& row) {
+  if (row.runs == 0) return row.pending > 0 ? "pending" : row.incomplete > 0 ? "incomplete" : "failed";
+  if (row.runs == 1) return row.gos ? "go" : "no-go";
+  return fmt::format("{} {}/{}", row.gos == row.runs ? "go" : row.gos == 0 ? "no-go" : "partly", row.gos, row.runs);
+}
+
+std::string levelCell(const EventRow& row) {
+  return levelText(row.event).empty() ? "" : fmt::format("{:g}", row.level);
+}
+
+std::string limitText(const EventLimit& limit) {
+  if (limit.go && limit.noGo) return fmt::format("between {:g} and {:g}", *limit.go, *limit.noGo);
+  if (limit.go) return fmt::format("above {:g}", *limit.go);
+  if (limit.noGo) return fmt::format("below {:g}", *limit.noGo);
+  return "not known";
+}
+
+} // namespace
+
+std::string EventRow::doubtOf(const FigureOverSeeds& figure) const {
+  if (!doubt.empty() && isOfSteadyPart(figure.name)) return doubt;
+  return support::isInconclusive(figure.estimate) ? "interval wider than the value" : "";
+}
+
+std::string EventRow::why() const {
+  if (event == Event::drawbar && gos > 1 && gos == runs)
+    for (const FigureOverSeeds& f : figures)
+      if (f.name == kPull) return fmt::format("pulls {:.3g} kN in the mean", f.estimate.value / 1000);
+  for (const char* verdict : {"no-go", "go", "incomplete", "failed"})
+    for (const RunVerdict& r : each)
+      if (r.verdict == verdict) return r.why;
+  return "";
+}
+
+std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
+                                const fs::path& folder) {
+  sweeps::SweepFigures steady = sweeps::sweepFigures(plan.sweep, outcomes, folder);
+  std::vector<EventRow> rows;
+  for (const PlannedTrial& planned : plan.trials) {
+    EventRow row;
+    row.event = planned.event, row.level = planned.level;
+    Gathered gathered;
+    steady.keepSound(planned.runs), row.doubt = steady.doubtOf(planned.runs);
+    for (const std::size_t run : planned.runs) {
+      const sweeps::SweepOutcome& outcome = outcomes[run];
+      const fs::path at = folder / plan.sweep.runs[run].name;
+      RunVerdict said{plan.sweep.runs[run].name, "pending", ""};
+      if (outcome.status == output::RunStatus::finished) {
+        const Verdict verdict = finishedRun(planned, plan.course, at, gathered);
+        ++row.runs, row.gos += verdict.go;
+        said.verdict = verdict.go ? "go" : "no-go", said.why = verdict.why;
+        for (std::size_t c = 0; isSteady(planned.event) && c < steady.columns.size(); ++c)
+          if (isOfSteadyPart(steady.columns[c])) gathered.add(steady.columns[c], steady.values[run][c]);
+      } else if (outcome.status == output::RunStatus::incomplete) {
+        ++row.incomplete;
+        said.verdict = "incomplete", said.why = outcome.message;
+      } else if (outcome.status == output::RunStatus::failed) {
+        const FailureVerdict failure = judgeFailure(outcome.message);
+        failure.known ? ++row.runs : ++row.unknown;
+        said.verdict = failure.known ? "no-go" : "failed", said.why = failure.why;
+      } else {
+        ++row.pending;
+      }
+      row.each.push_back(said);
+      std::error_code error;
+      if (row.picture.empty() && fs::exists(at / "picture.png", error))
+        row.picture = (fs::path(plan.sweep.runs[run].name) / "picture.png").string();
+    }
+    row.figures = gathered.figures();
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Course& course) {
+  std::vector<EventLimit> limits;
+  for (const Event event : allEvents()) {
+    std::vector<const EventRow*> levels;
+    for (const EventRow& row : rows)
+      if (row.event == event && row.runs > 0 && !levelText(event).empty()) levels.push_back(&row);
+    const auto harder = [event](const EventRow* a, const EventRow* b) {
+      return event == Event::softSoil ? a->level > b->level : a->level < b->level;
+    };
+    std::sort(levels.begin(), levels.end(), harder);
+    if (levels.size() < 2 || event == Event::drawbar) continue;
+    EventLimit limit{event, {}, {}, referenceOf(event, course), {}};
+    for (const EventRow* row : levels) {
+      if (row->gos < row->runs) {
+        limit.noGo = row->level;
+        break;
+      }
+      limit.go = row->level;
+    }
+    if (limit.reference) {
+      bool agrees = true;
+      for (const EventRow* row : levels) {
+        if (limit.reference->blocks && row->level > *limit.reference->blocks) agrees = agrees && row->gos == 0;
+        if (limit.reference->passes && row->level < *limit.reference->passes) agrees = agrees && row->gos == row->runs;
+      }
+      limit.agrees = agrees;
+    }
+    limits.push_back(limit);
+  }
+  return limits;
+}
+
+std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits,
+                       const EventPlan& plan) {
+  std::string text;
+  for (const EventRow& row : rows) {
+    text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row), goText(row), row.why());
+    if (row.unknown > 0)
+      text += fmt::format("{:<18}{} of its runs failed for a cause that is not the vehicle's\n", "", row.unknown);
+    if (row.incomplete > 0)
+      text += fmt::format("{:<18}{}\n", "",
+                          base::counted(row.incomplete, "of its runs is incomplete", "of its runs are incomplete"));
+    if (row.pending > 0)
+      text += fmt::format(
+          "{:<18}{}\n", "",
+          base::counted(row.pending, "of its runs is still to be done", "of its runs are still to be done"));
+    for (const FigureOverSeeds& f : row.figures)
+      text += fmt::format("{:<18}  {:<50} {}{}\n", "", f.name,
+                          f.runs > 1 ? support::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
+                          row.doubtOf(f).empty() ? "" : "  inconclusive");
+  }
+  for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);
+  if (plan.shoesAlone()) text += fmt::format("\n{}\n", kShoesAlone);
+  if (!limits.empty()) text += "\nlimits\n";
+  for (const EventLimit& limit : limits)
+    text += fmt::format("{:<18}{:<42}{:<26}{}\n", base::wordOf(limit.event), levelText(limit.event), limitText(limit),
+                        limit.reference
+                            ? fmt::format("{}: {}", limit.reference->text, *limit.agrees ? "agrees" : "does not agree")
+                            : "");
+  return text;
+}
+
+std::string eventsCsv(const std::vector<EventRow>& rows) {
+  std::string text = "event,level,level is,runs,go,why,figure,runs with it,mean,half width,inconclusive\n";
+  for (const EventRow& row : rows) {
+    const std::string head =
+        fmt::format("{},{},{},{},{},{}", base::wordOf(row.event), levelCell(row),
+                    support::csvCell(levelText(row.event)), row.runs, row.gos, support::csvCell(row.why()));
+    if (row.figures.empty()) text += head + ",,,,,\n";
+    for (const FigureOverSeeds& f : row.figures)
+      text +=
+          fmt::format("{},{},{},{},{},{}\n", head, support::csvCell(f.name), f.runs, support::csvCell(f.estimate.value),
+                      support::csvCell(f.estimate.halfWidth), support::csvCell(row.doubtOf(f)));
+  }
+  return text;
+}
+
+nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits,
+                                  const EventPlan& plan) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](const std::optional<double>& v) { return v && std::isfinite(*v) ? Json(*v) : Json(); };
+  Json json;
+  json["rows"] = Json::array();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const EventRow& row = rows[i];
+    Json entry = {{"event", base::wordOf(row.event)},
+                  {"title", titleOf(row.event)},
+                  {"level", levelText(row.event).empty() ? Json() : Json(row.level)},
+                  {"level_is", levelText(row.event)},
+                  {"verdict", goText(row)},
+                  {"runs", row.runs},
+                  {"go", row.gos},
+                  {"failed", row.unknown},
+                  {"pending", row.pending},
+                  {"incomplete", row.incomplete},
+                  {"why", row.why()},
+                  {"each", Json::array()},
+                  {"picture", row.picture},
+                  {"scene", plan.sweep.runs[plan.trials[i].runs.front()].file.filename().string()},
+                  {"overrides", plan.sweep.runs[plan.trials[i].runs.front()].overrides}};
+    for (const RunVerdict& r : row.each)
+      entry["each"].push_back({{"run", r.run}, {"verdict", r.verdict}, {"why", r.why}});
+    entry["figures"] = Json::array();
+    for (const FigureOverSeeds& f : row.figures)
+      entry["figures"].push_back({{"name", f.name},
+                                  {"runs", f.runs},
+                                  {"mean", f.estimate.value},
+                                  {"half_width", number(f.estimate.halfWidth)},
+                                  {"inconclusive", !row.doubtOf(f).empty()}});
+    json["rows"].push_back(entry);
+  }
+  json["limits"] = Json::array();
+  for (const EventLimit& limit : limits)
+    json["limits"].push_back({{"event", base::wordOf(limit.event)},
+                              {"level_is", levelText(limit.event)},
+                              {"go", number(limit.go)},
+                              {"no_go", number(limit.noGo)},
+                              {"reference", limit.reference ? Json(limit.reference->text) : Json()},
+                              {"agrees", limit.agrees ? Json(*limit.agrees) : Json()}});
+  for (const auto& [event, why] : plan.omitted) json["left_out"][std::string(base::wordOf(event))] = why;
+  return json;
+}
+
+} // namespace grouser::events

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/campaigns/events/event_figures.hpp"
+#include "runs/campaigns/events/event_plan.hpp"
+#include "runs/campaigns/sweeps/sweep_summary.hpp"
+#include "runs/support/line_fit.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// The table of a set of events.
+namespace grouser::events {
+
+struct FigureOverSeeds {
+  std::string name; ///< with its unit
+  int runs = 0;
+  support::Estimate estimate; ///< mean with the half width of its 95 % interval, infinite for one run
+};
+
+/// What one run says.
+struct RunVerdict {
+  std::string run;     ///< name of its folder
+  std::string verdict; ///< "go", "no-go", "failed" (for another cause than the vehicle's), "incomplete", "pending"
+  std::string why;
+};
+
+/// A level of an event, over its seeds.
+struct EventRow {
+  Event event{};
+  double level = 0;
+  int runs = 0;    ///< that have a verdict
+  int gos = 0;     ///< of these
+  int unknown = 0; ///< runs that failed for another cause than the vehicle's
+  int pending = 0;
+  int incomplete = 0; ///< runs whose vehicle never drove, or too little to tell
+  std::vector<RunVerdict> each;
+  std::vector<FigureOverSeeds> figures;
+  std::string doubt;   ///< why those of the steady part are inconclusive; empty where they are not
+  std::string picture; ///< of the first run, from the folder; empty where there is none
+
+  /// Why a figure is inconclusive; empty where it is sound.
+  std::string doubtOf(const FigureOverSeeds& figure) const;
+  /// Of the first run that is no go, since that decides; else of the first that has ended, and of drawbar pulls their
+  /// mean.
+  std::string why() const;
+};
+
+/// Between which levels an event's limit lies.
+struct EventLimit {
+  Event event{};
+  std::optional<double> go;   ///< highest level that all seeds pass, with none that any fails below
+  std::optional<double> noGo; ///< lowest that some seed fails
+  std::optional<Reference> reference;
+  /// Whether runs and reference agree: nothing passes that it blocks, or fails that it passes; empty: nothing to say.
+  std::optional<bool> agrees;
+};
+
+std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
+                                const std::filesystem::path& folder);
+/// Of the events that have more than one level.
+std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Course& course);
+
+/// Said of such runs, at the head and in the tables.
+inline constexpr const char* kShoesAlone =
+    "soil meets the shoes alone, not the running gear: coarse stones would jam it (vehicle.soil_meets)";
+
+/// Both tables to read.
+std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);
+/// A row for each level and figure, with its runs, mean and half width.
+std::string eventsCsv(const std::vector<EventRow>& rows);
+/// Everything, with the keys that each level sets.
+nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits,
+                                  const EventPlan& plan);
+
+} // namespace grouser::events

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/events/event_verdict.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace grouser::events {
+
+double greatest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::fabs(v));
+  return most;
+}
+
+namespace {
+
+const std::vector<double>& columnOf(const sweeps::RunSeries& series, const std::string& name) {
+  if (const std::vector<double>* values = series.of(name)) return *values;
+  throw base::InputError(fmt::format("timeseries.csv has no column {}: it is of another version; use --force", name));
+}
+
+/// Mean rate over the last `stretch` before `end` is reached, and when that is.
+struct Passage {
+  double at = 0, rate = 0;
+};
+std::optional<Passage> passage(const std::vector<double>& time, const std::vector<double>& value, double end,
+                               double stretch) {
+  const double at = timeAt(time, value, end), from = stretch < end ? timeAt(time, value, end - stretch) : 0.0;
+  if (std::isnan(at) || std::isnan(from)) return {};
+  return Passage{at, std::min(stretch, end) / std::max(at - from, 1e-9)};
+}
+
+} // namespace
+
+double timeAt(const std::vector<double>& time, const std::vector<double>& value, double level) {
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (value[i] < level) continue;
+    if (i == 0) return time[0];
+    return time[i - 1] + (time[i] - time[i - 1]) * (level - value[i - 1]) / (value[i] - value[i - 1]);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPath) {
+  const auto& x = columnOf(series, "vehicle.position.x [m]");
+  const auto& y = columnOf(series, "vehicle.position.y [m]");
+  const auto& heading = columnOf(series, "vehicle.heading [rad]");
+  const auto& roll = columnOf(series, "vehicle.roll_angle [rad]");
+  const auto& pitch = columnOf(series, "vehicle.pitch_angle [rad]");
+  const auto& up = columnOf(series, "vehicle.velocity.z [m/s]");
+  Motion m;
+  std::size_t first = 0;
+  while (first < series.time.size() && series.time[first] < driveStart) ++first;
+  double path = 0, turned = 0;
+  for (std::size_t i = first; i < series.time.size(); ++i) {
+    if (i > first) {
+      path += std::hypot(x[i] - x[i - 1], y[i] - y[i - 1]);
+      turned += std::remainder(heading[i] - heading[i - 1], 2 * base::kPi);
+    }
+    m.time.push_back(series.time[i] - driveStart);
+    m.way.push_back(alongPath ? path : x[i] - x[first]);
+    m.turned.push_back(turned);
+    m.left.push_back(y[i] - y[first]);
+    m.roll.push_back(roll[i]), m.pitch.push_back(pitch[i]), m.upSpeed.push_back(up[i]);
+  }
+  return m;
+}
+
+Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
+  if (motion.time.empty()) return {false, "never drove off"};
+  const double roll = greatest(motion.roll) * 180 / base::kPi;
+  if (roll >= rule.mostRoll) return {false, fmt::format("rolls to {:.0f} degrees", roll)};
+  if (trial.angle > 0) {
+    const auto turn = passage(motion.time, motion.turned, trial.angle, trial.angle);
+    const double most = *std::max_element(motion.turned.begin(), motion.turned.end()) * 180 / base::kPi;
+    if (!turn) return {false, fmt::format("turns by {:.0f} degrees only", most)};
+    if (turn->at > rule.time) return {false, fmt::format("takes {:.1f} s to turn", turn->at)};
+    const bool quick = turn->rate >= rule.share * trial.rate;
+    return {quick, fmt::format("{:.0f} degrees in {:.1f} s{}", trial.angle * 180 / base::kPi, turn->at,
+                               quick ? "" : ": too slowly")};
+  }
+  const auto drove = passage(motion.time, motion.way, trial.distance, rule.way);
+  const double most = *std::max_element(motion.way.begin(), motion.way.end());
+  if (!drove) return {false, fmt::format("comes {:.1f} of {:.1f} m", std::max(0.0, most), trial.distance)};
+  if (drove->at > rule.time) return {false, fmt::format("takes {:.1f} s", drove->at)};
+  const bool quick = drove->rate >= rule.share * trial.speed;
+  return {quick, fmt::format("{:.1f} m in {:.1f} s{}", trial.distance, drove->at, quick ? "" : ": too slowly")};
+}
+
+FailureVerdict judgeFailure(const std::string& message) {
+  const auto has = [&](const char* words) { return message.find(words) != std::string::npos; };
+  if (has("track thrown")) return {true, "throws a track"};
+  if (has(" track skips:")) return {true, "a track skips teeth"};
+  if (has("has not come to rest")) return {true, "does not come to rest"};
+  if (has(" has left the terrain")) return {true, "leaves the ground"};
+  return {false, message};
+}
+
+} // namespace grouser::events

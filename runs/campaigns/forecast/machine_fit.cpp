@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/forecast/machine_fit.hpp"
+
+#include "base/error.hpp"
+#include "base/free_memory.hpp"
+#include "runs/output/grains_csv.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/grain_count.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/grain_memory.hpp"
+#include "runs/setup/size_checks.hpp"
+#include "terrain/grain_entry.hpp"
+#include "terrain/grain_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace grouser::forecast {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kGiB = 1073741824.0;
+constexpr double kProgram = 100e6, kVehicle = 250e6; // of a process, beside its grains [bytes]
+constexpr double kRow = 1000, kVehicleRow = 7000;    // of results.h5 and timeseries.csv [bytes]
+constexpr double kPicture = 1e6;                     // picture.png [bytes]
+constexpr double kCheckpointBytes = 250;             // of a grain in a checkpoint, with its contacts
+constexpr double kMostRemembered = 2e6;              // grains, of which a state is kept in memory too
+
+std::string size(double bytes) {
+  return bytes >= 0.1 * kGiB ? fmt::format("{:.3g} GiB", bytes / kGiB) : fmt::format("{:.3g} MiB", bytes / 1048576.0);
+}
+
+/// The nearest folder that there is.
+fs::path existing(fs::path folder) {
+  std::error_code error;
+  folder = fs::absolute(folder, error);
+  while (!folder.empty() && !fs::exists(folder, error) && folder != folder.parent_path()) folder = folder.parent_path();
+  return folder;
+}
+
+double bytesIn(const fs::path& folder) {
+  std::error_code error;
+  double bytes = 0;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (std::error_code of; at->is_regular_file(of)) bytes += static_cast<double>(at->file_size(of));
+  return bytes;
+}
+
+} // namespace
+
+double frameBytesOfGrain(const scene::Scene& scene) {
+  const double words = 3 + 1 + 1 + 3 + 1 + (scene.output.contactForces ? 3 : 0); // place, radius, speed, velocity, id
+  const bool fixed = scene.terrain && scene.terrain->granular() && scene.terrain->floorGrains;
+  return 4 * (words + (fixed ? 1 : 0));
+}
+
+Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep, bool onDevice, int ranks,
+                int ranksOnHost) {
+  const auto all = static_cast<double>(grains);
+  const double share = static_cast<double>(ranksOnHost) / ranks;
+  Demand demand;
+  demand.grains = all;
+  const double lists = grains > 0 ? all * setup::grainMemory(scene).most() : 0;
+  // Every rank has the places that all grains begin at; then its own state, to save.
+  const double start = all * static_cast<double>(sizeof(terrain::GrainSpec) + sizeof(base::Position));
+  const double saved = all * kCheckpointBytes * (all <= kMostRemembered && ranks == 1 ? 2 : 1);
+  demand.process =
+      ranksOnHost * (kProgram + (scene.vehicle ? kVehicle : 0)) +
+      std::max(ranksOnHost * start + (onDevice ? 0 : share * lists), share * saved + (onDevice ? 0 : share * lists));
+  if (onDevice) demand.device = lists / ranks + kVehicle;
+
+  const double steps = std::max(1.0, std::round(scene.run.duration / timeStep));
+  const auto times = [&](double interval) { return std::floor(std::min(steps, scene.run.duration / interval)) + 1; };
+  if (scene.output.frames) demand.frames = times(scene.run.frameInterval) * all * frameBytesOfGrain(scene);
+  demand.checkpoint = all * kCheckpointBytes;
+  const double rows = times(scene.run.outputInterval);
+  demand.rows = rows * (scene.vehicle ? kVehicleRow : kRow) + (scene.output.picture ? kPicture : 0);
+  if (output::GrainsCsv::isWanted(scene.output.grainsCsv, grains, scene.run.duration, scene.run.outputInterval))
+    demand.rows += rows * all * output::GrainsCsv::kLineBytes;
+  return demand;
+}
+
+Room roomOf(const base::Exec& exec, const fs::path& folder, bool overwritten) {
+  Room room;
+  room.process = base::freeMemoryOfHost();
+  if (!exec.onCpu()) room.device = base::freeMemoryOf(exec);
+  room.place = existing(folder);
+  std::error_code error;
+  const fs::space_info disk = fs::space(room.place, error);
+  if (!error && disk.capacity > 0)
+    room.disk = static_cast<double>(disk.available) + (overwritten ? bytesIn(folder) : 0);
+  return room;
+}
+
+std::string misfit(const Demand& demand, const Room& room) {
+  std::vector<std::string> lacks;
+  if (room.process && demand.process > *room.process)
+    lacks.push_back(fmt::format("{} about {} of memory, and {} are free: use fewer or larger grains, more hosts "
+                                "(mpirun), or end what else runs here",
+                                demand.grains > 0 ? fmt::format("its {:.3g} grains take", demand.grains) : "it takes",
+                                size(demand.process), size(*room.process)));
+  if (room.device && demand.device > *room.device)
+    lacks.push_back(fmt::format("its grains take about {} of each GPU, and {} are free: use fewer or larger grains, "
+                                "more GPUs (mpirun), or run.device = \"cpu\"",
+                                size(demand.device), size(*room.device)));
+  if (room.disk && demand.disk() > *room.disk)
+    lacks.push_back(fmt::format("its results take about {} ({} of frames), and {} are free in {}: raise "
+                                "run.frame_interval, set output.frames = false, or name a folder on another disk "
+                                "(--out)",
+                                size(demand.disk()), size(demand.frames), size(*room.disk), room.place.string()));
+  return fmt::format("{}", fmt::join(lacks, "; "));
+}
+
+void requireFit(const scene::Scene& scene, const base::Exec& exec, const fs::path& folder, bool overwritten, bool disk,
+                const base::Ranks* ranks) {
+  // These name the key that makes them.
+  setup::checkFillSizes(scene);
+  setup::checkBedSize(scene);
+  const int all = ranks ? ranks->comm().size() : 1, here = ranks ? ranks->ranksOnHost() : 1;
+  // Rows and frames are hardly ever closer than steps; which step is sound is asked later, of parts that are.
+  const double step = scene.run.timeStep.value_or(std::min(scene.run.outputInterval, scene.run.frameInterval));
+  const Demand demand = demandOf(scene, setup::plannedGrains(scene), step, !exec.onCpu(), all, here);
+  Room room = roomOf(exec, folder, overwritten);
+  if (!disk) room.disk.reset();
+  const std::string why = misfit(demand, room);
+  if (!why.empty()) throw base::InputError(fmt::format("{}: does not fit this machine: {}", scene.file.string(), why));
+}
+
+} // namespace grouser::forecast

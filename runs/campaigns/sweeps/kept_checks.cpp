@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/sweeps/kept_checks.hpp"
+
+#include "base/counted.hpp"
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/campaigns/sweeps/check_cases.hpp"
+#include "runs/campaigns/sweeps/check_report.hpp"
+#include "runs/campaigns/sweeps/overrides.hpp"
+#include "runs/campaigns/sweeps/runner.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/support/estimate.hpp"
+#include "runs/support/json_text.hpp"
+#include "runs/support/kept_files.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/shell_word.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <limits>
+
+namespace grouser::sweeps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSeedsOfCheck = 8; // of a whole one
+
+nlohmann::json readJson(const fs::path& path) {
+  std::ifstream file(path);
+  return nlohmann::json::parse(file, nullptr, false);
+}
+
+double numberOrInfinity(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number() ? at->get<double>() : base::kInfinity;
+}
+
+/// The check that is kept of a scene of this origin; no object where there is none.
+nlohmann::json keptCheck(const std::string& origin) {
+  const auto kept = support::KeptFiles::ofUser();
+  if (!kept) return {};
+  nlohmann::json json = readJson(kept->fileOf(support::KeptFiles::Kind::check, origin));
+  return json.is_object() && json.value("of", "") == origin ? json : nlohmann::json();
+}
+
+/// "step, depth, 8 seeds": what is in the bar of a figure.
+std::string partsOf(const nlohmann::json& figure, bool seeded) {
+  std::string text;
+  for (const nlohmann::json& e : figure.at("errors"))
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", e.at("axis").get<std::string>());
+  if (seeded)
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", base::counted(figure.at("seeds").get<int>(), "seed"));
+  return text;
+}
+
+std::string barsText(const nlohmann::json& kept) {
+  constexpr int kMost = 12;
+  const nlohmann::json& check = kept.at("check");
+  std::string text, parts;
+  int told = 0, more = 0;
+  for (const nlohmann::json& f : check.at("figures")) {
+    if (!f.value("headline", false) || !f.at("value").is_number()) continue;
+    if (++told > kMost) ++more;
+    if (told > kMost) continue;
+    if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
+    text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
+                        support::valueText({f.at("value").get<double>(), numberOrInfinity(f, "bar")}));
+  }
+  if (more > 0) text += fmt::format("  and {} more\n", more);
+  return fmt::format("checked   error bars by {}, of the last check of this scene ({}, commit {})\n{}", parts,
+                     kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>(), text);
+}
+
+/// The command that checks this scene, with what was overridden.
+std::string commandOf(const scene::Scene& scene) {
+  std::string text = fmt::format("grouser check {}", support::shellWord(scene.file.string()));
+  for (const std::string& o : scene.overrides)
+    if (keyOf(o) != "run.seed") text += fmt::format(" --set {}", support::shellWord(o));
+  return text;
+}
+
+} // namespace
+
+std::string checkOrigin(scene::Scene scene, const std::string& inputs) {
+  const scene::RunSettings fresh;
+  scene.run.seed = fresh.seed, scene.run.frameInterval = fresh.frameInterval;
+  scene.run.checkpointInterval = fresh.checkpointInterval;
+  scene.output = {}, scene.parallel = {};
+  return identity(scene) + inputs;
+}
+
+void keepCheck(const std::string& origin, const std::string& json, int runs, const fs::path& folder) {
+  const auto kept = support::KeptFiles::ofUser();
+  if (!kept || !kept->writable()) return;
+  const fs::path file = kept->fileOf(support::KeptFiles::Kind::check, origin);
+  const fs::path fresh = support::KeptFiles::freshName(file);
+  try {
+    const nlohmann::json check = nlohmann::json::parse(json), former = keptCheck(origin);
+    if (former.is_object() && former.value("runs", 0) > runs &&
+        former.at("check").at("program").at("commit") == check.at("program").at("commit"))
+      return;
+    const nlohmann::json all = {
+        {"of", origin}, {"runs", runs}, {"folder", fs::absolute(folder).lexically_normal().string()}, {"check", check}};
+    support::replaceTextFile(fresh, support::jsonText(all) + "\n");
+    kept->put(fresh, file);
+  } catch (const std::exception&) {
+    std::error_code error; // a later run then says that nothing was checked
+    fs::remove(fresh, error);
+  }
+}
+
+std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds) {
+  try {
+    const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
+    if (kept.is_object()) return barsText(kept);
+  } catch (const nlohmann::json::exception&) {
+    // damaged, or of another version
+  }
+  return fmt::format("unchecked errors of step, extent and seed: {}, about {} (--budget 20min: as much as fits)\n",
+                     commandOf(scene),
+                     support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck)));
+}
+
+std::string keptCheckText(const scene::Scene& scene, const std::string& inputs) {
+  const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
+  return kept.is_object() ? support::jsonText(kept) : "";
+}
+
+void checkFolderOfCheck(const fs::path& folder) {
+  const nlohmann::json json = readJson(folder / kCheckFile);
+  if (json.is_object() && json.contains("origin") && json.contains("figures")) return;
+  std::error_code error;
+  const nlohmann::json choice = readJson(folder / kCheckChoice);
+  if (fs::exists(folder / kCheckChoice, error) && !(choice.is_object() && choice.contains("asked")))
+    throw base::InputError(fmt::format("{}: is a file that no check has written; name another folder with --out, or "
+                                       "overwrite it with --force",
+                                       (folder / kCheckChoice).string()));
+  for (const char* name : {kCheckFile, kCheckCosts, kCheckSeries, kCheckPlot})
+    if (fs::exists(folder / name, error))
+      throw base::InputError(
+          fmt::format("{}: is a file that no check has written, and this one would write over it; name "
+                      "another folder with --out, or overwrite it with --force",
+                      (folder / name).string()));
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/sweeps/run_manifest.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace grouser::sweeps {
+
+namespace {
+
+double numberOf(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string textOf(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_string() ? at->get<std::string>() : "";
+}
+
+} // namespace
+
+RunManifest::RunManifest(const std::filesystem::path& folder) {
+  std::ifstream file(folder / "manifest.json");
+  json_ = nlohmann::json::parse(file, nullptr, false);
+  if (!json_.is_object()) json_ = nlohmann::json::object();
+}
+
+double RunManifest::number(const char* key) const { return numberOf(json_, key); }
+std::string RunManifest::text(const char* key) const { return textOf(json_, key); }
+
+double RunManifest::figure(const char* key) const {
+  const auto figures = json_.find("figures");
+  return figures != json_.end() && figures->is_object() ? numberOf(*figures, key)
+                                                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string RunManifest::commit() const {
+  const auto program = json_.find("program");
+  return program != json_.end() && program->is_object() ? textOf(*program, "commit") : "";
+}
+
+double RunManifest::stepsOverTimed() const {
+  const double steps = number("steps"), before = figure("resumed_at_step");
+  return before > 0 ? steps / (steps - before) : 1; // which is no number where it went on at its end
+}
+
+double RunManifest::wallTime() const {
+  const double whole = stepsOverTimed();
+  return (std::isfinite(whole) ? whole : 1) * number("wall_time_s");
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/sweeps/runner.hpp"
+
+#include "base/counted.hpp"
+#include "base/error.hpp"
+#include "base/exec.hpp"
+#include "runs/campaigns/sweeps/overrides.hpp"
+#include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/campaigns/sweeps/run_progress.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/storage/checkpoint.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/device_choice.hpp"
+#include "runs/support/file_lock.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/stop_signals.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <thread>
+
+namespace grouser::sweeps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using output::RunStatus;
+
+constexpr const char* kLog = "log.txt"; // what a run printed
+
+/// How a run of this scene by this program stands in the folder; pending where there is none.
+RunStatus statusOf(const fs::path& folder, const scene::Scene& scene) {
+  const RunManifest manifest(folder);
+  const std::optional<RunStatus> status = base::valueOf<RunStatus>(manifest.text("status"));
+  if (!status || manifest.commit() != support::buildInfo().commit || manifest.text("inputs") != setup::inputsOf(scene))
+    return RunStatus::pending;
+  try {
+    return identity(setup::loadScene(folder / "scene.toml")) == identity(scene) ? *status : RunStatus::pending;
+  } catch (const base::InputError&) {
+    return RunStatus::pending; // another version of the program wrote it, or it is damaged
+  }
+}
+
+/// Throws where the folder holds something that no run has left there.
+void checkRunFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  const bool isOurs = fs::exists(folder / kLog, error); // a run of its own has none
+  if (!fs::is_directory(folder, error) || (!isOurs && !fs::is_empty(folder, error)))
+    throw base::InputError(fmt::format(
+        "{}: stands where a run's folder should be; name another with --out, or use it with --force", folder.string()));
+}
+
+/// A sweep's files beside those of a run would hide what the run has.
+void requireNoRun(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / "manifest.json", error))
+    throw base::InputError(
+        fmt::format("{}: holds the results of a run; name another folder with --out", folder.string()));
+}
+
+/// Waits for a run that is still ending in this folder: one of a sweep that was killed writes a checkpoint first.
+void awaitFormer(const fs::path& folder) {
+  constexpr auto kPatience = std::chrono::seconds(60);
+  constexpr auto kLook = std::chrono::milliseconds(20);
+  const auto begun = std::chrono::steady_clock::now();
+  for (;; std::this_thread::sleep_for(kLook)) {
+    support::FileLock lock;
+    if (lock.take(folder)) return;
+    if (std::chrono::steady_clock::now() - begun > kPatience)
+      throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
+                                         "folder with --out",
+                                         folder.string()));
+  }
+}
+
+/// Starts the program with its output in the log, on the GPU of that place among those that run at the same time. A run
+/// that goes on adds to its log. Returns the process.
+pid_t start(std::vector<std::string> words, const fs::path& log, int place, bool goesOn) {
+  std::vector<char*> arguments;
+  for (std::string& w : words) arguments.push_back(w.data());
+  arguments.push_back(nullptr);
+  const std::string gpu = support::firstGpuOf(place);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(fmt::format("no process could be started: {}", std::strerror(errno)));
+  if (child > 0) return child;
+  prctl(PR_SET_PDEATHSIG, SIGTERM); // a killed sweep leaves no runs behind
+  if (getppid() != parent) _exit(1);
+  setenv(support::kFirstGpu, gpu.c_str(), 1);
+  const int file = open(log.c_str(), O_CREAT | (goesOn ? O_APPEND : O_TRUNC) | O_WRONLY, 0644);
+  dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
+  close(file);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+/// Why a run failed: its own error message where it printed one.
+std::string reason(int status, const fs::path& log) {
+  const std::string mark = "grouser: error: ";
+  std::string message;
+  std::ifstream file(log);
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind(mark, 0) == 0) message = line.substr(mark.size());
+  if (WIFSIGNALED(status)) return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  if (!message.empty()) return message;
+  return fmt::format("ended with exit code {}; see {}", WEXITSTATUS(status), log.string());
+}
+
+/// Whether a signal has stopped a run, which may go on: exit code 128 + signal.
+bool hasStopped(int status) { return WIFEXITED(status) && WEXITSTATUS(status) > 128; }
+
+std::ptrdiff_t countEnded(const std::vector<SweepOutcome>& outcomes) {
+  return std::count_if(outcomes.begin(), outcomes.end(),
+                       [](const SweepOutcome& o) { return output::hasEnded(o.status); });
+}
+
+/// The runs of a sweep as processes, at most `jobs` at a time.
+class Runner {
+public:
+  Runner(const SweepPlan& plan, const SweepOptions& options, const std::string& what, const OutcomesChanged& changed)
+      : plan_(plan), options_(options), changed_(changed), outcomes_(plan.runs.size()), work_(plan.runs.size()),
+        progress_(what) {
+    for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+      const bool anew =
+          options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
+      const RunStatus former = anew ? RunStatus::pending : statusOf(folder(i), plan.runs[i].scene);
+      if (former == RunStatus::finished) {
+        outcomes_[i].status = RunStatus::finished;
+        progress_.note(fmt::format("{} finished already", title(i)));
+      } else if (former == RunStatus::incomplete) {
+        outcomes_[i] = {RunStatus::incomplete, RunManifest(folder(i)).text("incomplete")};
+        progress_.note(fmt::format("{} incomplete already: {}", title(i), outcomes_[i].message));
+      } else if (former == RunStatus::failed && options.failuresStay) {
+        outcomes_[i] = {RunStatus::failed, RunManifest(folder(i)).text("error")};
+        progress_.note(fmt::format("{} failed before: {}", title(i), outcomes_[i].message));
+      } else {
+        waiting_.push_back(i);
+        work_[i] = workOf(plan.runs[i]), due_ += work_[i];
+        const bool isHalfDone = former == RunStatus::stopped || former == RunStatus::running; // or killed
+        std::error_code error;
+        if (isHalfDone && fs::exists(folder(i) / storage::kCheckpointName, error)) goesOn_.insert(i);
+      }
+    }
+    todo_ = waiting_.size();
+    if (options.jobs > 1 && options.seconds == 0)
+      std::stable_sort(waiting_.begin(), waiting_.end(),
+                       [&](std::size_t a, std::size_t b) { return work_[a] > work_[b]; });
+  }
+
+  const std::vector<SweepOutcome>& outcomes() const { return outcomes_; }
+
+  void run() {
+    const support::StopSignals signals;
+    changed_(outcomes_);
+    std::size_t next = 0;
+    const auto more = [&] { return next < waiting_.size() && !isLate(); };
+    while (more() || !running_.empty()) {
+      while (more() && running_.size() < static_cast<std::size_t>(options_.jobs)) launch(waiting_[next++]);
+      reap();
+      if (const int signal = support::StopSignals::received()) stop(signal);
+      if (progress_.due()) report();
+    }
+    if (todo_ > 0)
+      progress_.finish(
+          fmt::format("{}{}", endedText(outcomes_), next < waiting_.size() ? "; call again for the others" : ""));
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    std::size_t index;
+    Clock::time_point since;
+    int place; ///< among those that run at the same time
+  };
+
+  fs::path folder(std::size_t i) const { return options_.folder / plan_.runs[i].name; }
+  const fs::path& fileOf(std::size_t i) const { return plan_.runs[i].file.empty() ? plan_.scene : plan_.runs[i].file; }
+  std::string title(std::size_t i) const {
+    return fmt::format("run {} of {}  {:<28}", i + 1, plan_.runs.size(), plan_.runs[i].name);
+  }
+  bool isLate() const {
+    return options_.seconds > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() > options_.seconds;
+  }
+
+  void launch(std::size_t i) {
+    std::error_code error;
+    fs::create_directories(folder(i), error);
+    if (error)
+      throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
+                                         folder(i).string(), error.message()));
+    awaitFormer(folder(i));
+    const bool goesOn = goesOn_.contains(i);
+    // What an earlier run left must not be taken for what this one does.
+    if (!goesOn)
+      for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
+    std::vector<std::string> words = {options_.program.string(), "run", fileOf(i).string()};
+    std::vector<std::string> overrides = plan_.runs[i].overrides;
+    if (options_.jobs > 1 && plan_.runs[i].scene.run.threads == 0)
+      putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
+    for (const std::string& o : overrides) words.insert(words.end(), {"--set", o});
+    words.insert(words.end(), {"--out", folder(i).string(), goesOn ? "--resume" : "--force", "--hash"});
+    const int place = freePlace();
+    if (goesOn) progress_.note(fmt::format("{} goes on from its checkpoint", title(i)));
+    running_[start(std::move(words), folder(i) / kLog, place, goesOn)] = {i, Clock::now(), place};
+    outcomes_[i].status = RunStatus::running;
+    changed_(outcomes_);
+  }
+
+  /// The first place that no run has: where one ends the next takes its GPU.
+  int freePlace() const {
+    const auto isTaken = [&](int place) {
+      return std::any_of(running_.begin(), running_.end(), [&](const auto& r) { return r.second.place == place; });
+    };
+    int place = 0;
+    while (isTaken(place)) ++place;
+    return place;
+  }
+
+  /// Waits a moment, and takes the results of the runs that have ended.
+  void reap() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    for (auto it = running_.begin(); it != running_.end();) {
+      int status = 0;
+      const pid_t ended = waitpid(it->first, &status, WNOHANG);
+      if (ended < 0) throw std::runtime_error(fmt::format("a run was lost: {}", std::strerror(errno)));
+      if (ended != it->first) {
+        ++it;
+        continue;
+      }
+      const Running run = it->second;
+      it = running_.erase(it);
+      if (beginsAnew(run.index, status)) continue;
+      finish(run.index, status, std::chrono::duration<double>(Clock::now() - run.since).count());
+    }
+  }
+
+  /// A run that could not go on, such as from a damaged checkpoint, is begun anew.
+  bool beginsAnew(std::size_t i, int status) {
+    constexpr int kWrongInput = 2;
+    if (stopping_ || !goesOn_.contains(i) || !WIFEXITED(status) || WEXITSTATUS(status) != kWrongInput) return false;
+    progress_.note(fmt::format("{} begins anew: {}", title(i), reason(status, folder(i) / kLog)));
+    goesOn_.erase(i);
+    launch(i);
+    return true;
+  }
+
+  /// The runs end after their step, and write their checkpoints.
+  void stop(int signal) {
+    stopping_ = true;
+    for (const auto& [process, run] : running_) kill(process, SIGTERM);
+    while (!running_.empty()) reap();
+    if (countEnded(outcomes_) == static_cast<std::ptrdiff_t>(outcomes_.size())) return;
+    throw support::Stopped(signal, fmt::format("stopped by {} after {} of {} runs", support::StopSignals::name(signal),
+                                               countEnded(outcomes_), outcomes_.size()));
+  }
+
+  void finish(std::size_t i, int status, double seconds) {
+    ++ended_, done_ += work_[i];
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+      const RunManifest manifest(folder(i));
+      const bool whole = manifest.text("status") != base::wordOf(RunStatus::incomplete);
+      outcomes_[i] = {whole ? RunStatus::finished : RunStatus::incomplete, manifest.text("incomplete")};
+      progress_.note(fmt::format("{} {} in {}", title(i), base::wordOf(outcomes_[i].status),
+                                 support::Progress::duration(seconds)));
+    } else if (stopping_ || (support::StopSignals::received() && hasStopped(status))) { // Ctrl-C is for all of them
+      outcomes_[i].status = RunStatus::stopped;
+      progress_.note(fmt::format("{} stopped", title(i)));
+    } else {
+      outcomes_[i] = {RunStatus::failed, reason(status, folder(i) / kLog)};
+      progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
+    }
+    changed_(outcomes_);
+  }
+
+  void report() {
+    double done = done_;
+    std::string names;
+    for (const auto& [process, run] : running_) {
+      const SweepRun& planned = plan_.runs[run.index];
+      done += work_[run.index] * std::min(1.0, timeReached(folder(run.index)) / expectedEnd(planned));
+      names += (names.empty() ? "" : "; ") + plan_.runs[run.index].name;
+    }
+    progress_.update(done / due_, fmt::format("{} of {} runs to do ended, now {}", ended_, todo_, names));
+  }
+
+  const SweepPlan& plan_;
+  const SweepOptions& options_;
+  const OutcomesChanged& changed_;
+  std::vector<SweepOutcome> outcomes_;
+  std::vector<std::size_t> waiting_;
+  std::set<std::size_t> goesOn_; ///< runs to do of which a checkpoint is there
+  std::map<pid_t, Running> running_;
+  std::size_t todo_ = 0, ended_ = 0;
+  bool stopping_ = false;
+  std::vector<double> work_;  ///< workOf() each run to do
+  double due_ = 0, done_ = 0; ///< of the runs to do, and those that have ended
+  Clock::time_point begin_ = Clock::now();
+  support::Progress progress_;
+};
+
+} // namespace
+
+std::string endedText(const std::vector<SweepOutcome>& outcomes) {
+  const auto incomplete = std::count_if(outcomes.begin(), outcomes.end(),
+                                        [](const SweepOutcome& o) { return o.status == RunStatus::incomplete; });
+  return fmt::format("{} of {} {}", countEnded(outcomes), base::counted(outcomes.size(), "run"),
+                     incomplete > 0 ? fmt::format("ended, {} incomplete", incomplete) : "finished");
+}
+
+std::string identity(scene::Scene scene) {
+  scene.run.device = support::DeviceChoice::automatic, scene.run.threads = 0;
+  scene.output.folder.clear();
+  return scene::resolvedToml(scene);
+}
+
+std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
+                                     const OutcomesChanged& changed) {
+  requireNoRun(options.folder);
+  support::firstGpuOf(0); // throws before anything of earlier runs is taken away
+  for (const SweepRun& run : plan.runs) {
+    if (!options.force) checkRunFolder(options.folder / run.name);
+    if (run.scene.run.device == support::DeviceChoice::cuda && !base::cudaAvailable())
+      base::cudaExec(); // throws, and says why
+  }
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error || !fs::is_directory(options.folder))
+    throw base::InputError(
+        fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
+  support::FileLock alone; // two sweeps in one folder would take each other's files away
+  if (!options.shared && !alone.take(options.folder))
+    throw base::InputError(
+        fmt::format("{}: another sweep or check is at work in this folder; wait for its end, or name "
+                    "another with --out",
+                    options.folder.string()));
+  Runner runner(plan, options, what, changed);
+  runner.run();
+  return runner.outcomes();
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/drive_text.hpp"
+
+#include "runs/setup/drive_length.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace grouser::commands {
+
+std::string incompleteText(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth) {
+  const coupling::VehicleRig* rig = simulation.vehicle();
+  if (!rig || !setup::asksToDrive(scene)) return {};
+  const std::optional<double> start = rig->driveStart();
+  const bool drove = start && *start < simulation.time() && teeth >= setup::kLeastTeeth;
+  if (drove && teeth >= setup::kFewestTeeth) return {};
+  const bool waited = simulation.setup().vehicle->driver.rest.has_value();
+  const std::string when =
+      !start ? fmt::format("it had not come to rest by the end of the run, {:.4g} s", simulation.time())
+             : fmt::format("{} at {:.4g} s of {:.4g} s", waited ? "it came to rest" : "its sprockets start", *start,
+                           simulation.time());
+  return fmt::format("the vehicle {} ({}){}; {}",
+                     drove ? fmt::format("drove {:.2g} teeth, fewer than {:g}", teeth, setup::kFewestTeeth)
+                           : "never drove",
+                     when, drove ? ", and its figures are inconclusive" : "",
+                     rig->ended().empty() ? setup::longerDriveRemedy(scene) : "let [stop] end the run later");
+}
+
+void describeDrive(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth,
+                   output::RunWriter& writer, output::Summary& summary) {
+  if (!simulation.vehicle()) return;
+  summary.incomplete = incompleteText(scene, simulation, teeth);
+  if (!summary.incomplete.empty()) fmt::print("WARNING: {}\n", summary.incomplete);
+  const std::optional<double> start = simulation.vehicle()->driveStart();
+  if (start) summary.figures["drive_start_s"] = *start;
+  if (start && *start <= simulation.time()) fmt::print("drive     from {:.6g} s on\n", *start);
+  if (const std::string& end = simulation.vehicle()->ended(); !end.empty()) {
+    fmt::print("ended     at {:.6g} s by {}\n", simulation.time(), end);
+    writer.fact("ended_by", end);
+  }
+  const vehicle::BlowMeter blows = simulation.vehicle()->observe().blows;
+  summary.figures["ground_force_most_over_weight"] = blows.most;
+  if (blows.isBlow()) fmt::print("blows     {}\n", blows.text());
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/jobs/pieces.hpp"
+
+#include "base/error.hpp"
+#include "runs/support/json_text.hpp"
+#include "runs/support/option_checks.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+
+namespace grouser::jobs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "2/8"; {0, 0} where it is no part.
+std::pair<int, int> partOf(const std::string& text) {
+  int part = 0, parts = 0, length = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%n", &part, &parts, &length) != 2 || length != static_cast<int>(text.size()) ||
+      part < 1 || parts < part)
+    return {0, 0};
+  return {part, parts};
+}
+
+std::string kindOf(const std::string& run) { return run.substr(0, run.rfind('_')); }
+
+std::string contentsOf(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+} // namespace
+
+void addPieceOptions(CLI::App& app, PieceOptions& o) {
+  app.add_flag(
+      "--resume", o.resume,
+      "go on with the runs that earlier calls have left in the folder; a call with the same options does so anyway");
+  app.add_option("--part", o.part,
+                 "e.g. 2/8: every eighth run only, from the second on, to share a study among calls "
+                 "at the same time; a last call without it writes the tables")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return partOf(text).first > 0 ? std::string() : text + " is not a part such as 2/8";
+          },
+          "PART/PARTS"));
+  app.add_option("--seconds", o.seconds,
+                 "no further run is begun that would end after so many, by how long the last one took; 0: no end")
+      ->check(support::notNegative("a time in seconds"));
+  app.add_option("--device", o.device, "auto, cpu or cuda")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+      ->capture_default_str();
+  app.add_option("--threads", o.threads, "CPU threads, 0 for all; the answer does not depend on it")
+      ->check(support::wholeNumber(0, 1024))
+      ->capture_default_str();
+}
+
+std::size_t Table::column(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw base::InputError(fmt::format("a table of an earlier call has no column \"{}\": it is of another version; "
+                                       "begin anew with --force",
+                                       name));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<double> Table::values(const std::string& name) const {
+  const std::size_t c = column(name);
+  std::vector<double> all;
+  for (const std::vector<double>& row : rows) all.push_back(row.at(c));
+  return all;
+}
+
+std::string Table::csv() const {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i ? "," : "") + names[i];
+  text += "\n";
+  for (const std::vector<double>& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) text += fmt::format("{}{:.9g}", i ? "," : "", row[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOptions& options,
+               const nlohmann::ordered_json& recipe)
+    : seconds_(options.seconds) {
+  if (!options.part.empty()) std::tie(part_, parts_) = partOf(options.part);
+  StudyPlace where = place;
+  if (where.folder.empty()) where.folder = (fs::path("out") / ("study_" + study)).string();
+  const fs::path file = fs::path(where.folder) / "recipe.json";
+  const std::string text = support::jsonText(recipe, 2) + "\n";
+  std::error_code missing;
+  const bool isAsked = options.resume || !options.part.empty();
+  const bool hasRuns = (isAsked || !place.force) && fs::exists(file, missing);
+  const bool isSame = hasRuns && contentsOf(file) == text;
+  if (hasRuns && !isSame)
+    throw base::InputError(fmt::format("{}: the runs in this folder were made with other options; call with those, "
+                                       "take another --out, or overwrite it with --force",
+                                       file.string()));
+  const bool goesOn = isAsked || isSame;
+  where.force = place.force || goesOn;
+  folder_ = beginStudy(study, where);
+  if (!isSame) {
+    if (!goesOn) fs::remove_all(folder_ / "runs");
+    try {
+      support::replaceTextFile(file, text);
+    } catch (const std::runtime_error&) {
+      if (contentsOf(file) != text) throw; // else another part was quicker
+    }
+  }
+  fs::create_directories(folder_ / "runs");
+}
+
+fs::path Pieces::file(const std::string& run) const { return folder_ / "runs" / (run + ".csv"); }
+
+bool Pieces::has(const std::string& run) const { return fs::exists(file(run)); }
+
+Table Pieces::read(const std::string& run) const {
+  Table table;
+  std::ifstream in(file(run));
+  std::string line, cell;
+  std::getline(in, line);
+  for (std::istringstream names(line); std::getline(names, cell, ',');) table.names.push_back(cell);
+  while (std::getline(in, line)) {
+    std::vector<double> row;
+    for (std::istringstream cells(line); std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    if (row.size() != table.names.size())
+      throw base::InputError(fmt::format("{}: a line has {} numbers, not {}; remove the file and call again",
+                                         file(run).string(), row.size(), table.names.size()));
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+void Pieces::keep(const std::string& run, const Table& table) {
+  support::replaceTextFile(file(run), table.csv());
+  took_[kindOf(run)] = spent() - began_;
+}
+
+fs::path Pieces::begin(const std::string& run) const {
+  fs::path folder = folder_ / "runs" / run;
+  fs::create_directories(folder);
+  return folder;
+}
+
+double Pieces::spent() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+bool Pieces::due(const std::string& run) {
+  ++seen_;
+  return dueBeside(run);
+}
+
+bool Pieces::dueBeside(const std::string& run) {
+  if (has(run)) return false;
+  const bool mine = (seen_ - 1) % parts_ == part_ - 1 && inTime(run);
+  left_ += !mine;
+  return mine;
+}
+
+bool Pieces::inTime(const std::string& run) {
+  double expected = 0; // the first run of a call is begun whatever it takes
+  if (const auto known = took_.find(kindOf(run)); known != took_.end())
+    expected = known->second;
+  else
+    for (const auto& [kind, took] : took_) expected = std::max(expected, took);
+  began_ = spent();
+  return seconds_ == 0 || began_ + expected < seconds_;
+}
+
+} // namespace grouser::jobs

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/jobs/study_place.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+/// Studies of many runs, in pieces: each finished run is kept, several programs may share them, and a call may end
+/// before all are there.
+namespace grouser::jobs {
+
+/// What a call does of a study.
+struct PieceOptions {
+  bool resume = false; ///< goes on with what an earlier call has left
+  std::string part;    ///< "2/8": every eighth run, from the second on; empty: all
+  double seconds = 0;  ///< no run is begun after these [s]; 0: no end
+  std::string device = "auto";
+  int threads = 1;
+};
+void addPieceOptions(CLI::App& app, PieceOptions& options);
+
+/// A table of numbers with a line of names.
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+  std::size_t column(const std::string& name) const; ///< throws InputError where there is none
+  std::vector<double> values(const std::string& name) const;
+  std::string csv() const;
+};
+
+class Pieces {
+public:
+  /// Makes the folder. `recipe`: all that the runs depend on; kept as recipe.json. Runs of the same recipe are kept,
+  /// unless --force is given. Throws InputError where the folder holds those of another, or other files.
+  Pieces(const std::string& study, const StudyPlace& place, const PieceOptions& options,
+         const nlohmann::ordered_json& recipe);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  bool whole() const { return parts_ == 1; } ///< this call is to do all runs, not a part
+  bool has(const std::string& run) const;
+  Table read(const std::string& run) const;
+  void keep(const std::string& run, const Table& table);
+  /// Whether this call is to do the run: it is of its part, not there yet, and time is left for as long as the last of
+  /// its kind took in this call (of a kind that is new: the longest of all). Counts the runs: called once for each, in
+  /// an order that is the same in all calls. The kind is the run's name up to its last underscore.
+  bool due(const std::string& run);
+  /// The same of a run that stands beside the one due() was last asked for: of its part, and not counted.
+  bool dueBeside(const std::string& run);
+  /// The same of the time alone, for a process that works for this one: the run begins now if so.
+  bool inTime(const std::string& run);
+  /// A folder for what the run needs on its way, which a call that is stopped leaves to the next.
+  std::filesystem::path begin(const std::string& run) const;
+  int left() const { return left_; } ///< runs seen that were not there and not due
+
+private:
+  std::filesystem::path file(const std::string& run) const;
+
+  double spent() const; ///< [s] since this call began
+
+  std::filesystem::path folder_;
+  std::map<std::string, double> took_; ///< [s] by kind, in this call
+  double began_ = 0;                   ///< [s] the run that is under way
+  int part_ = 1, parts_ = 1, seen_ = 0, left_ = 0;
+  double seconds_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+} // namespace grouser::jobs

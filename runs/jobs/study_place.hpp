@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What the studies of grains have in common.
+namespace grouser::jobs {
+
+inline constexpr double kGravity = 9.81; ///< of all studies of grains [m/s2]
+
+/// Where a study writes, and how much it does.
+struct StudyPlace {
+  std::string folder; ///< empty: out/study_NAME
+  bool force = false; ///< overwrite what is in it
+  bool quick = false; ///< a coarse pass in seconds
+};
+
+/// Makes the folder and prints the line of machine and commit. Throws InputError where it may not be written.
+std::filesystem::path beginStudy(const std::string& name, const StudyPlace& place);
+
+/// Writes study.json: study, machine, commit, compiler, seconds taken and `more`.
+void writeStudyOrigin(const std::filesystem::path& folder, const std::string& name, double seconds,
+                      const nlohmann::ordered_json& more);
+
+/// Mean of values, and its standard error from their scatter.
+struct MeanError {
+  double mean = 0, error = 0;
+};
+MeanError meanOf(const std::vector<double>& values);
+double medianOf(std::vector<double> values);
+
+/// Throws Stopped after SIGINT or SIGTERM.
+void stopStudyIfAsked();
+
+} // namespace grouser::jobs

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/simulation.hpp"
+#include "runs/output/output.hpp"
+#include "runs/session/run_request.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/storage/checkpoint.hpp"
+#include "runs/support/stopwatch.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace grouser::session {
+
+/// The checkpoint of a run, written again and again.
+class Checkpoints {
+public:
+  Checkpoints(const setup::Provenance& provenance, const RunRequest& options);
+
+  void write(const coupling::Simulation& simulation, output::RunWriter& writer);
+  /// Keeps the present state in memory, unless the last time is too short ago: should the run fail, it is left as its
+  /// checkpoint. Between rows, so that these are counted with it.
+  void remember(const coupling::Simulation& simulation, const output::RunWriter& writer);
+  /// Writes the last remembered state of a failed run, unless a later one has been written.
+  void writeRemembered(const coupling::Simulation& simulation, output::RunWriter& writer);
+  /// "out/hills/checkpoint.h5, step 1000": where the last one is; empty while there is none.
+  std::string last() const;
+  /// The run goes on from one of this step.
+  void begunAt(std::int64_t step) { writtenAt_ = step; }
+
+private:
+  void describe(const coupling::Simulation& simulation, std::int64_t rows, std::int64_t frames);
+
+  std::filesystem::path path_;
+  storage::Checkpoint checkpoint_;
+  std::int64_t writtenAt_ = -1;
+  std::optional<coupling::SimulationState> good_;
+  std::int64_t goodRows_ = 0, goodFrames_ = 0;
+  double pause_ = 0; ///< until the next time [s]
+  support::Stopwatch sinceRemembered_;
+};
+
+} // namespace grouser::session

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/sphere_set.hpp"
+#include "runs/output/records.hpp"
+#include "terrain/grains.hpp"
+#include "terrain/height_field.hpp"
+
+namespace grouser::session {
+
+/// The rigid surface as triangles, for pictures.
+base::TriangleMesh groundMesh(const terrain::HeightField& field);
+
+/// Puts the grains of this rank into the frame. `contactForces`: whether frames have them, `known`: whether a step has
+/// been taken that they are of; they are NaN otherwise.
+void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contactForces, bool known);
+
+} // namespace grouser::session

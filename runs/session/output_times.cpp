@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/session/output_times.hpp"
+
+#include "runs/output/plots.hpp"
+#include "runs/session/recorder.hpp"
+#include "runs/storage/checkpoint.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/stopwatch.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace grouser::session {
+
+namespace fs = std::filesystem;
+using support::Stopwatch;
+
+namespace {
+
+/// A folder of this probe alone, for as long as it lasts.
+class Scratch {
+public:
+  explicit Scratch(fs::path folder) : folder_(std::move(folder)) {}
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() {
+    std::error_code error;
+    fs::remove_all(folder_, error);
+  }
+  fs::path operator/(const char* name) const { return folder_ / name; }
+  double bytesOf(const char* name) const {
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(folder_ / name, error);
+    return error ? 0.0 : static_cast<double>(bytes);
+  }
+
+private:
+  fs::path folder_;
+};
+
+} // namespace
+
+OutputTimes timeOutput(coupling::Simulation& simulation, const setup::RecordSetup& record, const base::Exec& exec,
+                       const fs::path& folder, bool plots) {
+  OutputTimes times;
+  const Scratch files(folder);
+  RunRequest request;
+  request.folder = folder, request.force = true;
+  {
+    const Stopwatch begin;
+    Recorder recorder(simulation, record, request, exec, nullptr, simulation.steps() + 100);
+    times.begin = begin.seconds();
+    constexpr int kRows = 3;
+    recorder.row(), recorder.frame();
+    const Stopwatch rows;
+    for (int k = 0; k < kRows; ++k) recorder.row();
+    times.row = rows.seconds() / kRows;
+    if (record.output.frames) {
+      const double before = files.bytesOf("frames.h5");
+      simulation.step();
+      const Stopwatch frame;
+      recorder.frame();
+      times.frame = frame.seconds(), times.frameBytes = std::max(0.0, files.bytesOf("frames.h5") - before);
+    }
+    if (record.output.picture) {
+      const Stopwatch picture;
+      recorder.picture(record.output.pictureWidth);
+      times.picture = picture.seconds();
+    }
+    const Stopwatch saving;
+    storage::Checkpoint checkpoint;
+    const setup::Provenance& from = record.provenance;
+    checkpoint.scene = from.resolved, checkpoint.inputs = from.inputs;
+    checkpoint.commit = support::buildInfo().commit, checkpoint.timeStep = simulation.timeStep();
+    if (const auto& grains = simulation.ground().grains) checkpoint.lengths = storage::lengthsOf(*grains);
+    checkpoint.state = simulation.save();
+    storage::writeCheckpoint(files / storage::kCheckpointName, checkpoint);
+    times.checkpoint = saving.seconds(), times.checkpointBytes = files.bytesOf(storage::kCheckpointName);
+    recorder.writer().finish({});
+  }
+  if (!plots) return times;
+  // Its file is closed by now, as where a run draws them.
+  std::string warning;
+  const Stopwatch one;
+  if (!output::drawPlots(files / "results.h5", folder, {"ledger"}, warning).empty()) times.plot = one.seconds();
+  return times;
+}
+
+} // namespace grouser::session

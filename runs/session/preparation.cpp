@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/session/preparation.hpp"
+
+#include "base/error.hpp"
+#include "runs/session/failed_run.hpp"
+#include "runs/session/signal_watch.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/progress.hpp"
+#include "runs/support/stopwatch.hpp"
+#include "runs/support/tell.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace grouser::session {
+
+Caches cachesOf(bool beds, const RunRequest& request) {
+  Caches kept;
+  const std::optional<support::KeptFiles> files =
+      request.cache ? support::KeptFiles::ofUser(request.comm()) : std::nullopt;
+  if (!files) return kept;
+  if (beds) kept.beds.emplace(*files);
+  kept.spheres.emplace(*files);
+  return kept;
+}
+
+std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenance, const RunRequest& request) {
+  if (!request.resume) return nullptr;
+  auto former = std::make_unique<storage::Checkpoint>(storage::readCheckpoint(*request.resume, request.comm()));
+  storage::checkSameScene(*former, *request.resume, provenance);
+  if (former->commit != support::buildInfo().commit && request.comm().first())
+    support::tell(
+        "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
+        "are\n",
+        request.resume->string(), former->commit, support::buildInfo().commit);
+  return former;
+}
+
+std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup setup, const setup::RecordSetup& record,
+                                                     const base::Exec& exec, const storage::Checkpoint* former,
+                                                     const RunRequest& request, Caches& kept) {
+  const base::Comm comm = request.comm();
+  storage::BedCache* beds = kept.beds ? &*kept.beds : nullptr;
+  storage::SphereCache* spheres = kept.spheres ? &*kept.spheres : nullptr;
+  if (former) return std::make_unique<coupling::Simulation>(std::move(setup), exec, former->state, comm, spheres);
+  const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
+  const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;
+  std::unique_ptr<support::Progress> settling;
+  std::optional<support::Stopwatch> begun;
+  FailedBed failed(setup.ground, record, request, exec);
+  coupling::SettleProgress settle = [&](double time, double agitation) {
+    if (const int signal = SignalWatch(comm).receivedAt(0))
+      throw support::Stopped(
+          signal,
+          fmt::format("stopped by {} while the bed settled; nothing was written", support::StopSignals::name(signal)),
+          support::Stopped::Left::nothing);
+    if (!settling)
+      settling = std::make_unique<support::Progress>("settling", comm.first(), 0, support::Progress::End::limit);
+    if (time > 0 && !begun) begun.emplace(); // before that it waits for another run
+    if (begun) kept.settling = begun->seconds();
+    settling->update(time / limit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
+  };
+  settle.failed = [&](const terrain::Grains& bed, const std::string& message) { failed.leave(&bed, message); };
+  try {
+    auto simulation = std::make_unique<coupling::Simulation>(std::move(setup), exec, settle, comm, beds, spheres);
+    if (settling) settling->finish("at rest");
+    return simulation;
+  } catch (const base::SimulationError& error) {
+    failed.leave(nullptr, error.what());
+    throw;
+  }
+}
+
+} // namespace grouser::session

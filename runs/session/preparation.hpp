@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "coupling/simulation.hpp"
+#include "runs/session/run_request.hpp"
+#include "runs/setup/record_setup.hpp"
+#include "runs/storage/bed_cache.hpp"
+#include "runs/storage/checkpoint.hpp"
+#include "runs/storage/sphere_cache.hpp"
+
+#include <memory>
+#include <optional>
+
+/// From a compiled scene to a simulation that can be stepped: settled, or resumed.
+namespace grouser::session {
+
+/// Where earlier runs may have left what this one needs; null: nothing is kept.
+struct Caches {
+  std::optional<storage::BedCache> beds;
+  std::optional<storage::SphereCache> spheres;
+  double settling = 0; ///< wall time that the bed of this run took, where none was kept [s]
+};
+/// The user's, where the request allows it. `beds`: whether the scene's bed may be kept (terrain.cache).
+Caches cachesOf(bool beds, const RunRequest& request);
+
+/// Reads the checkpoint of a run to be resumed and compares the scenes; null for a run from the start.
+std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenance, const RunRequest& request);
+
+/// At the checkpoint, or at the start: then the bed is settled first, with progress on stderr. What stops it there is
+/// left in the folder as FailedBed does. Throws Stopped, SimulationError, InputError.
+std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup setup, const setup::RecordSetup& record,
+                                                     const base::Exec& exec, const storage::Checkpoint* former,
+                                                     const RunRequest& request, Caches& kept);
+
+} // namespace grouser::session

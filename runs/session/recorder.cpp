@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/session/recorder.hpp"
+
+#include "base/error.hpp"
+#include "runs/output/former_output.hpp"
+#include "runs/output/mechanism_output.hpp"
+#include "runs/output/plane_mesh.hpp"
+#include "runs/output/surface_mesh.hpp"
+#include "runs/render/image.hpp"
+#include "runs/render/picture.hpp"
+#include "runs/session/frame_of.hpp"
+#include "runs/support/tell.hpp"
+#include "vehicle/observation_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace grouser::session {
+
+namespace {
+
+output::PartKind pictured(vehicle::PartKind kind) {
+  using From = vehicle::PartKind;
+  using To = output::PartKind;
+  constexpr std::pair<From, To> kKinds[] = {{From::kChassis, To::chassis},   {From::kShoe, To::shoe},
+                                            {From::kSprocket, To::sprocket}, {From::kRoadWheel, To::roadWheel},
+                                            {From::kRoller, To::roller},     {From::kIdler, To::idler}};
+  for (const auto& [from, to] : kKinds)
+    if (from == kind) return to;
+  return To::other;
+}
+
+std::vector<output::FramePart> frameParts(const coupling::VehicleRig& rig) {
+  std::vector<output::FramePart> parts;
+  for (std::size_t p = 0; p < rig.assembly().parts.size(); ++p) {
+    const vehicle::Part& part = rig.assembly().parts[p];
+    parts.push_back({part.name, pictured(part.kind), rig.parts().meshes()[rig.parts().meshOfPart(p)]});
+  }
+  return parts;
+}
+
+/// What sinkage is measured from; empty without terrain.
+std::optional<output::UndisturbedSurface> undisturbedSurface(const coupling::Ground& ground) {
+  output::UndisturbedSurface s;
+  const auto lay = [&s](const terrain::Rectangle& area, int columns, int rows, const std::vector<double>& heights) {
+    for (int i = 0; i < columns; ++i) s.x.push_back(area.xMin + area.width() * i / (columns - 1));
+    for (int j = 0; j < rows; ++j) s.y.push_back(area.yMin + area.length() * j / (rows - 1));
+    s.height = heights;
+  };
+  if (const auto& bed = ground.undisturbed) {
+    lay(bed->area(), bed->columns(), bed->rows(), bed->heights());
+    s.interpolation = "bilinear";
+  } else if (const auto& field = ground.surface) {
+    lay(field->area(), field->columns(), field->rows(), field->heights());
+    using terrain::Interpolation;
+    const Interpolation how = field->interpolation();
+    s.interpolation = how == Interpolation::smooth     ? "Catmull-Rom"
+                      : how == Interpolation::monotone ? "monotone"
+                                                       : "bilinear";
+  } else {
+    return {};
+  }
+  return s;
+}
+
+/// Of a vehicle on grains, where the scene asks for it.
+bool countsGear(const coupling::Simulation& simulation, const setup::OutputSetup& output) {
+  return simulation.vehicle() && simulation.ground().grains && output.gearContacts;
+}
+
+std::vector<output::Channel> channelsOf(const coupling::Simulation& simulation, const setup::OutputSetup& wanted) {
+  std::vector<output::Channel> channels;
+  if (simulation.mechanism()) channels = output::mechanismChannels(simulation.mechanism()->model(), wanted.record);
+  if (simulation.vehicle())
+    for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly(), wanted.shoeForces))
+      channels.push_back(output::channelOf(q));
+  if (simulation.ground().grains)
+    for (const output::Channel& c : output::terrainChannels()) channels.push_back(c);
+  if (const coupling::Surfaces* surfaces = simulation.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      for (const output::Channel& c : output::surfaceChannels(surfaces->surface(i).name, surfaces->surface(i).hasPivot))
+        channels.push_back(c);
+  for (const coupling::Obstacle& o : simulation.setup().ground.obstacles)
+    for (const output::Channel& c : output::obstacleChannels(o.surface.name)) channels.push_back(c);
+  if (simulation.vehicle() && simulation.vehicle()->towing())
+    for (const output::Channel& c : output::hitchChannels()) channels.push_back(c);
+  if (countsGear(simulation, wanted))
+    for (const output::Channel& c : output::gearChannels()) channels.push_back(c);
+  for (const output::Channel& c : output::ledgerChannels()) channels.push_back(c);
+  if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
+  return channels;
+}
+
+void setGearRow(output::RowBuilder& row, const coupling::GearContacts& c) {
+  const std::pair<const char*, std::int64_t> counts[] = {{"grains_on_shoes", c.shoes},
+                                                         {"grains_on_sprockets", c.sprockets},
+                                                         {"grains_on_road_wheels", c.roadWheels},
+                                                         {"grains_on_rollers", c.rollers},
+                                                         {"grains_on_idlers", c.idlers},
+                                                         {"grains_on_hull", c.hull},
+                                                         {"stones", c.stones},
+                                                         {"pinched_stones", c.pinched}};
+  for (const auto& [name, count] : counts) row.set(fmt::format("gear/{}", name), static_cast<double>(count));
+}
+
+/// `pull`: the drawbar pull [N].
+void setHitchRow(output::RowBuilder& row, const coupling::HitchObservation& o, double pull) {
+  row.set("hitch/force", o.force), row.set("hitch/pull", pull);
+  row.set("hitch/speed", o.speed), row.set("hitch/power", o.power), row.set("hitch/work", o.work);
+  row.set("hitch/towed_way", o.towedWay), row.set("hitch/towed_speed", o.towedSpeed);
+}
+
+/// `touching`: whether vehicle and bed may exchange impulses.
+void setLedgerRow(output::RowBuilder& row, const coupling::Ledger& l, bool touching) {
+  row.set("ledger/drive_work", l.driveWork);
+  row.set("ledger/kinetic", l.kinetic), row.set("ledger/potential", l.potential), row.set("ledger/elastic", l.elastic);
+  row.set("ledger/dissipated", l.dissipated.total());
+  row.set("ledger/dissipated_damping", l.dissipated.damping);
+  row.set("ledger/dissipated_friction", l.dissipated.friction);
+  row.set("ledger/dissipated_micro_slip", l.dissipated.microSlip);
+  row.set("ledger/dissipated_rolling", l.dissipated.rolling);
+  row.set("ledger/dissipated_yielding", l.dissipated.yielding);
+  row.set("ledger/dissipated_crushing", l.dissipated.crushing);
+  row.set("ledger/dissipated_parts", l.dissipated.parts);
+  row.set("ledger/dissipated_joints", l.dissipated.joints);
+  row.set("ledger/integration_error", l.integrationError);
+  row.set("ledger/residual", l.residual);
+  row.set("ledger/turnover", l.turnover);
+  row.set("ledger/momentum", l.momentum), row.set("ledger/angular_momentum", l.angularMomentum);
+  row.set("ledger/momentum_residual", l.momentumResidual), row.set("ledger/angular_residual", l.angularResidual);
+  if (touching) row.set("ledger/impulse_residual", l.impulseResidual);
+}
+
+output::RunWriter::Options writerOptions(bool frames, const RunRequest& options, const base::Exec& exec,
+                                         const std::vector<output::Channel>& channels,
+                                         const storage::Checkpoint* former, std::int64_t total) {
+  output::RunWriter::Options w;
+  w.force = options.force;
+  w.frames = frames;
+  w.comm = options.comm();
+  w.metadata = {
+      {"command_line", options.commandLine}, {"device", base::describe(exec)}, {"switches", options.switches}};
+  if (!w.comm.alone()) w.metadata["ranks"] = std::to_string(w.comm.size());
+  if (!former) return w;
+  const std::int64_t step = former->state.steps;
+  w.metadata["resumed_from_step"] = std::to_string(step);
+  w.former = output::FormerOutput{};
+  // One rank reads and rewrites them; it tells the others what it keeps.
+  if (w.comm.first()) {
+    try {
+      output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
+      // The contact forces of the last frame are known no more: where no step is left to take, it stays.
+      if (w.frames) kept.frames = output::keptFrames(options.folder, step, former->frames, step == total);
+      w.former = std::move(kept);
+    } catch (const base::InputError& error) {
+      if (!options.force) throw;
+      support::tell("grouser: warning: {}\n", error.what());
+    }
+  }
+  w.former->frames = w.comm.gatherValue(w.former->frames).front();
+  return w;
+}
+
+/// All grains, on the first rank.
+output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
+  if (comm.alone()) return mine;
+  output::Frame whole = mine;
+  const auto collect = [&comm](auto& values) {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    std::vector<base::Bytes> to(static_cast<std::size_t>(comm.size()));
+    to.front() = base::Comm::bytesOf(values);
+    values.clear();
+    for (const base::Bytes& part : comm.allToAll(to)) {
+      const std::vector<T> more = base::Comm::valuesOf<T>(part);
+      values.insert(values.end(), more.begin(), more.end());
+    }
+  };
+  collect(whole.positions), collect(whole.radii), collect(whole.velocities), collect(whole.ids);
+  return whole;
+}
+
+} // namespace
+
+Recorder::Recorder(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& options,
+                   const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total)
+    : simulation_(simulation), record_(record), exec_(exec), begunAt_(simulation.steps()),
+      channels_(channelsOf(simulation, record.output)), row_(channels_),
+      writer_(options.folder, record.provenance, channels_,
+              writerOptions(record.output.frames, options, exec, channels_, former, total)) {
+  try {
+    begin(options, former);
+    if (former && writer_.frames() > former->frames) framedAt_ = begunAt_;
+  } catch (const std::exception& error) {
+    writer_.abandon(error.what());
+    throw;
+  }
+}
+
+void Recorder::begin(const RunRequest& options, const storage::Checkpoint* former) {
+  const coupling::SimulationSetup& setup = simulation_.setup();
+  if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
+    parts_ = frameParts(*rig);
+    if (simulation_.ground().grains) writer_.fact("soil_meets", setup.vehicle->soilMeetsShoesAlone ? "shoes" : "all");
+    writer_.constant(output::kPitchRadius, rig->assembly().spec.pitchRadius());
+    writer_.constant(output::kVehicleMass, rig->assembly().mass);
+    if (const auto surface = undisturbedSurface(simulation_.ground())) writer_.surface(*surface);
+  }
+  if (const auto& bed = simulation_.ground().structure) writer_.bed(*bed);
+  if (setup.mechanism) parts_ = output::mechanismParts(*setup.mechanism);
+  if (const coupling::Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      parts_.push_back({surfaces->surface(i).name, output::PartKind::surface,
+                        output::surfaceMesh(record_.planes, surfaces->surface(i))});
+  for (const coupling::Obstacle& o : drawnObstacles())
+    parts_.push_back({o.surface.name, output::PartKind::surface, output::surfaceMesh(record_.planes, o.surface)});
+  ground_ = simulation_.ground().rigid ? groundMesh(*simulation_.ground().rigid) : output::planeMesh(record_.planes);
+  writer_.setParts(parts_, ground_);
+  std::vector<std::string> names;
+  for (const output::FramePart& part : parts_) names.push_back(part.name);
+  if (simulation_.ground().grains) writer_.namesOfParts(names);
+  squeezed_ = SqueezedRecord(channels_, names);
+  drive_ = DriveRecord(channels_);
+  for (const output::Row& row : writer_.formerRows()) squeezed_.add(row), drive_.add(row);
+  if (const auto& grains = simulation_.ground().grains;
+      grains &&
+      output::GrainsCsv::isWanted(record_.output.grainsCsv,
+                                  static_cast<std::int64_t>(grains->count()) + setup.ground.grains->sources.total(),
+                                  record_.run.duration, record_.run.outputInterval))
+    grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
+}
+
+/// Those that are not drawn as the grains' surfaces.
+std::vector<coupling::Obstacle> Recorder::drawnObstacles() const {
+  return simulation_.ground().grains ? std::vector<coupling::Obstacle>{} : simulation_.setup().ground.obstacles;
+}
+
+void Recorder::row() {
+  row_.begin(simulation_.steps(), simulation_.time());
+  double drawbarPull = 0;
+  if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
+    const vehicle::Observation seen = rig->observe();
+    drawbarPull = seen.drawbarPull;
+    row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(seen, record_.output.shoeForces));
+  }
+  const coupling::Ledger l = simulation_.ledger();
+  if (const auto& grains = simulation_.ground().grains) {
+    row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
+    row_.set("terrain/boundary_contacts", static_cast<double>(l.boundaryContacts));
+    row_.set("terrain/part_contacts", static_cast<double>(l.partContacts));
+    row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);
+    row_.set("terrain/max_speed", l.fastestGrain);
+    row_.set("terrain/capped", static_cast<double>(l.cappedNow)), row_.set("terrain/cut_impulse", l.cutImpulse);
+    row_.set("terrain/crushed", simulation_.takenOut().grains);
+    row_.set("terrain/squeezed", static_cast<double>(l.squeezedPairs));
+    row_.set("terrain/squeezed_at_boundaries", static_cast<double>(l.squeezedAtBoundaries));
+    row_.set("terrain/squeezed_by_parts", static_cast<double>(l.squeezedByParts));
+    if (const auto most = simulation_.pressedMost()) {
+      row_.set("terrain/part_overlap", most->share);
+      row_.set("terrain/part_overlap_by", most->part);
+    }
+    row_.set("terrain/rebuilds", static_cast<double>(grains->system().rebuilds));
+  }
+  if (const coupling::Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i) {
+      const coupling::Surfaces::Observation o = surfaces->observe(i, simulation_.steps());
+      const std::string group = "surfaces/" + surfaces->surface(i).name + "/";
+      row_.set(group + "force", o.force), row_.set(group + "torque", o.torque);
+      row_.set(group + "power", o.power), row_.set(group + "position", o.position);
+      if (surfaces->surface(i).hasPivot) row_.set(group + "pivot_torque", o.pivotTorque);
+    }
+  const std::vector<coupling::Obstacle>& obstacles = simulation_.setup().ground.obstacles;
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    row_.set("obstacles/" + obstacles[i].surface.name + "/force", simulation_.vehicle()->meanForceOn(i));
+  if (const coupling::VehicleRig* rig = simulation_.vehicle(); rig && rig->towing())
+    setHitchRow(row_, rig->towing()->observe(), drawbarPull);
+  if (countsGear(simulation_, record_.output)) setGearRow(row_, simulation_.vehicle()->contacts().gearContacts());
+  if (const coupling::Mechanism* mechanism = simulation_.mechanism())
+    output::setMechanismRow(row_, *mechanism, record_.output.record);
+  setLedgerRow(row_, l, !simulation_.mechanism());
+  writer_.row(row_.row());
+  squeezed_.add(row_.row()), drive_.add(row_.row());
+  if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
+  simulation_.restartMeans();
+}
+
+void Recorder::finalSurface() {
+  const coupling::Ground& ground = simulation_.ground();
+  if (!record_.output.finalSurface || !simulation_.vehicle() || !ground.undisturbed) return;
+  const std::vector<double> heights = coupling::surfaceNow(ground, exec_);
+  // On several ranks all find the same; radii of what is left must not have changed the nodes.
+  if (heights.size() == ground.undisturbed->heights().size())
+    writer_.finalSurface(heights, static_cast<std::size_t>(ground.undisturbed->columns()));
+}
+
+void Recorder::frame() {
+  if (simulation_.steps() == framedAt_) return;
+  framedAt_ = simulation_.steps();
+  if (record_.output.frames) writer_.frame(currentFrame());
+}
+
+void Recorder::lastFrame() {
+  if (!record_.output.frames) return;
+  output::Frame frame = currentFrame();
+  if (const auto& grains = simulation_.ground().grains) frame.step = std::max(frame.step, grains->steps());
+  frame.time = static_cast<double>(frame.step) * simulation_.timeStep();
+  if (frame.step > framedAt_) writer_.frame(frame);
+}
+
+output::Frame Recorder::currentFrame() const {
+  output::Frame frame;
+  frame.step = simulation_.steps(), frame.time = simulation_.time();
+  // Forces are those of the last step: before the first there are none, nor where grains were taken out after it.
+  if (const auto& grains = simulation_.ground().grains)
+    addGrains(frame, *grains, record_.output.contactForces,
+              simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerMotion());
+  if (const coupling::VehicleRig* rig = simulation_.vehicle())
+    for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
+  if (const coupling::Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));
+  for (const coupling::Obstacle& o : drawnObstacles()) frame.partPoses.push_back(o.surface.start);
+  if (const coupling::Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
+  return frame;
+}
+
+void Recorder::picture(int width) {
+  const output::Frame whole = gathered(currentFrame(), simulation_.comm());
+  if (!simulation_.comm().first()) return;
+  const setup::DrawnPlanes& planes = record_.planes;
+  std::vector<output::FramePart> parts = parts_;
+  if (const coupling::Surfaces* surfaces = simulation_.surfaces())
+    for (std::size_t i = 0; i < surfaces->count(); ++i)
+      for (output::FramePart& part : parts)
+        if (part.name == surfaces->surface(i).name) part.mesh = output::surfaceMesh(planes, surfaces->surface(i), true);
+  render::writePng(
+      render::drawLabelledFrame(whole, parts, simulation_.ground().grains ? output::floorMesh(planes) : ground_, width),
+      writer_.folder() / "picture.png");
+}
+
+} // namespace grouser::session

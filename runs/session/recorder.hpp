@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/simulation.hpp"
+#include "runs/output/channels.hpp"
+#include "runs/output/grains_csv.hpp"
+#include "runs/output/output.hpp"
+#include "runs/session/drive_record.hpp"
+#include "runs/session/run_request.hpp"
+#include "runs/session/squeezed_record.hpp"
+#include "runs/setup/record_setup.hpp"
+#include "runs/storage/checkpoint.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::session {
+
+/// What a run writes: channels, rows and frames of one simulation. On several ranks all of them have one.
+class Recorder {
+public:
+  /// `former`: the checkpoint that the run goes on from, or null; `total`: the step at which it ends.
+  /// `simulation` and `record` outlive it.
+  Recorder(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& options,
+           const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total);
+
+  void row();
+  void frame();
+  /// Of a run that has met a fault in the present step, unless there is one of that step. Grains alone may have gone
+  /// some steps beyond those that the simulation counts.
+  void lastFrame();
+  /// The bed as it lies at the end, where the scene has a vehicle on one.
+  void finalSurface();
+  /// picture.png of the present state.
+  void picture(int width);
+
+  output::RunWriter& writer() { return writer_; }
+  const SqueezedRecord& squeezed() const { return squeezed_; } ///< of all rows so far
+  const DriveRecord& drive() const { return drive_; }          ///< the same
+
+private:
+  void begin(const RunRequest& options, const storage::Checkpoint* former);
+  output::Frame currentFrame() const;
+  std::vector<coupling::Obstacle> drawnObstacles() const;
+
+  coupling::Simulation& simulation_;
+  const setup::RecordSetup& record_;
+  base::Exec exec_;
+  const std::int64_t begunAt_; ///< step of the start, or of the checkpoint that the run goes on from
+  std::vector<output::Channel> channels_;
+  output::RowBuilder row_;
+  std::vector<output::FramePart> parts_;
+  base::TriangleMesh ground_;
+  output::RunWriter writer_;
+  SqueezedRecord squeezed_;
+  DriveRecord drive_;
+  std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
+  std::optional<output::GrainsCsv> grainsCsv_;
+};
+
+} // namespace grouser::session

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/session/run_session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::session {
+
+namespace {
+
+std::int64_t stepsOf(double interval, double timeStep) {
+  return std::max<std::int64_t>(1, std::llround(interval / timeStep));
+}
+
+} // namespace
+
+RunSession::RunSession(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& request,
+                       const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total)
+    : simulation_(simulation), record_(record), resumed_(former != nullptr), total_(total),
+      rowEvery_(stepsOf(record.run.outputInterval, simulation.timeStep())),
+      frameEvery_(stepsOf(record.run.frameInterval, simulation.timeStep())),
+      saveEvery_(record.run.checkpointInterval > 0 ? stepsOf(record.run.checkpointInterval, simulation.timeStep())
+                                                   : total + 1),
+      recorder_(simulation, record, request, exec, former, total), checkpoints_(record.provenance, request),
+      signals_(simulation.comm()) {
+  if (former) checkpoints_.begunAt(simulation.steps());
+}
+
+void RunSession::begin() {
+  if (resumed_) return;
+  recorder_.row(), recorder_.frame();
+  checkpoints_.remember(simulation_, writer());
+}
+
+bool RunSession::goesOn() const {
+  const coupling::VehicleRig* rig = simulation_.vehicle();
+  return simulation_.steps() < total_ && !(rig && !rig->ended().empty());
+}
+
+void RunSession::advance(std::int64_t most) {
+  const auto until = [now = simulation_.steps()](std::int64_t every) { return every - now % every; };
+  simulation_.advance(
+      std::min({most, total_ - simulation_.steps(), until(rowEvery_), until(frameEvery_), until(saveEvery_)}));
+  const std::int64_t now = simulation_.steps();
+  if (now % rowEvery_ == 0) recorder_.row();
+  if (now % frameEvery_ == 0) recorder_.frame();
+  if (now % rowEvery_ == 0) checkpoints_.remember(simulation_, writer());
+  if (now % saveEvery_ == 0) checkpoints_.write(simulation_, writer());
+  if (const int signal = signals_.receivedAt(now)) {
+    checkpoints_.write(simulation_, writer());
+    throw support::Stopped(signal, fmt::format("stopped by {} at {:.6g} s ({})", support::StopSignals::name(signal),
+                                               simulation_.time(), checkpoints_.last()));
+  }
+}
+
+void RunSession::end() {
+  simulation_.checkEnergy(); // the end may fall between two looks
+  // Before the last row: a run that goes on from here does not have it.
+  checkpoints_.write(simulation_, writer());
+  // The end is always written, whether or not the intervals meet it.
+  if (simulation_.steps() % rowEvery_ != 0) recorder_.row();
+  if (simulation_.steps() % frameEvery_ != 0) recorder_.frame();
+  recorder_.finalSurface();
+}
+
+/// Where the run has met a fault: the state before it as a checkpoint, and all as it is now as frame and picture.
+void RunSession::leaveState() {
+  if (!simulation_.comm().alone()) return; // not all ranks need have met it
+  try {
+    checkpoints_.writeRemembered(simulation_, writer());
+    recorder_.lastFrame();
+    if (record_.output.picture) recorder_.picture(record_.output.pictureWidth);
+  } catch (const std::exception&) {
+    // The user gets the error that ended the run, not this one.
+  }
+}
+
+/// Where a file could not be written, or the device failed: the last good state, which the host has, if there is room
+/// for that.
+void RunSession::leaveCheckpoint() {
+  if (!simulation_.comm().alone()) return;
+  try {
+    checkpoints_.writeRemembered(simulation_, writer());
+  } catch (const std::exception&) {
+    // The user gets the error that ended the run, not this one.
+  }
+}
+
+std::string RunSession::withCheckpoint(const std::string& message) const {
+  const std::string last = checkpoints_.last();
+  return last.empty() ? message : fmt::format("{} (last checkpoint: {})", message, last);
+}
+
+std::string RunSession::atStep(const std::string& message) const {
+  return fmt::format("step {}, time {:.4g} s: {}", simulation_.steps(), simulation_.time(), message);
+}
+
+} // namespace grouser::session

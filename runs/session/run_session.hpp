@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/session/checkpoints.hpp"
+#include "runs/session/recorder.hpp"
+#include "runs/session/signal_watch.hpp"
+#include "runs/support/not_written.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace grouser::session {
+
+/// A simulation and the folder that its run fills: rows, frames and checkpoints as their times come, and how it ended.
+/// On several ranks all have one and call the same.
+class RunSession {
+public:
+  /// `simulation` and `record` outlive it. `former`: the checkpoint that the run goes on from, or null; `total`: the
+  /// step at which it ends. Makes the folder.
+  RunSession(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& request,
+             const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total);
+
+  /// The first row and frame of a run that does not go on from a checkpoint.
+  void begin();
+  /// Whether steps are left: neither the end nor what [stop] names has come.
+  bool goesOn() const;
+  /// At least one step, at most `most`, none beyond the next row, frame or checkpoint, and writes what is due then.
+  /// Throws Stopped where a signal has come, with a checkpoint left.
+  void advance(std::int64_t most);
+  /// Judges the energy, and writes the last checkpoint, row, frame and surface.
+  void end();
+
+  /// Calls `write`; what ends the run early by an exception is left in the folder: the state before a fault as a
+  /// checkpoint, all as it is now as frame and picture, the message in the manifest. Throws it on, with the
+  /// checkpoint's name in its message.
+  template <class Write> void record(const Write& write);
+
+  coupling::Simulation& simulation() { return simulation_; }
+  Recorder& recorder() { return recorder_; }
+  Checkpoints& checkpoints() { return checkpoints_; }
+  output::RunWriter& writer() { return recorder_.writer(); }
+  std::int64_t total() const { return total_; }
+
+private:
+  void leaveState();
+  void leaveCheckpoint();
+  std::string withCheckpoint(const std::string& message) const;
+  std::string atStep(const std::string& message) const;
+  /// Ends the run by this error, which names the checkpoint that is left.
+  template <class Error> [[noreturn]] void abandon(const std::string& what) {
+    const std::string message = withCheckpoint(what);
+    writer().abandon(message);
+    throw Error(message);
+  }
+
+  coupling::Simulation& simulation_;
+  const setup::RecordSetup& record_;
+  bool resumed_;
+  std::int64_t total_, rowEvery_, frameEvery_, saveEvery_; ///< [steps]
+  Recorder recorder_;
+  Checkpoints checkpoints_;
+  SignalWatch signals_;
+};
+
+template <class Write> void RunSession::record(const Write& write) {
+  try {
+    write();
+  } catch (const support::Stopped& stopped) {
+    writer().stop(stopped.what());
+    throw;
+  } catch (const base::SimulationError& error) {
+    leaveState();
+    abandon<base::SimulationError>(error.what());
+  } catch (const support::NotWritten& error) {
+    leaveCheckpoint();
+    abandon<support::NotWritten>(error.what());
+  } catch (const base::DeviceError& error) {
+    leaveCheckpoint();
+    abandon<base::DeviceError>(atStep(error.what()));
+  } catch (const std::exception& error) {
+    writer().abandon(error.what());
+    throw;
+  }
+}
+
+} // namespace grouser::session

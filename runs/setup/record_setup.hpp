@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/setup/drawn_planes.hpp"
+#include "runs/setup/provenance.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+
+/// How long a run lasts, and when it writes.
+struct RunSetup {
+  double duration{};           ///< [s] after the bed has settled
+  double outputInterval{};     ///< between rows [s]
+  double frameInterval{};      ///< between frames [s]
+  double checkpointInterval{}; ///< [s]; 0: only at the end
+};
+
+/// What a run writes.
+struct OutputSetup {
+  std::vector<std::string> record;   ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
+  bool frames{}, contactForces{};    ///< contact forces of each grain in the frames
+  std::optional<bool> grainsCsv;     ///< every grain in every row as text; empty: in small scenes
+  bool shoeForces{}, gearContacts{}; ///< of a vehicle, in the rows
+  bool finalSurface{};               ///< of its bed
+  bool picture{};
+  int pictureWidth{}; ///< [px]
+};
+
+/// What a scene says of its run beside the simulation itself.
+struct RecordSetup {
+  Provenance provenance;
+  RunSetup run;
+  OutputSetup output;
+  DrawnPlanes planes;
+};
+RecordSetup recordSetup(const scene::Scene& scene, Provenance provenance);
+
+} // namespace grouser::setup

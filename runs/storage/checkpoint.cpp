@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/storage/checkpoint.hpp"
+
+#include "base/error.hpp"
+#include "base/hash.hpp"
+#include "runs/support/hdf5_file.hpp"
+#include "runs/support/sealed_file.hpp"
+#include "vehicle/spec.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <type_traits>
+
+namespace grouser::storage {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kVersion = 12; // checkpoint file layout
+
+/// How a record lies in a dataset: [n, width] numbers.
+template <class T> struct Layout { using Number = T; };
+template <> struct Layout<base::Position> { using Number = std::uint32_t; };
+template <> struct Layout<terrain::Remainders> { using Number = std::uint32_t; };
+template <> struct Layout<terrain::Crossings> { using Number = std::int32_t; };
+template <class T> struct Layout<base::Vec3<T>> { using Number = T; };
+template <> struct Layout<std::uint64_t> { using Number = std::uint32_t; };
+template <> struct Layout<terrain::GrainLayout> { using Number = std::int64_t; };
+template <> struct Layout<coupling::TakenOut> { using Number = double; };
+template <> struct Layout<coupling::SurfaceState> { using Number = double; };
+template <> struct Layout<contact::PatchState> { using Number = double; };
+template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
+
+template <class Archive, class Settled> void exchangeSettled(Archive& archive, Settled& s) {
+  archive("/settled/time", s.time);
+  archive("/settled/agitation", s.agitation);
+  archive("/settled/steps", s.steps);
+  archive("/settled/friction", s.friction);
+  archive("/settled/highest", s.highest);
+  archive("/settled/mean_height", s.meanHeight);
+}
+
+/// The one list of what is stored, and under which name; the grains' columns say theirs. `archive` writes or reads. On
+/// several ranks all have the same of everything but grains and contacts, of which each has its block of rows.
+template <class Archive, class State> void exchange(Archive& archive, State& s) {
+  archive("/steps", s.steps);
+  archive("/ledger_at_start", s.ledgerAtStart);
+  archive("/energy_guard", s.guard);
+  exchangeSettled(archive, s.settled);
+  archive("/taken_out", s.taken);
+  if (archive.present("/bed", s.bed)) {
+    auto& b = *s.bed;
+    archive("/bed/porosity", b.porosity), archive("/bed/porosity_error", b.porosityError);
+    archive("/bed/coordination", b.coordination), archive("/bed/rattlers", b.rattlers);
+    archive("/bed/order", b.order), archive("/bed/mean_diameter", b.meanDiameter);
+    archive("/bed/settled_height", b.settledHeight), archive("/bed/thickness", b.thickness);
+    archive("/bed/highest", b.highest), archive("/bed/lowest", b.lowest), archive("/bed/grains", b.grains);
+    archive("/bed/distance", b.distance), archive("/bed/radial_distribution", b.radialDistribution);
+    archive("/bed/depth", b.depth), archive("/bed/porosity_at_depth", b.porosityAtDepth);
+  }
+  archive("/undisturbed_surface", s.surface);
+  archive("/lifts", s.lifts);
+  if (archive.present("/mechanism", s.mechanism)) {
+    archive("/mechanism/bodies", s.mechanism->bodies);
+    archive("/mechanism/worst", s.mechanism->worst);
+    archive("/mechanism/judged", s.mechanism->judged);
+    archive("/mechanism/control", s.mechanism->control);
+  }
+  if (archive.present("/grains", s.grains)) {
+    auto& g = *s.grains;
+    archive("/grains/total", g.total);
+    archive("/grains/gone", g.gone);
+    archive("/grains/layout", g.layout);
+    const auto path = [](const char* column) { return std::string("/grains/") + column; };
+    terrain::GrainState::visitColumns(
+        g, [&](const char* name, auto& column) { archive.perGrain(path(name).c_str(), column, g.total); },
+        [&](const char* name, auto& column) { archive.perContact(path(name).c_str(), column, g.contacts); });
+    archive("/grains/skin", g.skin);
+    archive("/grains/rebuilds", g.rebuilds);
+    archive("/grains/books", g.books);
+  }
+  if (archive.present("/surfaces", s.surfaces)) {
+    archive("/surfaces/states", s.surfaces->surfaces);
+    archive("/surfaces/mean_steps", s.surfaces->meanSteps);
+    archive("/surfaces/patches/memories", s.surfaces->patches.memories);
+    archive("/surfaces/patches/angles", s.surfaces->patches.angles);
+    archive("/surfaces/patches/dents", s.surfaces->patches.dents);
+    archive("/surfaces/patches/sums", s.surfaces->patches.sums);
+    archive("/surfaces/patches/deepest", s.surfaces->patches.deepest);
+  }
+  if (archive.present("/vehicle", s.vehicle)) {
+    auto& v = *s.vehicle;
+    archive("/vehicle/lift", v.lift);
+    archive("/vehicle/bodies", v.bodies);
+    archive("/vehicle/observers", v.observers);
+    archive("/vehicle/driver", v.driver);
+    archive("/vehicle/hitch", v.hitch);
+    archive("/vehicle/hitch_books", v.hitchBooks);
+    archive("/vehicle/track/states", v.track.states);
+    archive("/vehicle/track/sums", v.track.sums);
+    archive("/vehicle/ground/states", v.ground.states);
+    archive("/vehicle/ground/sums", v.ground.sums);
+    archive("/vehicle/surfaces/states", v.surfaces.states);
+    archive("/vehicle/surfaces/sums", v.surfaces.sums);
+    archive("/vehicle/bed/memories", v.bed.memories);
+    archive("/vehicle/bed/angles", v.bed.angles);
+    archive("/vehicle/bed/dents", v.bed.dents);
+    archive("/vehicle/bed/sums", v.bed.sums);
+    archive("/vehicle/bed/deepest", v.bed.deepest);
+    archive("/vehicle/ground_forces", v.groundForces);
+    archive("/vehicle/mean_steps", v.meanSteps);
+    archive("/vehicle/alarm_forces", v.alarmForces);
+    archive("/vehicle/alarm_steps", v.alarmSteps);
+    archive("/vehicle/judged", v.judged);
+    archive("/vehicle/stalled_steps", v.stalledSteps);
+    archive("/vehicle/impulse_on_parts", v.impulseOnParts);
+    archive("/vehicle/angular_on_parts", v.angularOnParts);
+  }
+}
+
+template <class T> constexpr std::size_t widthOf() {
+  using Number = typename Layout<T>::Number;
+  constexpr std::size_t kRecord = sizeof(T), kNumber = sizeof(Number);
+  static_assert(std::is_trivially_copyable_v<T> && kRecord % kNumber == 0);
+  return kRecord / kNumber;
+}
+
+template <class T> auto numbersOf(const std::vector<T>& records) {
+  std::vector<typename Layout<T>::Number> numbers(records.size() * widthOf<T>());
+  if (!records.empty()) std::memcpy(numbers.data(), records.data(), records.size() * sizeof(T));
+  return numbers;
+}
+
+template <class T> std::vector<T> recordsOf(const std::vector<typename Layout<T>::Number>& numbers) {
+  std::vector<T> records(numbers.size() / widthOf<T>());
+  for (std::size_t i = 0; i < records.size(); ++i)
+    std::memcpy(static_cast<void*>(&records[i]), &numbers[i * widthOf<T>()], sizeof(T));
+  return records;
+}
+
+/// How many rows all ranks have of each dataset that they share.
+class RowCounter {
+public:
+  explicit RowCounter(const base::Comm& comm) : comm_(comm) {}
+  template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
+  template <class T> void operator()(const char*, const T&) {}
+  template <class T> void perGrain(const char* name, const std::vector<T>& rows, std::int64_t) {
+    counts[name] = static_cast<std::uint64_t>(comm_.sumOf(static_cast<std::int64_t>(rows.size())));
+  }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>& rows, const Counts&) {
+    perGrain(name, rows, 0);
+  }
+  std::map<std::string, std::uint64_t> counts;
+
+private:
+  base::Comm comm_;
+};
+
+/// Writes what all ranks have alike, and makes the datasets of what they share.
+class Writer {
+public:
+  Writer(support::Hdf5File& file, const RowCounter& counter) : file_(file), counter_(counter) {}
+  template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
+  template <class T> void operator()(const char* name, const std::vector<T>& records) {
+    file_.write(name, numbersOf(records), {records.size(), widthOf<T>()});
+  }
+  template <class T> void operator()(const char* name, const T& one) { (*this)(name, std::vector<T>{one}); }
+  template <class T> void perGrain(const char* name, const std::vector<T>&, std::int64_t) {
+    file_.reserve<typename Layout<T>::Number>(name, {counter_.counts.at(name), widthOf<T>()});
+  }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>& rows, const Counts&) {
+    perGrain(name, rows, 0);
+  }
+
+private:
+  support::Hdf5File& file_;
+  const RowCounter& counter_;
+};
+
+/// Writes this rank's rows.
+class RowWriter {
+public:
+  RowWriter(support::Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
+  template <class T> bool present(const char*, const std::optional<T>& part) { return part.has_value(); }
+  template <class T> void operator()(const char*, const T&) {}
+  template <class T> void perGrain(const char* name, const std::vector<T>& rows, std::int64_t) {
+    const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(rows.size())));
+    file_.writeRows(name, first, numbersOf(rows));
+  }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>& rows, const Counts&) {
+    perGrain(name, rows, 0);
+  }
+
+private:
+  support::Hdf5File& file_;
+  base::Comm comm_;
+};
+
+class Reader {
+public:
+  Reader(const support::Hdf5File& file, const base::Comm& comm) : file_(file), comm_(comm) {}
+  template <class T> bool present(const char* name, std::optional<T>& part) {
+    if (file_.has(name)) part.emplace();
+    return part.has_value();
+  }
+  template <class T> void operator()(const char* name, std::vector<T>& records) {
+    records = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, 0, rowsOf<T>(name)));
+  }
+  template <class T> void operator()(const char* name, T& one) {
+    std::vector<T> records;
+    (*this)(name, records);
+    if (records.size() != 1)
+      throw base::InputError(fmt::format("{}: {} is not one record", file_.path().string(), name));
+    one = records.front();
+  }
+  /// This rank's block of grains; some fields have several rows a grain, some none.
+  template <class T> void perGrain(const char* name, std::vector<T>& rows, std::int64_t total) {
+    const std::uint64_t all = rowsOf<T>(name), grains = static_cast<std::uint64_t>(total);
+    const std::uint64_t each = grains > 0 ? all / grains : 0;
+    if (each * grains != all)
+      throw base::InputError(fmt::format("{}: {} does not fit {} grains", file_.path().string(), name, total));
+    const std::uint64_t first = terrain::blockStart(comm_, total, comm_.rank()),
+                        last = terrain::blockStart(comm_, total, comm_.rank() + 1);
+    rows = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, first * each, (last - first) * each));
+  }
+  template <class T>
+  void perContact(const char* name, std::vector<T>& rows, const std::vector<std::uint32_t>& contacts) {
+    std::int64_t mine = 0;
+    for (const std::uint32_t n : contacts) mine += n;
+    const auto first = static_cast<std::uint64_t>(comm_.sumBelow(mine)), all = rowsOf<T>(name);
+    if (all > 0 && all != static_cast<std::uint64_t>(comm_.sumOf(mine)))
+      throw base::InputError(fmt::format("{}: {} does not fit the contacts", file_.path().string(), name));
+    rows = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, all > 0 ? first : 0,
+                                                                   all > 0 ? static_cast<std::uint64_t>(mine) : 0));
+  }
+
+private:
+  template <class T> std::uint64_t rowsOf(const char* name) const {
+    const std::vector<std::uint64_t> shape = file_.shape(name);
+    if (shape.size() != 2 || shape[1] != widthOf<T>())
+      throw base::InputError(
+          fmt::format("{}: {} has another shape than this program writes", file_.path().string(), name));
+    return shape[0];
+  }
+
+  const support::Hdf5File& file_;
+  base::Comm comm_;
+};
+
+template <class Number> constexpr const char* typeName() {
+  if constexpr (std::is_same_v<Number, double>) return "float64";
+  if constexpr (std::is_same_v<Number, float>) return "float32";
+  if constexpr (std::is_same_v<Number, std::int64_t>) return "int64";
+  if constexpr (std::is_same_v<Number, std::int32_t>) return "int32";
+  if constexpr (std::is_same_v<Number, std::uint32_t>) return "uint32";
+}
+
+/// Names all that may be there.
+class Lister {
+public:
+  template <class T> bool present(const char*, std::optional<T>& part) {
+    part.emplace();
+    return true;
+  }
+  template <class T> void operator()(const char* name, const std::vector<T>&) { add<T>(name, "n"); }
+  template <class T> void operator()(const char* name, const T&) { add<T>(name, "1"); }
+  template <class T> void perGrain(const char* name, const std::vector<T>&, std::int64_t) { add<T>(name, "grains"); }
+  template <class T, class Counts> void perContact(const char* name, const std::vector<T>&, const Counts&) {
+    add<T>(name, "contacts");
+  }
+  std::vector<StoredField> fields;
+
+private:
+  template <class T> void add(const char* name, const char* rows) {
+    fields.push_back({name + 1, typeName<typename Layout<T>::Number>(), rows, widthOf<T>()});
+  }
+};
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Keys that have no part in how the state came about, or are compared by what the file holds.
+bool isFree(const std::string& key) {
+  constexpr const char* kFree[] = {
+      "run.duration",      "run.output_interval", "run.frame_interval", "run.checkpoint_interval",
+      "run.device",        "run.threads",         "run.skin",           "run.max_overlap",
+      "terrain.heightmap", "terrain.cache",       "vehicle.spec"};
+  const bool soil = key.rfind("material.", 0) == 0 && (key.ends_with("\".soil") || key.ends_with("\".soil_hash"));
+  return soil || key.rfind("output.", 0) == 0 || key.rfind("stop.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
+         std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
+}
+
+/// "section.key" and value of a resolved scene, in its order; the sections of a list are numbered.
+std::vector<std::pair<std::string, std::string>> entriesOf(const std::string& resolved) {
+  std::vector<std::pair<std::string, std::string>> entries;
+  std::map<std::string, int> count;
+  std::string section;
+  for (const std::string& line : linesOf(resolved)) {
+    if (line.rfind("[[", 0) == 0) {
+      const std::string name = line.substr(2, line.size() - 4);
+      section = fmt::format("{}[{}].", name, count[name]++);
+    } else if (line.rfind('[', 0) == 0) {
+      section = line.substr(1, line.size() - 2) + ".";
+    } else if (const std::size_t equals = line.find(" = "); equals != std::string::npos) {
+      const std::string key = section + line.substr(0, equals);
+      if (!isFree(key)) entries.emplace_back(key, line.substr(equals + 3));
+    }
+  }
+  return entries;
+}
+
+} // namespace
+
+GrainLengths lengthsOf(const terrain::Grains& grains) { return {grains.scale().unit, grains.model().radius}; }
+
+void writeState(const fs::path& path, const char* kind, const Checkpoint& checkpoint, const base::Comm& comm) {
+  const auto write = [&](const fs::path& part) {
+    RowCounter counter(comm);
+    exchange(counter, checkpoint.state);
+    if (comm.first()) {
+      support::Hdf5File file = support::Hdf5File::create(part, support::kSealBytes);
+      file.attribute("/", "scene", checkpoint.scene);
+      file.attribute("/", "inputs", checkpoint.inputs);
+      file.attribute("/", "commit", checkpoint.commit);
+      Writer writer(file, counter);
+      writer("/time_step", checkpoint.timeStep);
+      writer("/rows", checkpoint.rows);
+      writer("/frames", checkpoint.frames);
+      exchange(writer, checkpoint.state);
+      if (checkpoint.lengths && checkpoint.state.grains) {
+        file.attribute("/grains", "unit", checkpoint.lengths->unit);
+        file.attribute("/grains", "radius", checkpoint.lengths->radius);
+      }
+      file.flush();
+    }
+    if (!checkpoint.state.grains) return;
+    comm.wait();
+    support::Hdf5File file = support::Hdf5File::openShared(part, comm);
+    RowWriter rows(file, comm);
+    exchange(rows, checkpoint.state);
+    file.flush();
+  };
+  support::writeSealed(path, kind, kVersion, write, comm);
+}
+
+void checkStateFile(const fs::path& path, const char* kind) { support::checkSeal(path, kind, kVersion); }
+
+coupling::SettleReport readSettled(const support::Hdf5File& file) {
+  coupling::SettleReport settled;
+  Reader reader(file, {});
+  exchangeSettled(reader, settled);
+  return settled;
+}
+
+Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm) {
+  Checkpoint checkpoint;
+  checkpoint.scene = file.text("/", "scene");
+  checkpoint.inputs = file.text("/", "inputs");
+  checkpoint.commit = file.text("/", "commit");
+  Reader reader(file, comm);
+  reader("/time_step", checkpoint.timeStep);
+  reader("/rows", checkpoint.rows);
+  reader("/frames", checkpoint.frames);
+  exchange(reader, checkpoint.state);
+  if (const double unit = checkpoint.state.grains ? file.number("/grains", "unit") : 0; unit > 0)
+    checkpoint.lengths = GrainLengths{unit, file.number("/grains", "radius")};
+  if (auto& grains = checkpoint.state.grains) {
+    grains->id = terrain::idsFrom(grains->gone, terrain::blockStart(comm, grains->total, comm.rank()), grains->rows());
+  }
+  return checkpoint;
+}
+
+std::vector<StoredField> storedFields() {
+  Lister lister;
+  Checkpoint checkpoint;
+  lister("/time_step", checkpoint.timeStep);
+  lister("/rows", checkpoint.rows);
+  lister("/frames", checkpoint.frames);
+  exchange(lister, checkpoint.state);
+  return lister.fields;
+}
+
+void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const base::Comm& comm) {
+  writeState(path, kCheckpointFile, checkpoint, comm);
+}
+
+Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
+  // HDF5 opens only files whose checksum is right.
+  if (comm.first()) checkStateFile(path, kCheckpointFile);
+  comm.wait();
+  return readState(support::Hdf5File::open(path), comm);
+}
+
+void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const setup::Provenance& provenance) {
+  const auto was = entriesOf(checkpoint.scene), is = entriesOf(provenance.resolved);
+  const auto refuse = [&](const std::string& what) {
+    throw base::InputError(
+        fmt::format("{}: {}; set it back, or start anew without --resume", provenance.file.string(), what));
+  };
+  const std::map<std::string, std::string> then(was.begin(), was.end()), now(is.begin(), is.end());
+  for (const auto& [key, value] : is) {
+    const auto old = then.find(key);
+    if (old == then.end())
+      refuse(fmt::format("{} = {} does not stand in the scene that {} is of", key, value, path.string()));
+    if (old->second != value)
+      refuse(fmt::format("{} = {} was {} when {} was written", key, value, old->second, path.string()));
+  }
+  for (const auto& [key, value] : was)
+    if (!now.contains(key))
+      refuse(fmt::format("{} = {} is missing, with which {} was written", key, value, path.string()));
+  const auto filesThen = linesOf(checkpoint.inputs), filesNow = linesOf(provenance.inputs);
+  for (const std::string& file : filesNow)
+    if (std::find(filesThen.begin(), filesThen.end(), file) == filesThen.end())
+      refuse(fmt::format("the file of {} is another than the one that {} was written with",
+                         file.substr(0, file.find(' ')), path.string()));
+}
+
+} // namespace grouser::storage

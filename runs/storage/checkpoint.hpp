@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/simulation_state.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/support/hdf5_file.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace grouser::storage {
+
+inline constexpr const char* kCheckpointName = "checkpoint.h5";
+
+/// Kinds of files that hold a state, by which one is not taken for another.
+inline constexpr const char* kCheckpointFile = "checkpoint";
+inline constexpr const char* kBedFile = "settled bed";
+
+/// What the numbers of a file of grains are in, for who reads it without its scene.
+struct GrainLengths {
+  double unit{};   ///< of positions [m]
+  double radius{}; ///< of the largest grain [m]; of all where they are alike
+};
+GrainLengths lengthsOf(const terrain::Grains& grains);
+
+/// A stopped run: all that is needed to go on as if it had not been stopped.
+struct Checkpoint {
+  std::string scene;   ///< resolved
+  std::string inputs;  ///< what the files that the scene names held: see setup::inputsOf()
+  std::string commit;  ///< of the program that wrote it
+  double timeStep{};   ///< [s]
+  std::int64_t rows{}; ///< written by then
+  std::int64_t frames{};
+  std::optional<GrainLengths> lengths; ///< where there are grains; none in files of before
+  coupling::SimulationState state;
+};
+
+/// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
+/// Throws std::runtime_error.
+/// On several ranks all of them call it, each with its rows of the grains; all return when the file is in place.
+void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
+
+/// Throws base::InputError where the file is missing, foreign, of another version, cut or damaged.
+/// On several ranks, whatever their number was when it was written, each gets its rows.
+Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
+
+/// What the two above are made of. `kind` is one of those named on top; readState() takes a file that checkStateFile()
+/// has found whole, which one rank does for all.
+void writeState(const std::filesystem::path& path, const char* kind, const Checkpoint& checkpoint,
+                const base::Comm& comm);
+void checkStateFile(const std::filesystem::path& path, const char* kind);
+Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm);
+coupling::SettleReport readSettled(const support::Hdf5File& file); ///< of it, how the bed came to rest
+
+/// A dataset of such a file: [rows, width] numbers.
+struct StoredField {
+  std::string path;  ///< "grains/spin"
+  std::string type;  ///< "float32"
+  std::string rows;  ///< "1"; "n" of a list; "grains", "contacts"
+  std::size_t width; ///< numbers a row
+};
+/// All that a file may hold; what they mean is said in checkpoint_fields.hpp.
+std::vector<StoredField> storedFields();
+
+/// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
+/// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by
+/// what is in them.
+void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path,
+                    const setup::Provenance& provenance);
+
+} // namespace grouser::storage

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/storage/sphere_cache.hpp"
+
+#include "runs/support/file_lock.hpp"
+#include "runs/support/not_written.hpp"
+#include "runs/support/sealed_file.hpp"
+#include "runs/support/stopwatch.hpp"
+#include "runs/support/tell.hpp"
+
+#include <chrono>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+namespace grouser::storage {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto kSpheres = support::KeptFiles::Kind::spheres;
+constexpr const char* kSetFile = "kept sphere set";
+constexpr int kSetFileVersion = 2;
+constexpr auto kSpheresLook = std::chrono::milliseconds(20); // between two looks at another program's lock
+constexpr double kPatience = 120;                            // [s], after which one cuts beside the other
+
+// A file behind its seal: length of the origin, the origin, figures, spheres, all as they lie in memory.
+static_assert(std::is_trivially_copyable_v<base::SetSphere> && sizeof(base::SetSphere) == 10 * sizeof(double),
+              "a sphere has another shape: raise kSetFileVersion");
+
+} // namespace
+
+void SphereCache::write(const fs::path& path, const std::string& origin, const Found& found) {
+  const base::SphereSet& set = found.set;
+  std::ofstream out(path, std::ios::binary);
+  const std::string seal(support::kSealBytes, '\0');
+  const std::uint64_t length = origin.size();
+  const base::SphereSetFigures figures = base::figuresOf(set);
+  out.write(seal.data(), static_cast<std::streamsize>(seal.size()));
+  out.write(reinterpret_cast<const char*>(&length), sizeof length);
+  out.write(origin.data(), static_cast<std::streamsize>(length));
+  out.write(reinterpret_cast<const char*>(&figures), sizeof figures);
+  out.write(reinterpret_cast<const char*>(&found.protrusion), sizeof found.protrusion);
+  out.write(reinterpret_cast<const char*>(set.spheres.data()),
+            static_cast<std::streamsize>(set.spheres.size() * sizeof(base::SetSphere)));
+  out.close();
+  if (!out) throw support::notWritten(path);
+}
+
+/// Throws where the bytes are of another origin.
+SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::string& origin) {
+  const char *at = bytes.data(), *end = at + bytes.size();
+  const auto take = [&](void* to, std::size_t count) {
+    if (static_cast<std::size_t>(end - at) < count) throw std::runtime_error("is cut short");
+    std::memcpy(to, at, count);
+    at += count;
+  };
+  std::uint64_t length = 0;
+  take(&length, sizeof length);
+  if (length != origin.size() || static_cast<std::size_t>(end - at) < length ||
+      origin.compare(0, length, at, length) != 0)
+    throw std::runtime_error("holds another set than its name says");
+  at += length;
+  base::SphereSetFigures figures{};
+  take(&figures, sizeof figures);
+  Found found;
+  take(&found.protrusion, sizeof found.protrusion);
+  if (static_cast<std::size_t>(end - at) != figures.spheres * sizeof(base::SetSphere))
+    throw std::runtime_error("is cut short");
+  base::SphereSet& set = found.set;
+  set.spheres.resize(figures.spheres);
+  take(set.spheres.data(), figures.spheres * sizeof(base::SetSphere));
+  setFigures(set, figures);
+  return found;
+}
+
+std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
+  const std::optional<support::KeptFiles> files = support::KeptFiles::ofUser(comm);
+  return files ? std::optional(SphereCache(*files)) : std::nullopt;
+}
+
+base::SphereSet SphereCache::cut(const coupling::PartCut& part, spheredecomp::Protrusion* protrusion) {
+  // The plain cut, where that is good enough, is one and the same for whatever touches the part.
+  if (part.limit && part.limit->automatic) {
+    coupling::PartCut plain = part;
+    plain.limit->automatic = false;
+    spheredecomp::Protrusion measured;
+    base::SphereSet set = cut(plain, &measured);
+    if (spheredecomp::meets(*part.limit, set, part.options, measured)) {
+      if (protrusion) *protrusion = measured;
+      return set;
+    }
+  }
+  support::Stopwatch clock;
+  const std::string origin =
+      spheredecomp::cutOrigin(*part.mesh, part.options) + (part.limit ? spheredecomp::limitOrigin(*part.limit) : "");
+  const fs::path file = files_.fileOf(kSpheres, origin);
+  std::optional<Found> found = find(file, origin);
+  support::FileLock lock;
+  const bool usable = found || files_.writable();
+  if (!found && usable) {
+    // Of several programs that want one set the first cuts it.
+    while (!lock.take(support::KeptFiles::lockOf(file)) && clock.seconds() < kPatience)
+      std::this_thread::sleep_for(kSpheresLook);
+    found = find(file, origin);
+  }
+  if (found) {
+    found->set.name = part.name;
+    ++taken_, taking_ += clock.seconds();
+    if (protrusion) *protrusion = found->protrusion;
+    return std::move(found->set);
+  }
+  clock = {};
+  Found fresh;
+  fresh.set = coupling::cutPart(part, fresh.protrusion);
+  ++cut_, cutting_ += clock.seconds();
+  if (usable && keep(file, origin, fresh)) ++kept_;
+  if (protrusion) *protrusion = fresh.protrusion;
+  return std::move(fresh.set);
+}
+
+std::optional<SphereCache::Found> SphereCache::find(const fs::path& file, const std::string& origin) const {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
+  try {
+    Found found = parsed(support::readSealed(file, kSetFile, kSetFileVersion), origin);
+    support::KeptFiles::noteUse(file);
+    return found;
+  } catch (const std::exception& e) {
+    if (!fs::is_regular_file(file, error)) return {}; // deleted just now, by a program that makes room
+    const std::string what = e.what();                // of a sealed file it begins with its name
+    support::tell("grouser: warning: {}{}; going on without it\n",
+                  what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
+    fs::remove(file, error); // told once
+    return {};
+  }
+}
+
+bool SphereCache::keep(const fs::path& file, const std::string& origin, const Found& found) const {
+  const double bytes = static_cast<double>(found.set.spheres.size() * sizeof(base::SetSphere)) + 4096;
+  if (!files_.fits(bytes)) return false;
+  const fs::path fresh = support::KeptFiles::freshName(file);
+  try {
+    support::writeSealed(fresh, kSetFile, kSetFileVersion, [&](const fs::path& part) { write(part, origin, found); });
+  } catch (const std::exception&) {
+    return false;
+  }
+  return files_.put(fresh, file);
+}
+
+std::string SphereCache::summary(const base::Comm& comm) const {
+  std::int64_t counts[] = {taken_, cut_, kept_};
+  double times[] = {taking_, cutting_};
+  comm.sum(counts, 3), comm.maximum(times, 2); // the ranks work side by side
+  const auto [taken, cut, kept] = counts;
+  const std::string folder = files_.folder().string();
+  std::string text = taken > 0 ? fmt::format("{} sets taken from {}, in {:.2f} s", taken, folder, times[0]) : "";
+  if (cut == 0) return text;
+  const std::string what = text.empty() ? fmt::format("{} sets", cut) : fmt::format("{}; {}", text, cut);
+  text = fmt::format("{} cut in {:.2f} s; ", what, times[1]);
+  if (kept == 0) return text + "not kept";
+  return text + (kept < cut ? fmt::format("{} ", kept) : "") + "kept in " + folder;
+}
+
+} // namespace grouser::storage

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/support/line_fit.hpp"
+
+#include <span>
+#include <string>
+
+/// What a few seeds tell: means with intervals, and whether two of them are equal within a bar.
+namespace grouser::support {
+
+/// Mean and half width of its 95 % interval by Student's distribution; infinite for fewer than two values.
+support::Estimate interval95(std::span<const double> values);
+
+/// mean b - mean a with its 95 % half width, from samples of their own: Welch's interval, with the degrees of freedom
+/// of Satterthwaite rounded down; infinite where either has fewer than two values.
+support::Estimate unpairedChange(std::span<const double> a, std::span<const double> b);
+/// The same over mean a, whose scatter is left out.
+support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b);
+
+/// mean b - mean a with its 95 % half width, of pairs: a[i] and b[i] have the same seed. Throws std::invalid_argument
+/// where they are not as many.
+support::Estimate pairedChange(std::span<const double> a, std::span<const double> b);
+/// The same over mean a, whose scatter is left out.
+support::Estimate pairedDifference(std::span<const double> a, std::span<const double> b);
+
+enum class Verdict {
+  equal,   ///< the whole interval lies within the bar
+  differs, ///< the whole interval lies outside
+  notShown ///< too wide to tell
+};
+/// Of a difference whose interval is to lie in [-bar, bar].
+Verdict judge(const support::Estimate& difference, double bar);
+std::string verdictText(Verdict verdict); ///< "equal", "differs", "not shown"
+
+/// Whether the interval is wider than the value is large, so that not even its sign is sure. One value alone has no
+/// interval, and no such doubt.
+bool isInconclusive(const support::Estimate& estimate);
+
+/// "12.3 +- 0.4" with so many digits after the point; "12.3" where the interval is below 1e-9 of the value, so that the
+/// seeds agree but for rounding.
+std::string plusMinus(const support::Estimate& estimate, int digits);
+/// "0.0729 +- 0.0090": so many digits that the half width has two, or the value three where it has none; one power of
+/// ten for both where they are very large or small, or the interval is; no interval where the seeds agree but for
+/// rounding; "-" where the value is no number.
+std::string valueText(const support::Estimate& estimate);
+/// "12.3 +- 0.4 %".
+std::string percent(const support::Estimate& estimate, int digits = 1);
+
+} // namespace grouser::support

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/mechanism.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+/// The mechanisms whose motion is known: what `grouser study multibody` measures errors against.
+namespace grouser::studies {
+
+/// One component of the place or velocity of a point of a body.
+struct Probe {
+  enum Kind { kPosition, kVelocity, kDirection };
+  std::string body;
+  base::Vec3d point_B; ///< in the body's frame [m]; of kDirection: the direction itself
+  int component = 0;   ///< x, y, z
+  Kind kind = kPosition;
+};
+std::vector<double> readProbes(const coupling::Mechanism& mechanism, const std::vector<Probe>& probes);
+
+/// A mechanism with its known motion.
+struct StudyCase {
+  std::string name;
+  std::string scene; ///< file in runs/mechanisms/, or words for make_mechanisms.py
+  std::string title;
+  std::string source; ///< of the reference
+  double end = 1;     ///< simulated time [s]
+  double sample = 1;  ///< between the times compared [s]
+  int coarsest = 1;   ///< the longest step is sample / coarsest; each other a quarter of the one before
+  std::vector<Probe> probes;
+  std::function<std::vector<double>(double t)> reference; ///< the probes' values at time t
+  bool isLong = false; ///< takes minutes: left out unless asked for or in the full study
+};
+std::vector<StudyCase> studyCases();
+
+/// A reaction that is known in closed form.
+struct ReactionCase {
+  std::string name, scene, title;
+  double end = 1, step = 1e-3; ///< [s]
+  std::function<double(const coupling::Mechanism&)> measured;
+  double exact = 0;
+};
+std::vector<ReactionCase> reactionCases();
+
+/// Positions over time from runs/mechanisms/reference/; linear in the row nearest to t, which must be there.
+std::function<std::vector<double>(double t)> referenceFile(const std::string& name);
+
+} // namespace grouser::studies

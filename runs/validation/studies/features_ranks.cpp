@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.hpp"
+#include "runs/support/program_call.hpp"
+#include "runs/validation/studies/features.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace grouser::studies {
+
+namespace {
+
+constexpr int kRanks = 2;
+constexpr int kBatches = 3;
+constexpr double kUsual = 100e-9; // of a step of a grain on one core [s]: how many steps a turn has
+
+/// What `grouser bench bed` has written of one call.
+struct BedTimes {
+  double step = 0;  ///< of a grain [ns]
+  double bytes = 0; ///< a grain, of all ranks
+  std::string hash;
+};
+
+BedTimes timesOf(const FeaturesCommand& c, bool ranks, const std::filesystem::path& file) {
+  const auto steps = std::max<std::int64_t>(20, std::llround(c.turn / kBatches / (c.grains * kUsual / kRanks)));
+  std::vector<std::string> words;
+  if (ranks) {
+    words = {"env", "OMPI_MCA_rmaps_base_oversubscribe=1"};
+    if (geteuid() == 0) words.insert(words.end(), {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"});
+    words.insert(words.end(), {"mpirun", "-np", std::to_string(kRanks)});
+  }
+  const std::vector<std::string> bed = {std::filesystem::read_symlink("/proc/self/exe").string(),
+                                        "bench",
+                                        "bed",
+                                        "--ledger",
+                                        "--hash",
+                                        "--settle",
+                                        "0.02",
+                                        "--grains",
+                                        std::to_string(c.grains),
+                                        "--device",
+                                        c.pieces.device,
+                                        "--threads",
+                                        std::to_string(ranks ? 1 : kRanks),
+                                        "--batches",
+                                        std::to_string(kBatches),
+                                        "--steps",
+                                        std::to_string(steps),
+                                        "--json",
+                                        file.string()};
+  words.insert(words.end(), bed.begin(), bed.end());
+  const support::CallOutcome outcome = support::callProgram(words);
+  if (ranks && outcome.status == 127)
+    throw base::InputError(
+        "study features: `ranks` needs mpirun, which is not on the PATH; install openmpi-bin, or name "
+        "the other features with --features");
+  std::ifstream in(file);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  if (outcome.status != 0 || !json.is_object())
+    throw base::InputError(fmt::format("study features: `ranks`: {} ended with {}: {}", fmt::join(words, " "),
+                                       outcome.status, outcome.output));
+  return {1e3 * json.at("microseconds_a_step").at("median").get<double>() / json.at("grains").get<double>(),
+          json.at("bytes_a_grain").get<double>(), json.at("state_hash").get<std::string>()};
+}
+
+} // namespace
+
+jobs::Table measureRanks(const FeaturesCommand& c, const std::filesystem::path& folder) {
+  jobs::Table table{kFeatureColumns, {}};
+  for (int k = 0; k < c.pairs; ++k) {
+    jobs::stopStudyIfAsked();
+    BedTimes times[2];
+    for (const bool ranks : {k % 2 != 0, k % 2 == 0})
+      times[ranks ? 1 : 0] = timesOf(c, ranks, folder / (ranks ? "ranks.json" : "alone.json"));
+    const double same = times[0].hash == times[1].hash ? 1 : 0, n = c.grains;
+    table.rows.push_back({times[0].step, times[1].step, times[0].bytes, times[1].bytes, n, n, same});
+  }
+  return table;
+}
+
+} // namespace grouser::studies

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/validation/studies/option_parts.hpp"
+
+#include "runs/support/option_checks.hpp"
+
+namespace grouser::studies {
+
+void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick) {
+  app.add_flag("--quick", place.quick, quick);
+  support::addOut(app, place.folder, "folder of the tables and the plot; default: out/study_" + name);
+  app.add_flag("--force", place.force, "overwrite what is in that folder");
+}
+
+CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
+                       const std::string& help) {
+  return app.add_option(name, value, help)->check(support::between(low, high))->capture_default_str();
+}
+
+CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help) {
+  return app.add_option("--seeds", seeds, help)->check(support::wholeNumber(2, 1000))->capture_default_str();
+}
+
+} // namespace grouser::studies

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/jobs/study_place.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// Options that several studies have.
+namespace grouser::studies {
+
+/// What --quick takes instead of the defaults: an option that the user gives keeps the value given.
+class QuickValues {
+public:
+  /// `value`: what the option sets. Its help says so.
+  template <class T> void instead(CLI::Option* option, T& value, const std::type_identity_t<T>& quick) {
+    std::string text;
+    if constexpr (std::is_arithmetic_v<T>)
+      text = fmt::format("{}", quick);
+    else
+      text = fmt::format("{}", fmt::join(quick, ", "));
+    option->description(option->get_description() + "; with --quick " + text);
+    values_.push_back([option, &value, quick] {
+      if (option->count() == 0) value = quick;
+    });
+  }
+  void take() const {
+    for (const auto& value : values_) value();
+  }
+
+private:
+  std::vector<std::function<void()>> values_;
+};
+
+/// --quick, --out and --force; `quick` is the help of the first, `name` the study's.
+void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick);
+/// A number in [low, high].
+CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
+                       const std::string& help);
+/// --seeds
+CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help);
+/// Has the study done, with `command`.
+template <class Command>
+void doStudy(CLI::App& app, Command& command, void (*study)(const Command&), const QuickValues& quick) {
+  app.callback([&command, study, quick] {
+    if (command.place.quick) quick.take();
+    study(command);
+  });
+}
+
+} // namespace grouser::studies

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/jobs/study_place.hpp"
+#include "runs/virtual_tests/sample.hpp"
+
+#include <string>
+#include <vector>
+
+/// How densely poured spheres lie, and in how many contacts: against the known limits of random packings.
+namespace grouser::studies {
+
+/// Of the inside of one poured sample, away from floor and top.
+struct Packing {
+  double solidFraction = 0; ///< [-] volume of the spheres, overlaps counted once
+  double coordination = 0;  ///< [-] contacts a grain
+  double coordinationWithoutRattlers = 0;
+  double rattlers = 0; ///< [-] share of the grains that nothing holds
+  double overlap = 0;  ///< [-] mean overlap of the contacts, in diameters
+  double rest = 0;     ///< [s] until it lay still; negative: it did not within the limit
+};
+
+/// Pours `grains` of these at a seventh of the volume between periodic boundaries, `width` diameters apart, and
+/// measures. A grain counts as held from `least` contacts on: four without friction, two with.
+Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, double width, std::int64_t seed);
+
+struct PackingCommand {
+  jobs::StudyPlace place;
+  int grains = 1800, seeds = 5;
+  double width = 10; ///< [d]
+};
+/// `grouser study packing`
+void studyPackingCommand(const PackingCommand& command);
+
+} // namespace grouser::studies

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/jobs/study_place.hpp"
+#include "runs/virtual_tests/sample.hpp"
+
+#include <vector>
+
+/// A direct shear box: the friction angle of a bed of grains.
+namespace grouser::studies {
+
+/// One look at a sample while its upper half is drawn over the lower one.
+struct ShearRow {
+  double displacement = 0; ///< of the upper half [m]
+  double shear = 0;        ///< force that draws it [N]
+  double normal = 0;       ///< force across the plane between the halves [N]
+  double lid = 0;          ///< height of the lid over that plane [m]
+};
+
+struct ShearBox {
+  double length = 16, width = 6, depth = 10; ///< [d] inside, between periodic boundaries, of the settled sample
+  double travel = 0.12;                      ///< [-] of the length
+  double speed = 0.02;                       ///< [m/s]
+  double spread = 0.12;                      ///< [-] radii are uniform within this share of the mean, against order
+};
+
+/// Fills the box, presses the lid down with `stress` [Pa], then shears.
+std::vector<ShearRow> shearSample(const virtual_tests::SampleGrains& material, const ShearBox& box, double stress,
+                                  std::int64_t seed);
+
+struct ShearCommand {
+  jobs::StudyPlace place;
+  double friction = 0.5, rollingFriction = 0;
+  int seeds = 3;
+  std::vector<double> stresses = {1000, 2000, 4000}; ///< [Pa]
+};
+/// `grouser study shear`
+void studyShearCommand(const ShearCommand& command);
+
+} // namespace grouser::studies

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/jobs/pieces.hpp"
+#include "runs/validation/studies/vehicle_trial.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+/// Runs of vehicles, kept as pieces of a study.
+namespace grouser::studies {
+
+/// A figure of a run, as a column.
+struct FigureColumn {
+  const char* name;
+  double MapFigures::*value;
+};
+inline constexpr std::array<FigureColumn, 14> kTrialFigures{{{"speed [m/s]", &MapFigures::speed},
+                                                             {"height [m]", &MapFigures::height},
+                                                             {"lowest height [m]", &MapFigures::lowest},
+                                                             {"pitch [rad]", &MapFigures::pitch},
+                                                             {"power [W]", &MapFigures::power},
+                                                             {"tension [N]", &MapFigures::tension},
+                                                             {"sinkage [m]", &MapFigures::sinkage},
+                                                             {"dissipated [J]", &MapFigures::dissipated},
+                                                             {"integration error [J]", &MapFigures::integrationError},
+                                                             {"turnover [J]", &MapFigures::turnover},
+                                                             {"left over [-]", &MapFigures::leftOver},
+                                                             {"speed magnitude [m/s]", &MapFigures::speedMagnitude},
+                                                             {"power magnitude [W]", &MapFigures::powerMagnitude},
+                                                             {"blow [weights]", &MapFigures::blow}}};
+
+/// The runs of one point or vehicle, kept as numbers with their messages beside them.
+void keepTrials(jobs::Pieces& pieces, const std::string& name, const std::vector<VehicleTrial>& trials);
+/// Throws base::InputError where the table is of another version.
+std::vector<VehicleTrial> readTrials(const jobs::Pieces& pieces, const std::string& name);
+
+} // namespace grouser::studies

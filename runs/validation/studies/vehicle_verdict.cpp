@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/validation/studies/vehicle_verdict.hpp"
+
+#include "runs/jobs/study_place.hpp"
+#include "runs/support/estimate.hpp"
+#include "vehicle/blow_meter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::studies {
+
+const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
+  // A twentieth of what is measured, and a floor where that is small: a hundredth of the vehicle's walking pace, a
+  // tenth of the arms' deflection under its weight, a hundredth of what it takes to drive, and of a strand's pull.
+  static const std::vector<ComparedFigure> onRigidGround = {
+      {"speed", "m/s", &MapFigures::speed, 0.05, 0.01, &MapFigures::speedMagnitude},
+      {"height", "m", &MapFigures::height, 0, 0.004},
+      {"lowest height", "m", &MapFigures::lowest, 0, 0.01},
+      {"pitch", "rad", &MapFigures::pitch, 0, 0.005},
+      {"power", "W", &MapFigures::power, 0.05, 30, &MapFigures::powerMagnitude},
+      {"tension", "N", &MapFigures::tension, 0.05, 50},
+      {"dissipated energy", "J", &MapFigures::dissipated, 0.1, 10}};
+  // Grains at another step settle into another bed: two to four standard deviations of the difference of two beds from
+  // other seeds, as the map `seeds` measures them (docs/vehicle_stability.md).
+  static const std::vector<ComparedFigure> onGrains = {
+      {"speed", "m/s", &MapFigures::speed, 0.2, 0.05, &MapFigures::speedMagnitude},
+      {"sinkage", "m", &MapFigures::sinkage, 0.2, 0.01},
+      {"power", "W", &MapFigures::power, 0.3, 300, &MapFigures::powerMagnitude},
+      {"tension", "N", &MapFigures::tension, 0.05, 300},
+      {"dissipated energy", "J", &MapFigures::dissipated, 0.2, 50}};
+  return onBed ? onGrains : onRigidGround;
+}
+
+Blame blameOf(const std::string& message) {
+  struct Known {
+    const char *words, *kind;
+    bool step;
+  };
+  static constexpr std::array<Known, 15> kKnown{{
+      {"the step is not to blame", "a grain pressed through a part", false},
+      {"while the", "a bed that does not settle", false},
+      {"track thrown", "the track leaves its wheels", false},
+      {"track skips", "the track leaves its wheels", false},
+      {"left the terrain", "the terrain ends", false},
+      {"come to rest", "no rest", false},
+      {"tangential_damping_ratio", "tangential dashpots", false},
+      {"contacts are unstable", "unstable contacts", true},
+      {"too long for these contacts", "unstable contacts", true},
+      {"turns by", "turns too far a step", true},
+      {"swings across", "swings across the pull", true},
+      {"within one step it has moved", "a part is thrown in a step", true},
+      {"motion is too fast for dt", "too fast for the solver", true},
+      {"neighbour list's skin in one step", "a grain too fast for its list", true},
+      {"is no number", "no number", true},
+  }};
+  for (const Known& k : kKnown)
+    if (message.find(k.words) != std::string::npos) return {k.kind, k.step};
+  return {"other", false};
+}
+
+namespace {
+
+/// Why the books of a run do not count; empty where they close.
+std::string openBooks(const MapFigures& f) {
+  if (std::fabs(f.leftOver) <= kMostLeftOver) return {};
+  return fmt::format("the books leave {:.3g} of the turnover over", f.leftOver);
+}
+
+double sizeOf(const ComparedFigure& c, const MapFigures& f) {
+  const double value = std::fabs(f.*c.value);
+  return c.magnitude ? std::fmax(value, f.*c.magnitude) : value;
+}
+
+double allowed(const ComparedFigure& c, double size, double finerSize) {
+  return c.relative * std::max(size, finerSize) + c.floor;
+}
+
+/// A figure that is none in one run, in words; empty where all are numbers, or are not to be had in this scene.
+std::string noNumber(const MapFigures& run, const MapFigures& finer, bool onBed) {
+  for (const ComparedFigure& c : comparedFigures(onBed)) {
+    const double a = run.*c.value, b = finer.*c.value;
+    if (!(std::isnan(a) && std::isnan(b)) && (!std::isfinite(a) || !std::isfinite(b)))
+      return fmt::format("{} is {} and {}: no number", c.name, a, b);
+  }
+  return {};
+}
+
+/// What differs most beyond what it may; empty where nothing does.
+std::string apartInWords(const MapFigures& run, const MapFigures& finer, bool onBed) {
+  std::string worst;
+  double most = 1;
+  for (const ComparedFigure& c : comparedFigures(onBed)) {
+    const double a = run.*c.value, b = finer.*c.value;
+    const double may = allowed(c, sizeOf(c, run), sizeOf(c, finer)), over = std::fabs(a - b) / may;
+    if (!(over > most)) continue; // or not to be had in this scene
+    most = over;
+    worst = fmt::format("{} is {:.4g} {}, at a quarter of the step {:.4g} {}: {:.3g} apart, more than {:.3g}", c.name,
+                        a, c.unit, b, c.unit, std::fabs(a - b), may);
+  }
+  return worst;
+}
+
+/// What is wrong of two runs that end as if sound, beside figures that differ.
+std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
+  if (finer.end != TrialEnd::sound) return fmt::format("at a quarter of the step: {}", finer.cause);
+  for (const MapFigures* f : {&run.figures, &finer.figures})
+    if (std::string open = openBooks(*f); !open.empty()) return open;
+  return noNumber(run.figures, finer.figures, onBed);
+}
+
+/// A figure over neighbouring steps, and over their quarters; without the pair that has asked for them.
+struct FigureScatter {
+  std::vector<double> runs, finer;
+  double deviation = 0, finerDeviation = 0; ///< of one run
+  support::Estimate change;                 ///< of the means, quarter less step
+  double mean = 0, finerMean = 0, may = 0;
+};
+
+FigureScatter scatterOf(const ComparedFigure& c, const std::vector<TrialPair>& pairs) {
+  FigureScatter s;
+  double size = 0, finerSize = 0; // in the mean
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    const MapFigures &run = pairs[i].run.figures, &finerRun = pairs[i].finer.figures;
+    s.runs.push_back(run.*c.value), s.finer.push_back(finerRun.*c.value);
+    size += sizeOf(c, run) / static_cast<double>(pairs.size() - 1);
+    finerSize += sizeOf(c, finerRun) / static_cast<double>(pairs.size() - 1);
+  }
+  const jobs::MeanError m = jobs::meanOf(s.runs), finer = jobs::meanOf(s.finer);
+  const double root = std::sqrt(static_cast<double>(s.runs.size()));
+  s.mean = m.mean, s.finerMean = finer.mean;
+  s.deviation = root * m.error, s.finerDeviation = root * finer.error;
+  s.change = support::unpairedChange(s.runs, s.finer);
+  s.may = allowed(c, size, finerSize);
+  return s;
+}
+
+/// What a figure's runs at neighbouring steps show of an error of the step; empty where it may be scatter.
+std::string errorOfStep(const ComparedFigure& c, const FigureScatter& s) {
+  const double apart = std::fabs(s.change.value);
+  if (apart > s.may && apart > s.change.halfWidth)
+    return fmt::format(
+        "{} is {:.4g} {} in the mean of {} steps within 2.5 %, of their quarters {:.4g} {}: {:.3g} apart, "
+        "more than {:.3g}, and more than their scatter explains, {:.3g}",
+        c.name, s.mean, c.unit, s.runs.size(), s.finerMean, c.unit, apart, s.may, s.change.halfWidth);
+  if (s.deviation > s.may && s.deviation * s.deviation > kFisher95 * s.finerDeviation * s.finerDeviation)
+    return fmt::format(
+        "{} scatters by {:.3g} {} over {} steps within 2.5 %, by {:.3g} {} over their quarters: the step "
+        "makes it",
+        c.name, s.deviation, c.unit, s.runs.size(), s.finerDeviation, c.unit);
+  return {};
+}
+
+} // namespace
+
+Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
+  if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
+  if (run.end == TrialEnd::stopped) {
+    const Blame blame = blameOf(run.cause);
+    const bool same = finer.end == TrialEnd::stopped && blameOf(finer.cause).kind == blame.kind;
+    // Where the step is to blame a shorter one goes on beyond, whatever it meets later; where it is not, that meets the
+    // same.
+    const bool beyond =
+        finer.end == TrialEnd::sound || (finer.end == TrialEnd::stopped && !same && finer.reached > run.reached);
+    const bool confirmed = blame.step ? beyond : same;
+    return {confirmed ? MapVerdict::stopped : MapVerdict::wrongCause, run.cause};
+  }
+  std::string wrong = fault(run, finer, onBed);
+  if (wrong.empty()) wrong = apartInWords(run.figures, finer.figures, onBed);
+  return {wrong.empty() ? MapVerdict::sound : MapVerdict::silentlyWrong, wrong};
+}
+
+bool figuresDisagree(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
+  return run.end == TrialEnd::sound && fault(run, finer, onBed).empty() &&
+         !apartInWords(run.figures, finer.figures, onBed).empty();
+}
+
+Judgement judge(const std::vector<TrialPair>& pairs, bool onBed) {
+  const TrialPair& first = pairs.at(0);
+  Judgement alone = judge(first.run, first.finer, onBed);
+  if (pairs.size() < 2 || !figuresDisagree(first.run, first.finer, onBed)) return alone;
+  for (const TrialPair& p : pairs) {
+    std::string wrong = p.run.end == TrialEnd::sound ? fault(p.run, p.finer, onBed) : p.run.cause;
+    if (!wrong.empty())
+      return {MapVerdict::silentlyWrong,
+              fmt::format("{}; at the neighbouring step {:.5g} s: {}", alone.why, p.run.step, wrong)};
+  }
+  for (const ComparedFigure& c : comparedFigures(onBed)) {
+    if (!std::isfinite(first.run.figures.*c.value)) continue; // not to be had in this scene
+    if (std::string wrong = errorOfStep(c, scatterOf(c, pairs)); !wrong.empty())
+      return {first.run.figures.blow > vehicle::BlowMeter::kBlow ? MapVerdict::warned : MapVerdict::silentlyWrong,
+              wrong};
+  }
+  return {MapVerdict::scatters, fmt::format("{}; no more than the scatter of neighbouring steps", alone.why)};
+}
+
+std::string scatterTable(const std::vector<TrialPair>& pairs, bool onBed) {
+  std::string text;
+  for (const ComparedFigure& c : comparedFigures(onBed)) {
+    const FigureScatter s = scatterOf(c, pairs);
+    if (!std::isfinite(s.mean)) continue;
+    text += fmt::format("  {:<18} {:>9.4g} +- {:<9.3g} {:>9.4g} +- {:<9.3g} {:>10.3g} +- {:<9.3g} {:>9.3g} {}\n",
+                        c.name, s.mean, s.deviation, s.finerMean, s.finerDeviation, s.change.value, s.change.halfWidth,
+                        s.may, c.unit);
+  }
+  return text;
+}
+
+} // namespace grouser::studies

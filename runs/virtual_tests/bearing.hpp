@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Bearing capacity of soil without cohesion under a plate, as foundation engineering has it.
+namespace grouser::virtual_tests {
+
+/// Factors of Terzaghi's superposition, q = c N_c + gamma z N_q + gamma B N_gamma / 2.
+struct BearingFactors {
+  double nq = 1, nc = 0, ngamma = 0; ///< [-]
+};
+
+/// N_q = exp(pi tan phi) tan2(45 deg + phi/2) and N_c = (N_q - 1) cot phi (Prandtl 1921, Reissner 1924), N_gamma =
+/// 2 (N_q + 1) tan phi (Vesic 1973, J. Soil Mech. Found. Div. 99:45). `angle`: of internal friction [rad], [0, pi/2).
+BearingFactors bearingFactors(double angle);
+
+enum class PlateShape { strip, circular };
+
+/// What soil without cohesion bears at most [Pa], at sinkage `depth` [m] of a plate `breadth` [m] broad (of a circular
+/// one the diameter), under `unitWeight` [N/m3] = bulk density times gravity. The soil beside the plate counts as
+/// surcharge; its own strength does not. Shape factors of a circle: s_q = 1 + tan phi, s_gamma = 0.6 (Vesic 1973,
+/// after De Beer 1970).
+double bearingPressure(PlateShape shape, double angle, double unitWeight, double breadth, double depth);
+
+/// The angle [rad] at which bearingPressure() is `pressure`; within [0, 60 deg].
+double bearingAngle(PlateShape shape, double pressure, double unitWeight, double breadth, double depth);
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `grouser soil --calibrate`: shear first, then pressure and sinkage, then all constants of what was found.
+#include "base/counted.hpp"
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/output/output.hpp"
+#include "runs/support/build_info.hpp"
+#include "runs/support/estimate.hpp"
+#include "runs/support/stop_signals.hpp"
+#include "runs/support/text_file.hpp"
+#include "runs/virtual_tests/calibration_record.hpp"
+#include "runs/virtual_tests/constant_doubts.hpp"
+#include "runs/virtual_tests/soil_report.hpp"
+#include "runs/virtual_tests/test_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+using support::Estimate;
+
+constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin with
+constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
+constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
+constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
+constexpr double kBeds = 0.75;          // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
+
+/// Time is up before all tests of a trial are there.
+struct Unfinished {
+  std::string trial;
+  int missing;
+};
+
+class Calibration {
+public:
+  Calibration(const CalibrationCommand& command, CalibrationTargets targets, std::filesystem::path folder)
+      : command_(command), targets_(std::move(targets)), folder_(std::move(folder)), soil_(targets_.start),
+        record_(command, targets_, folder_) {}
+
+  void run() {
+    try {
+      search();
+    } catch (const Unfinished& unfinished) {
+      record_.stopped(unfinished.trial, unfinished.missing);
+      fmt::print("{} missing: call again with --resume\n",
+                 base::counted(unfinished.missing, "test of this trial is", "tests of this trial are"));
+    }
+  }
+
+private:
+  void search() {
+    seekStrength();
+    // Stiff grains have a little more friction: whether phi and c are still there is looked at once more, and costs
+    // nothing where they are, for the tests at the end are the same.
+    if (seekStiffness()) seekStrength();
+    finish();
+  }
+
+  /// Does the tests of some kinds with the soil as it is, in a folder of their own.
+  TestPlan tested(const std::string& name, const std::function<bool(const PlannedTest&)>& wanted, SoilResults& results,
+                  const std::function<void(const TestPlan&, const jobs::Pieces&)>& look = {}) {
+    PlanOptions options = command_.plan;
+    options.coarse = command_.place.quick, options.wide = false, options.reposeSeeds = 0;
+    TestPlan plan = planOf(soil_, options);
+    plan.tests.erase(std::remove_if(plan.tests.begin(), plan.tests.end(), [&](const auto& t) { return !wanted(t); }),
+                     plan.tests.end());
+    jobs::PieceOptions pieceOptions = command_.pieces;
+    pieceOptions.resume = true;
+    if (command_.pieces.seconds > 0) {
+      pieceOptions.seconds = command_.pieces.seconds - spent();
+      if (pieceOptions.seconds <= 0) throw Unfinished{name, static_cast<int>(plan.tests.size())};
+    }
+    jobs::StudyPlace place = command_.place;
+    place.folder = folder_ / name;
+    jobs::Pieces pieces("soil " + soil_.name + ", " + name, place, pieceOptions, plan.recipe());
+    record_.begun();
+    takeOver(plan, pieces);
+    if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
+      if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty()) {
+        record_.stopped(name, missing);
+        throw base::SimulationError(fmt::format("{} has no result: {}", name, unsoundText(unsound)));
+      }
+      throw Unfinished{name, missing};
+    }
+    results = resultsOf(plan, pieces);
+    if (look) look(plan, pieces);
+    done_.emplace_back(soil_.keys, pieces);
+    return plan;
+  }
+
+  /// Tests that former trials have done of the very same soil.
+  void takeOver(const TestPlan& plan, jobs::Pieces& pieces) const {
+    for (const auto& trial : done_) {
+      if (trial.first != soil_.keys) continue;
+      const auto take = [&](const std::string& name) {
+        if (!pieces.has(name) && trial.second.has(name)) pieces.keep(name, trial.second.read(name));
+      };
+      take(plan.preparationName());
+      for (const PlannedTest& test : plan.tests) {
+        take(test.name);
+        const std::filesystem::path note = noteFile(trial.second, test, TestNote::shorterSteps);
+        if (std::filesystem::exists(note))
+          std::filesystem::copy_file(note, noteFile(pieces, test, TestNote::shorterSteps),
+                                     std::filesystem::copy_options::overwrite_existing);
+      }
+    }
+  }
+
+  /// Friction and rolling friction for phi, cohesion for c, both from each trial.
+  void seekStrength() {
+    const auto phi = targets_.wanted.find(Quantity::frictionAngle), c = targets_.wanted.find(Quantity::cohesion);
+    const bool seeksPhi = phi != targets_.wanted.end(), seeksC = c != targets_.wanted.end();
+    if (!seeksPhi && !seeksC) return;
+    const double mu = soil_.friction;
+    const StrengthPoint start{wayOf(numberOf(soil_, "rolling_friction", 0)), numberOf(soil_, pullKey(), 0)};
+    std::optional<StrengthSearch::Target> angle, cohesion;
+    if (seeksPhi) angle = {phi->second, targets_.angleTolerance, kAngleSlope};
+    // Pascals of strength a J/m2 of the pull.
+    const double slope = 1e-3 * kBeds / soil_.grainRadius * base::tan((seeksPhi ? phi->second : 30) * base::kPi / 180);
+    if (seeksC) cohesion = {c->second, targets_.cohesionTolerance, slope};
+    StrengthSearch search(angle, cohesion, start);
+    bool goesOn = true;
+    while (goesOn) {
+      setStrength(search.at(), mu);
+      SoilResults r;
+      const std::string name = fmt::format("shear_{}", ++shearTrials_);
+      tested(
+          name, [](const PlannedTest& t) { return t.kind == TestKind::shear; }, r);
+      record_.shear(name, soil_, r.measured);
+      const Estimate foundAngle = r.measured.at(Quantity::frictionAngle),
+                     foundCohesion = r.measured.at(Quantity::cohesion);
+      fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa; K {} mm\n",
+                 soil_.friction, numberOf(soil_, "rolling_friction", 0), pullKey(), search.at().pull,
+                 support::valueText(foundAngle), support::valueText(foundCohesion),
+                 support::valueText(r.measured.at(Quantity::shearModulus)));
+      goesOn = search.tried(foundAngle.value, foundCohesion.value);
+    }
+    setStrength(search.nearest(), mu);
+  }
+
+  void setStrength(const StrengthPoint& point, double mu) {
+    const Strength s = strengthAt(point.way, mu);
+    setNumber(soil_, "friction", s.friction), setNumber(soil_, "rolling_friction", s.rollingFriction);
+    if (point.pull > 0 || numberOf(soil_, pullKey(), -1) >= 0) setNumber(soil_, pullKey(), point.pull);
+  }
+
+  /// What pulls grains together: the energy of adhesion, or the surface energy where the start names that alone.
+  std::string pullKey() const {
+    const bool isAlone = numberOf(soil_, "surface_energy", -1) >= 0 && numberOf(soil_, "cohesion", -1) < 0;
+    return isAlone ? "surface_energy" : "cohesion";
+  }
+  std::string springKey() const { return soil_.young > 0 ? "young" : "stiffness"; }
+
+  /// The least stiffness whose contacts are not squeezed too far [N/m] or [Pa].
+  double softest() const {
+    const double d = 2 * soil_.grainRadius, p = command_.plan.mostPressure;
+    if (soil_.young == 0) return p * d / kDeepest;
+    // F = p d^2 = 4/3 E* sqrt(d / 4) overlap^(3/2), E* = E / 2 / (1 - nu^2).
+    const double overlap = kDeepest * d;
+    return 2 * (1 - soil_.poisson * soil_.poisson) * 0.75 * p * d * d / (std::sqrt(0.25 * d * overlap) * overlap);
+  }
+
+  /// Stiffness for the pressure of the small plate at the sinkage where it is to carry the track's. Whether it is
+  /// another one than before.
+  bool seekStiffness() {
+    if (!targets_.wantsSinkage()) return false;
+    const double start = numberOf(soil_, springKey(), 0), least = std::min(start, softest());
+    double stiffness = start;
+    std::vector<Trial> trials;
+    std::map<double, double> stiffnesses; // by the x of their trials
+    const double wanted = base::log(kTrackPressure);
+    for (int trial = 1;; ++trial) {
+      SoilResults r;
+      Estimate pressure;
+      const std::string name = fmt::format("plate_{}", trial);
+      const TestPlan done = tested(
+          name, [](const PlannedTest& t) { return t.kind == TestKind::small; }, r,
+          [&](const TestPlan& plan, const jobs::Pieces& pieces) {
+            pressure = pressureThere(plan, pieces, TestKind::small);
+          });
+      record_.plate(name, soil_, pressure, sinkageOf(done, TestKind::small));
+      trials.push_back({base::log(stiffness), base::log(pressure.value)});
+      stiffnesses[trials.back().x] = stiffness;
+      fmt::print("          {} {:.4g}: {} kPa where {:g} are wanted\n", springKey(), stiffness,
+                 support::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
+      const std::optional<double> next = nextTrial(trials, wanted, std::log1p(targets_.stiffnessTolerance),
+                                                   base::log(least), base::log(kStiffer * start), kStiffnessSlope);
+      if (!next) break;
+      stiffness = fourDigits(base::exp(*next));
+      const auto isIt = [&](const auto& tried) { return tried.second == stiffness; };
+      if (std::any_of(stiffnesses.begin(), stiffnesses.end(), isIt)) break;
+      setNumber(soil_, springKey(), stiffness);
+    }
+    const double found = stiffnesses.at(nearestTrial(trials, wanted).x);
+    if (trials.size() > 1) setNumber(soil_, springKey(), found);
+    return found != start;
+  }
+
+  /// Where a plate is to carry the track's pressure [m].
+  double sinkageOf(const TestPlan& plan, TestKind kind) const {
+    return targets_.sinkageAt(targets_.breadth.value_or(plan.breadth(kind)));
+  }
+
+  /// Mean pressure of a plate where it is to carry the track's [Pa]: a curve that ends before carries what it did then.
+  Estimate pressureThere(const TestPlan& plan, const jobs::Pieces& pieces, TestKind kind) const {
+    const double z = sinkageOf(plan, kind);
+    const double window = std::max(0.05 * z, 2e-3 * plan.breadth(kind));
+    std::vector<double> pressures;
+    for (const jobs::Table& run : runsOf(plan, pieces, kind)) {
+      const SinkageCurve curve = beddedCurve(plan, run).curve;
+      const double at = std::min(z, curve.sinkage.back() - window);
+      double sum = 0, count = 0;
+      for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
+        if (std::fabs(curve.sinkage[i] - at) <= window) sum += curve.pressure[i], ++count;
+      pressures.push_back(std::max(1.0, sum / std::max(1.0, count)));
+    }
+    return support::interval95(pressures);
+  }
+
+  std::vector<TargetOutcome> outcomes(const SoilResults& r, const Estimate& small, const Estimate& large) const {
+    std::vector<TargetOutcome> all;
+    for (const auto& [q, wanted] : targets_.wanted) {
+      const auto found = r.measured.find(q);
+      if (found == r.measured.end()) continue;
+      std::optional<double> tolerance;
+      if (q == Quantity::cohesion) tolerance = targets_.cohesionTolerance;
+      if (q == Quantity::frictionAngle) tolerance = targets_.angleTolerance;
+      all.push_back({symbolOf(q), unitOf(q), wanted, tolerance, found->second});
+    }
+    if (!targets_.wantsSinkage()) return all;
+    const double p = 1e-3 * kTrackPressure, within = targets_.stiffnessTolerance * p;
+    all.push_back({"pressure, small plate", "kPa", p, within, {1e-3 * small.value, 1e-3 * small.halfWidth}});
+    all.push_back({"held back, large plate", "kPa", p, within, {1e-3 * large.value, 1e-3 * large.halfWidth}});
+    return all;
+  }
+
+  void finish() {
+    SoilResults r;
+    Estimate small, large;
+    const TestPlan plan = tested(
+        "final", [](const PlannedTest&) { return true; }, r,
+        [&](const TestPlan& all, const jobs::Pieces& pieces) {
+          reportSoil(all, pieces, 0);
+          if (!targets_.wantsSinkage()) return;
+          small = pressureThere(all, pieces, TestKind::small), large = pressureThere(all, pieces, TestKind::large);
+        });
+    const std::vector<TargetOutcome> found = outcomes(r, small, large);
+    const std::string text = outcomesText(found, command_.place.quick);
+    fmt::print("{}", text);
+    const std::string call = fmt::format("grouser soil --calibrate {}{}", targets_.start.file.filename().string(),
+                                         command_.place.quick ? " --quick" : "");
+    support::writeTextFile(folder_ / "calibration.txt", text, "--out");
+    const std::string file = soil_.name + ".toml";
+    support::replaceTextFile(folder_ / file,
+                             soilFileText(soil_, fmt::format("calibrated by {} ({})", call, plan.care()), r, call));
+    record_.ended(found, file, "final");
+    fmt::print("soil      {}\n", (folder_ / file).string());
+  }
+
+  double spent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+  const CalibrationCommand& command_;
+  CalibrationTargets targets_;
+  std::filesystem::path folder_;
+  TestedSoil soil_;
+  CalibrationRecord record_;
+  int shearTrials_ = 0;
+  std::vector<std::pair<decltype(TestedSoil::keys), jobs::Pieces>> done_; ///< the soil of each trial that is whole
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Those of a former call.
+void removeTrials(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> trials;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (std::filesystem::exists(entry.path() / "recipe.json")) trials.push_back(entry.path());
+  for (const std::filesystem::path& trial : trials) std::filesystem::remove_all(trial);
+}
+
+} // namespace
+
+std::string soilFileText(const TestedSoil& soil, const std::string& description, const SoilResults& reached,
+                         const std::string& command) {
+  const bool isMeasured = doubtsOf(reached).size() < reached.measured.size();
+  std::string text = fmt::format("version = 1\n\n[soil]\ntitle = {}\ndescription = {}\ncalibrated = {}\n\n[material]\n",
+                                 base::toToml(soil.name), base::toToml(description), isMeasured);
+  for (const auto& [key, value] : soil.keys) text += key + " = " + value + "\n";
+  text += fmt::format("\n[bed]\ngrain_radius = {}\nradius_spread = {}\n", base::toToml(soil.grainRadius),
+                      base::toToml(soil.spread));
+  if (soil.porosity) text += "porosity = " + base::toToml(*soil.porosity) + "\n";
+  text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
+  for (const auto& [q, e] : reached.measured) {
+    if (const std::string doubt = doubtOf(q, e); !doubt.empty()) {
+      text += fmt::format("\n# {} = {} {} is left out, since it is inconclusive: {}\n", symbolOf(q),
+                          support::valueText(e), unitOf(q), doubt);
+      continue;
+    }
+    text +=
+        fmt::format("\n[[reached]]\nquantity = \"{}\"\nvalue = {}\nhalf_width = {}\nunit = \"{}\"\n", symbolOf(q),
+                    base::toToml(inSoilFile(q, e.value)), base::toToml(inSoilFile(q, e.halfWidth)), soilFileUnitOf(q));
+    text += fmt::format("grain_radius = {}\ncommand = {}\n", base::toToml(soil.grainRadius), base::toToml(command));
+  }
+  return text;
+}
+
+void calibrateCommand(const CalibrationCommand& command) {
+  if (!command.pieces.part.empty())
+    throw base::InputError("--part does not go with --calibrate, whose trials follow each other; take --jobs");
+  CalibrationTargets targets = readTargets(command.targets, command.grainRadius);
+  const std::filesystem::path folder = command.place.folder.empty()
+                                           ? std::filesystem::path("out") / ("calibrate_" + targets.start.name)
+                                           : std::filesystem::path(command.place.folder);
+  const bool goesOn =
+      command.pieces.resume || (!command.place.force && CalibrationRecord(command, targets, folder).isOfThisCall());
+  output::checkOutputFolder(folder, command.place.force || goesOn);
+  if (!goesOn) removeTrials(folder);
+  const support::StopSignals signals;
+  Calibration(command, std::move(targets), folder).run();
+}
+
+} // namespace grouser::virtual_tests

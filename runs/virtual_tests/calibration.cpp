@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Targets, and the search for one number.
+#include "runs/virtual_tests/calibration.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+constexpr double kLeastWay = -1, kMostWay = 2;                                 // of Strength
+constexpr double kMostRolling = 0.5, kMostFriction = 1, kLeastFriction = 0.01; // [-] of the way of Strength
+constexpr double kMiddle = 0.1; // a trial stays so far off the ends of its interval
+constexpr double kSame = 0.1;   // of what the tolerance is worth: nearer than that nothing new is learnt
+constexpr double kSlopes = 5;   // times steeper or flatter than expected that two trials are believed to show
+constexpr std::size_t kMostTrials = 8;
+
+struct TargetKeys {
+  std::optional<double> n, kc, kphi, k, b, c, phi, shearModulus;
+};
+
+struct ToleranceKeys {
+  double phi = 1, c = 0.5, k = 0.1;
+};
+
+base::Table<TargetKeys> targetTable() {
+  using T = TargetKeys;
+  base::Table<T> t("targets", "Constants that the soil is to have");
+  t.add("n", &T::n, "-", "exponent of sinkage").above(0).atMost(5);
+  t.add("k_c", &T::kc, "kN/m^(n+1)", "cohesive modulus; may be negative");
+  t.add("k_phi", &T::kphi, "kN/m^(n+2)", "frictional modulus");
+  t.add("k", &T::k, "kN/m^(n+2)", "k_c / b + k_phi at the breadth b, instead of both").above(0);
+  t.add("b", &T::b, "m", "breadth that k is meant at").above(0).atMost(100);
+  t.add("c", &T::c, "kPa", "cohesion").atLeast(0).atMost(1000);
+  t.add("phi", &T::phi, "deg", "angle of internal friction").above(0).atMost(60);
+  t.add("K", &T::shearModulus, "mm", "shear deformation modulus; reported only").above(0);
+  return t;
+}
+
+base::Table<ToleranceKeys> toleranceTable() {
+  using T = ToleranceKeys;
+  base::Table<T> t("tolerances", "Within which a target is reached");
+  t.add("phi", &T::phi, "deg", "of phi").above(0);
+  t.add("c", &T::c, "kPa", "of c").above(0);
+  t.add("k", &T::k, "-", "of the pressure at the sinkage wanted, a share").above(0).atMost(1);
+  return t;
+}
+
+void checkTogether(const base::Section& section, const TargetKeys& k) {
+  if (k.k.has_value() != k.b.has_value())
+    section.fail(k.k ? "k" : "b", "stands without the other of k and b; add it: k holds for one breadth");
+  if (k.kc.has_value() != k.kphi.has_value())
+    section.fail(k.kc ? "k_c" : "k_phi", "stands without the other of k_c and k_phi; add it, or give k and b");
+  if (k.k && k.kphi) section.fail("k", "stands beside k_c and k_phi; remove the one or the others");
+  if ((k.k || k.kphi) && !k.n) section.fail("n", "is missing, which k, k_c and k_phi need: their units depend on it");
+  if (!k.phi && !k.c && !k.k && !k.kphi)
+    section.fail("", "asks for nothing that can be sought; give phi, c, k_c and k_phi, or k and b");
+}
+
+} // namespace
+
+bool CalibrationTargets::wantsSinkage() const { return k || wanted.contains(Quantity::frictionModulus); }
+
+double CalibrationTargets::kAt(double b) const {
+  return k ? *k : wanted.at(Quantity::cohesionModulus) / b + wanted.at(Quantity::frictionModulus);
+}
+
+double CalibrationTargets::sinkageAt(double b) const {
+  return base::pow(1e-3 * kTrackPressure / kAt(b), 1 / wanted.at(Quantity::exponent));
+}
+
+CalibrationTargets readTargets(const std::filesystem::path& file, double grainRadius) {
+  const base::Document document = base::Document::load(file);
+  const base::Section root = document.root();
+  root.allowOnly({"version", "targets", "tolerances", "start", "bed"});
+  const base::Section section = root.section("targets");
+  const TargetKeys keys = section.read(targetTable());
+  checkTogether(section, keys);
+  CalibrationTargets t;
+  const auto take = [&](Quantity quantity, const std::optional<double>& value) {
+    if (value) t.wanted[quantity] = *value;
+  };
+  take(Quantity::exponent, keys.n), take(Quantity::cohesionModulus, keys.kc);
+  take(Quantity::frictionModulus, keys.kphi), take(Quantity::cohesion, keys.c);
+  take(Quantity::frictionAngle, keys.phi), take(Quantity::shearModulus, keys.shearModulus);
+  t.k = keys.k, t.breadth = keys.b;
+  if (root.has("tolerances")) {
+    const ToleranceKeys within = root.section("tolerances").read(toleranceTable());
+    t.angleTolerance = within.phi, t.cohesionTolerance = within.c, t.stiffnessTolerance = within.k;
+  }
+  t.start = readMaterial(root, "start", file, grainRadius);
+  return t;
+}
+
+namespace {
+
+/// From the trial next to `from`, where there is one; not far from what was expected, for trials scatter.
+double slopeNear(const std::vector<Trial>& trials, const Trial& from, double expected) {
+  const Trial* next = nullptr;
+  for (const Trial& t : trials)
+    if (t.x != from.x && (!next || std::fabs(t.x - from.x) < std::fabs(next->x - from.x))) next = &t;
+  if (!next) return expected;
+  return std::clamp((next->y - from.y) / (next->x - from.x), expected / kSlopes, kSlopes * expected);
+}
+
+} // namespace
+
+std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
+                                double high, double slope) {
+  if (trials.empty() || trials.size() >= kMostTrials) return {};
+  const Trial *below = nullptr, *above = nullptr; // the nearest on each side
+  for (const Trial& t : trials) {
+    if (std::fabs(t.y - wanted) <= tolerance) return {};
+    if (t.y < wanted && (!below || t.x > below->x)) below = &t;
+    if (t.y > wanted && (!above || t.x < above->x)) above = &t;
+  }
+  const double same = kSame * tolerance / slope;
+  if (below && above && below->x < above->x) {
+    const double share = (wanted - below->y) / (above->y - below->y);
+    const double x = below->x + (above->x - below->x) * std::clamp(share, kMiddle, 1 - kMiddle);
+    return above->x - below->x < same ? std::nullopt : std::optional<double>(x);
+  }
+  // All on one side, or scatter has turned them round: on from the outermost.
+  const Trial& from = below ? *below : *above;
+  const double x = std::clamp(from.x + (wanted - from.y) / slopeNear(trials, from, slope), low, high);
+  if (std::fabs(x - from.x) < same) return {};
+  return x;
+}
+
+double fourDigits(double value) {
+  const std::string text = fmt::format("{:.3e}", value);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
+Trial nearestTrial(const std::vector<Trial>& trials, double wanted) {
+  return *std::min_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) {
+    return std::fabs(a.y - wanted) < std::fabs(b.y - wanted);
+  });
+}
+
+StrengthSearch::StrengthSearch(std::optional<Target> angle, std::optional<Target> cohesion, StrengthPoint start)
+    : targets_{angle, cohesion}, start_(start), next_(start) {
+  for (std::size_t k = 0; k < 2; ++k)
+    if (targets_[k]) unit_[k] = targets_[k]->tolerance / targets_[k]->slope;
+}
+
+double StrengthSearch::farOff(const Done& trial) const {
+  return std::max(std::fabs(trial.off[0]), std::fabs(trial.off[1]));
+}
+
+/// Broyden's correction: the least that makes the slopes say what the last step has done; kept near what is expected,
+/// for trials scatter.
+void StrengthSearch::learn(const Done& before, const Done& now) {
+  constexpr double kMostAcross = 0.8;
+  const Two way{now.x[0] - before.x[0], now.x[1] - before.x[1]};
+  const double square = way[0] * way[0] + way[1] * way[1];
+  if (square == 0) return;
+  for (std::size_t row = 0; row < 2; ++row) {
+    if (!targets_[row]) continue;
+    const double came = before.off[row] - now.off[row];
+    const double missed = came - slopes_[row][0] * way[0] - slopes_[row][1] * way[1];
+    for (std::size_t column = 0; column < 2; ++column) slopes_[row][column] += missed * way[column] / square;
+    slopes_[row][row] = std::clamp(slopes_[row][row], 1 / kSlopes, kSlopes);
+    double& across = slopes_[row][1 - row];
+    across = std::clamp(across, -kMostAcross * slopes_[row][row], kMostAcross * slopes_[row][row]);
+  }
+}
+
+StrengthSearch::Two StrengthSearch::stepFrom(const Done& trial) const {
+  constexpr double kMostOfWay = 0.4, kMostUnits = 10; // at once; of the pull also as much as there is
+  const auto& s = slopes_;
+  const double determinant = s[0][0] * s[1][1] - s[0][1] * s[1][0];
+  Two step{(trial.off[0] * s[1][1] - trial.off[1] * s[0][1]) / determinant,
+           (trial.off[1] * s[0][0] - trial.off[0] * s[1][0]) / determinant};
+  const double mostPull = std::max(kMostUnits, trial.x[1]);
+  step[0] = std::clamp(step[0], -kMostOfWay / unit_[0], kMostOfWay / unit_[0]);
+  step[1] = std::clamp(step[1], -mostPull, mostPull);
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!targets_[k]) step[k] = 0;
+  return step;
+}
+
+bool StrengthSearch::tried(double angle, double cohesion) {
+  const StrengthPoint was = at();
+  Done trial{was, {was.way / unit_[0], was.pull / unit_[1]}, {0, 0}};
+  if (targets_[0]) trial.off[0] = (targets_[0]->wanted - angle) / targets_[0]->tolerance;
+  if (targets_[1]) trial.off[1] = (targets_[1]->wanted - cohesion) / targets_[1]->tolerance;
+  if (!trials_.empty()) learn(trials_.back(), trial);
+  trials_.push_back(trial);
+  if (farOff(trial) <= 1 || trials_.size() >= kMostTrials) return false;
+  const Two step = stepFrom(trial);
+  next_ = {fourDigits(std::clamp(was.way + step[0] * unit_[0], kLeastWay, kMostWay)),
+           fourDigits(std::max(0.0, was.pull + step[1] * unit_[1]))};
+  const double moved = std::max(std::fabs(next_.way - was.way) / unit_[0], std::fabs(next_.pull - was.pull) / unit_[1]);
+  return moved >= kSame;
+}
+
+StrengthPoint StrengthSearch::nearest() const {
+  const auto best = std::min_element(trials_.begin(), trials_.end(),
+                                     [this](const Done& a, const Done& b) { return farOff(a) < farOff(b); });
+  return best == trials_.end() ? start_ : best->where;
+}
+
+Strength strengthAt(double way, double startFriction) {
+  if (way < 0) return {std::max(kLeastFriction, startFriction * (1 + way)), 0};
+  if (way <= 1) return {startFriction, kMostRolling * way};
+  return {startFriction + std::max(0.0, kMostFriction - startFriction) * (way - 1), kMostRolling};
+}
+
+double wayOf(double rollingFriction) { return std::min(1.0, rollingFriction / kMostRolling); }
+
+} // namespace grouser::virtual_tests

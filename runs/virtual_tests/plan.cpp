@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/virtual_tests/plan.hpp"
+
+#include "base/error.hpp"
+#include "base/free_memory.hpp"
+#include "base/math.hpp"
+#include "base/sphere.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as `grouser study plates` has compared them
+constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: samples of 16 x 8 d scatter by a tenth
+constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
+constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high that grains lie between
+constexpr double kLiftFall = 0.5;          // [s] simulated for a lift, for costs only
+constexpr double kYielding = 8;            // times as far as into a bed as stiff as columns of grains, for the same
+constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
+
+/// Of two grains pressed together by a force, as if they were elastic [m].
+double overlapUnder(const TestedSoil& soil, double force) {
+  if (soil.young == 0) return force / numberOf(soil, "stiffness", 0);
+  const double modulus = 0.5 * soil.young / (1 - soil.poisson * soil.poisson), radius = 0.5 * soil.grainRadius;
+  return base::pow(0.5625 * force * force / (modulus * modulus * radius), 1.0 / 3);
+}
+
+/// Of a bed whose contacts carry what a column of grains would under the track's pressure [Pa]. Real beds have fewer
+/// contacts and slide besides: it is an upper bound, for a plate to begin with.
+double modulusOfColumns(const TestedSoil& soil) {
+  const double d = 2 * soil.grainRadius;
+  return kTrackPressure * d / overlapUnder(soil, kTrackPressure * d * d);
+}
+
+/// An impact whose deepest overlap is that of a contact in the chains of a bed under `pressure`: so stiff are its
+/// contacts, and for that their step is chosen. A contact carries about pressure times d^2, in chains twice that.
+double impactLikePressure(const TestedSoil& soil, double pressure) {
+  if (soil.young == 0) return 0;
+  const double d = 2 * soil.grainRadius, force = 2 * pressure * d * d, overlap = overlapUnder(soil, force);
+  // Energy of a Hertz contact: 2/5 F overlap = m_eff v^2 / 2.
+  return std::sqrt(0.8 * force * overlap / (0.5 * base::sphereMass(soil.density, soil.grainRadius)));
+}
+
+double volumeOf(const Soil& soil, const PlateSinkage& plate) {
+  const BedSize size = plate.strip.bed(soil);
+  return size.length * size.width * size.depth;
+}
+
+double plateCost(const Soil& soil, const PlateSinkage& plate) {
+  const double lifts = plate.strip.depth * plate.strip.breadth / plate.lift;
+  const double d = soil.grains.diameter(), breadth = plate.strip.breadth * d;
+  const double way =
+      std::min(1.2 * plate.strip.sinkage * breadth, d + kYielding * breadth * plate.mostPressure / plate.firstModulus);
+  const double push = way / std::sqrt(plate.pace(soil).first() * plate.fastest(soil));
+  return volumeOf(soil, plate) / soil.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0) *
+         (0.6 * kLiftFall * std::max(1.0, lifts) + push);
+}
+
+double shearCost(const Soil& soil, const ShearCell& cell, double load) {
+  const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / load);
+  return cell.length * cell.width * cell.depth *
+         (kLiftFall + unit * ((cell.pressesIn ? 2 : 1) * kPressed + cell.strain / cell.inertialNumber));
+}
+
+double reposeCost(const Soil& soil, const ReposeTest& test) {
+  constexpr double kStages = 30;
+  const double held = kStages * test.stage * std::sqrt(soil.grains.diameter() / 9.81);
+  return test.length * test.width * test.depth * (2 * kLiftFall + held);
+}
+
+void addTests(TestPlan& plan) {
+  const PlanOptions& o = plan.options;
+  const auto add = [&](TestKind kind, const std::string& what, double load, int seed, double cost) {
+    plan.tests.push_back({fmt::format("{}{}_seed{}", o.coarse ? "coarse_" : "", what, seed), kind, load, seed, cost});
+  };
+  for (int seed = 1; seed <= std::max({o.seeds, o.largeSeeds, o.reposeSeeds}); ++seed) {
+    if (seed <= o.seeds) {
+      add(TestKind::small, "small", 0, seed, plateCost(plan.grains, plan.small));
+      for (const double load : o.loads)
+        add(TestKind::shear, fmt::format("shear{:g}kPa", 1e-3 * load), load, seed,
+            shearCost(plan.grains, plan.cell, load));
+    }
+    if (seed <= o.reposeSeeds) add(TestKind::repose, "repose", 0, seed, reposeCost(plan.grains, plan.repose));
+    if (seed <= o.largeSeeds) add(TestKind::large, "large", 0, seed, plateCost(plan.grains, plan.large));
+  }
+  for (int seed = 1; o.wide && seed <= o.seeds; ++seed)
+    add(TestKind::wide, "wide", 0, seed, plateCost(plan.grains, plan.wide));
+}
+
+/// Throws where the grains of the largest bed or sample do not fit into the memory that is free.
+void checkSizes(const TestPlan& plan) {
+  constexpr double kGiB = 1073741824.0;
+  constexpr double kBytes = 600;   // memory per grain
+  constexpr double kPacked = 1.15; // grains in a cube of one diameter
+  const std::optional<double> free = base::freeMemoryOfHost();
+  const auto require = [&](double grains, const std::string& what) {
+    if (free && grains * kBytes > *free)
+      throw base::InputError(fmt::format("{} {:.3g} grains, about {:.3g} GiB, and {:.3g} GiB are free; take less", what,
+                                         grains, grains * kBytes / kGiB, *free / kGiB));
+  };
+  const PlanOptions& o = plan.options;
+  for (const TestKind kind : {TestKind::small, TestKind::large, TestKind::wide}) {
+    if (kind == TestKind::wide && !o.wide) continue;
+    const PlateSinkage& plate = plan.plate(kind);
+    require(volumeOf(plan.grains, plate) / plan.grains.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0),
+            fmt::format("--plate-grains {:g}, --plate-ratio {:g}, --bin {:g}, --depth {:g} and --thickness {:g} make a "
+                        "bed of",
+                        o.plateGrains, o.plateRatio, o.bin, o.depth, o.thickness));
+  }
+  require(plan.cell.length * plan.cell.width * plan.cell.depth * kPacked,
+          fmt::format("--shear-height {:g} [m] with grains of radius {:g} m makes a sample of", o.shearHeight,
+                      plan.soil.grainRadius));
+}
+
+/// Between periodic boundaries no grain may touch two images of another.
+void checkBeds(const TestPlan& plan) {
+  const double least = 3.5 * (1 + plan.soil.spread), d = 2 * plan.soil.grainRadius;
+  const PlanOptions& o = plan.options;
+  if (o.thickness < least)
+    throw base::InputError(fmt::format("--thickness {:g} [d] is too little: the largest grains need {:.3g} d between "
+                                       "periodic boundaries",
+                                       o.thickness, least));
+  if (o.bin * o.plateGrains < least)
+    throw base::InputError(fmt::format("--plate-grains {:g} [d]: the bin is {:g} d wide, where the largest grains need "
+                                       "{:.3g} d; give more",
+                                       o.plateGrains, o.bin * o.plateGrains, least));
+  const double most = (o.depth * o.plateGrains - 1 - plan.soil.spread) / o.plateGrains;
+  if (plan.small.strip.sinkage > most)
+    throw base::InputError(fmt::format("--plate-grains {:g} [d]: the plate would come within a grain of {:g} m of the "
+                                       "floor; give more",
+                                       o.plateGrains, d));
+}
+
+} // namespace
+
+PlanOptions coarsePlan() {
+  PlanOptions o;
+  o.coarse = true;
+  o.plateGrains = 8, o.plateRatio = 2, o.bin = 4, o.depth = 1.5, o.thickness = 6, o.gradedThickness = 9;
+  o.plateWaves = 0.1, o.inertialNumber = 5e-3, o.shearInertialNumber = 5e-3, o.shearStrain = 0.3;
+  o.seeds = 3, o.largeSeeds = 3, o.wide = false;
+  return o;
+}
+
+const PlateSinkage& TestPlan::plate(TestKind kind) const {
+  return kind == TestKind::large ? large : kind == TestKind::wide ? wide : small;
+}
+
+double TestPlan::breadth(TestKind kind) const { return plate(kind).strip.breadth * grains.grains.diameter(); }
+
+TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
+  TestPlan plan;
+  plan.options = options, plan.soil = soil;
+  plan.grains.grains.radius = soil.grainRadius, plan.grains.grains.density = soil.density;
+  plan.grains.grains.friction = soil.friction, plan.grains.grains.law = soil.law;
+  plan.grains.preparationLaw = soil.lawWithoutPull;
+  plan.grains.spread = soil.spread, plan.grains.preparationFriction = soil.friction;
+  plan.grains.stepsPerContact = options.stepsPerContact;
+  plan.grains.impactSpeed = impactLikePressure(
+      soil, std::max(options.mostPressure, *std::max_element(options.loads.begin(), options.loads.end())));
+  PlateTest& small = plan.small.strip;
+  small.breadth = options.plateGrains, small.bin = options.bin, small.depth = options.depth;
+  small.thickness = options.thickness, small.inertialNumber = options.inertialNumber;
+  plan.small.mostPressure = options.mostPressure;
+  plan.small.added = options.plateWaves * kTrackPressure, plan.small.firstModulus = modulusOfColumns(soil);
+  plan.wide = plan.large = plan.small;
+  plan.wide.strip.bin *= 2;
+  plan.large.strip.breadth *= options.plateRatio;
+  if (soil.isOneAtAllSizes) {
+    plan.large.strip.fineDepth = kFineDepth, plan.large.strip.coarsening = kCoarsening;
+    plan.large.strip.thickness = options.gradedThickness;
+  }
+  const double d = 2 * soil.grainRadius;
+  plan.cell.length = options.coarse ? kCoarseLength : kCellLength;
+  plan.cell.width = options.coarse ? kCoarseWidth : kCellWidth;
+  if (options.coarse) plan.repose.length = 10, plan.repose.width = 6, plan.repose.depth = 12, plan.repose.stage = 8;
+  plan.cell.depth = std::max(kCellHeight, options.shearHeight / d);
+  plan.cell.inertialNumber = options.shearInertialNumber, plan.cell.strain = options.shearStrain;
+  plan.cell.core = soil.isPlain;
+  plan.cell.tooth = kTooth, plan.cell.tip = kTip, plan.cell.pressesIn = true;
+  checkBeds(plan), checkSizes(plan);
+  addTests(plan);
+  return plan;
+}
+
+nlohmann::ordered_json TestPlan::recipe() const {
+  return {{"test", "soil"},
+          {"soil", soil.name},
+          {"care", care()},
+          {"law", soil.law},
+          {"density_kg_m3", soil.density},
+          {"friction", soil.friction},
+          {"grain_radius_m", soil.grainRadius},
+          {"radius_spread", soil.spread},
+          {"porosity", soil.porosity ? nlohmann::ordered_json(*soil.porosity) : nlohmann::ordered_json(nullptr)},
+          {"plate_grains", options.plateGrains},
+          {"plate_ratio", options.plateRatio},
+          {"bin", options.bin},
+          {"depth", options.depth},
+          {"thickness_d", options.thickness},
+          {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
+          {"most_pressure_Pa", options.mostPressure},
+          {"inertial_number", options.inertialNumber},
+          {"plate_waves", options.plateWaves},
+          {"steps_per_contact", options.stepsPerContact},
+          {"shear_length_d", cell.length},
+          {"shear_width_d", cell.width},
+          {"shear_height_d", cell.depth},
+          {"shear_tooth_d", cell.tooth},
+          {"shear_strain", options.shearStrain},
+          {"shear_inertial_number", options.shearInertialNumber},
+          {"repose_length_d", repose.length},
+          {"repose_depth_d", repose.depth},
+          {"repose_stage", repose.stage}};
+}
+
+void longestFirst(std::vector<const PlannedTest*>& tests) {
+  std::stable_sort(tests.begin(), tests.end(),
+                   [](const PlannedTest* a, const PlannedTest* b) { return a->cost > b->cost; });
+}
+
+jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
+                   const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell) {
+  if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
+  if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
+  tell(0, "shearing");
+  return shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, kept);
+}
+
+ShearCurve shearCurve(const jobs::Table& run, double diameter) {
+  ShearCurve curve;
+  curve.shear = run.values("shear stress [Pa]"), curve.normal = run.values("normal stress [Pa]");
+  const double height = run.values("height [d]").front() * diameter;
+  for (const double strain : run.values("strain [-]")) curve.displacement.push_back(strain * height);
+  return curve;
+}
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/virtual_tests/plate_bed.hpp"
+
+#include "base/sphere.hpp"
+#include "runs/jobs/study_place.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "terrain/random_bed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+constexpr double kRoughFriction = 2;
+constexpr double kPorosity = 0.4;      // expected of a bed, for the number of its grains
+constexpr double kRestOfPlates = 1e-4; // of m g r: a tenth of the energy of a grain that goes along with a plate
+constexpr double kLiftRest = 1e-2;     // the next one falls with some thousand times that
+constexpr double kBedPatience = 6;     // [s]
+constexpr double kFall = 1.5;          // [m/s] of grains onto the bed below them, about
+constexpr int kLatticeLayers = 5;      // as the beds of before had
+constexpr double kLatticeSpacing = 2.02;
+
+/// The soil with grains as large as those at the floor.
+Soil coarse(const Soil& soil, double scale) {
+  Soil other = soil;
+  other.grains.radius *= scale;
+  return other;
+}
+
+double weightTimesRadius(const Soil& soil, const BedGrains& grains) {
+  double sum = 0;
+  for (const BedGrain& g : grains) sum += base::sphereMass(soil.grains.density, g.radius) * jobs::kGravity * g.radius;
+  return sum;
+}
+
+/// A scene of the bed so far, with the soil's preparation friction.
+std::string sceneOf(const Soil& soil, const BedPreparation& bed, const std::string& below, std::int64_t seed) {
+  return soil.prepared().scene(1, seed, soil.preparationFriction, {0, 0, -jobs::kGravity},
+                               bed.size.run() + fmt::format("impact_speed = {}\n", kFall)) +
+         below;
+}
+
+/// Equal spheres in layers, at rest.
+PreparedBed layLattice(const Soil& soil, const BedPreparation& bed, std::int64_t seed,
+                       const std::filesystem::path& folder, const base::Exec& exec) {
+  const double r = soil.grains.radius, high = (kLatticeLayers - 1) * kLatticeSpacing * r + 2.02 * r;
+  const std::string text =
+      sceneOf(soil, bed, floorSections(soil, bed, seed), seed) +
+      fmt::format("[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [{:.17g}, {:.17g}, {:.17g}]\nradius = "
+                  "{:.17g}\nspacing = {}\njitter = 0.5\nmaterial = \"grain\"\n",
+                  bed.size.length, bed.size.width, high, r, kLatticeSpacing);
+  coupling::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "lattice.toml")), exec,
+                                  [](double, double) {});
+  PreparedBed laid{grainsOf(simulation, bed.size), 0, 0};
+  comeToRest(simulation, kRestOfPlates * weightTimesRadius(soil, laid.grains), kBedPatience);
+  return {grainsOf(simulation, bed.size), simulation.steps(), 0};
+}
+
+/// The loose column that the bed is rained from, in lifts: the lowest first.
+std::vector<BedGrains> looseLifts(const Soil& soil, const BedPreparation& bed, const BedGrains& floor,
+                                  std::int64_t seed) {
+  terrain::RandomBedOptions o;
+  o.radii = {terrain::RadiusLaw::uniform, soil.grains.radius, soil.spread, {}, {}};
+  o.grading = bed.grading, o.depth = bed.size.depth, o.porosity = kPorosity;
+  o.roughFloor = bed.floor == BedFloor::fixed, o.periodic = {true, true}, o.seed = static_cast<std::uint64_t>(seed);
+  std::vector<terrain::Seed> there;
+  for (const BedGrain& g : floor) there.push_back({g.position, g.radius, true});
+  const auto surface = terrain::HeightField::flat({0, bed.size.length, 0, bed.size.width}, bed.size.depth);
+  const std::vector<terrain::Seed> column = terrain::layGrains(surface, o, there);
+  double all = 0, below = 0;
+  for (const terrain::Seed& s : column) all += base::sphereVolume(s.radius);
+  const std::vector<double> tops = liftTops(bed);
+  std::vector<BedGrains> lifts(tops.size());
+  std::size_t lift = 0;
+  for (const terrain::Seed& s : column) {
+    while (lift + 1 < lifts.size() && below / all >= tops[lift] / bed.size.depth) ++lift;
+    lifts[lift].push_back({s.centre, s.radius});
+    below += base::sphereVolume(s.radius);
+  }
+  return lifts;
+}
+
+/// So far above the bed that none of them touches it.
+void raise(BedGrains& lift, const BedGrains& bed) {
+  double top = -1e300, bottom = 1e300;
+  for (const BedGrain& g : bed) top = std::max(top, g.position.z + g.radius);
+  for (const BedGrain& g : lift) bottom = std::min(bottom, g.position.z - g.radius);
+  if (bed.empty() || lift.empty()) return;
+  for (BedGrain& g : lift) g.position.z += top - bottom + 0.01 * g.radius;
+}
+
+PreparedBed rainBed(const Soil& soil, const BedPreparation& bed, std::int64_t seed, const std::filesystem::path& folder,
+                    const base::Exec& exec, const std::function<void(const std::string&)>& tell) {
+  BedGrains floor;
+  if (bed.floor == BedFloor::fixed) floor = roughFloor(coarse(soil, bed.coarsest(soil)), bed.size, seed);
+  std::vector<BedGrains> lifts = looseLifts(soil, bed, floor, seed);
+  const std::string text = sceneOf(soil, bed, floorSections(soil, bed, seed), seed) +
+                           "[[grains]]\nform = \"file\"\nfile = \"lift.txt\"\nmaterial = \"grain\"\n";
+  PreparedBed made;
+  for (std::size_t k = 0; k < lifts.size(); ++k) {
+    tell(fmt::format("lift {} of {}", k + 1, lifts.size()));
+    raise(lifts[k], made.grains);
+    made.grains.insert(made.grains.end(), lifts[k].begin(), lifts[k].end());
+    writeBed(folder / "lift.txt", made.grains);
+    coupling::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "rain.toml")), exec,
+                                    [](double, double) {});
+    const bool last = k + 1 == lifts.size();
+    const double rest = last ? kRestOfPlates : kLiftRest;
+    if (const double left = comeToRest(simulation, rest * weightTimesRadius(soil, made.grains), kBedPatience);
+        !(left < 1))
+      failRestless(seed, kBedPatience, rest * left);
+    made.grains = grainsOf(simulation, bed.size);
+    made.grains.erase(made.grains.begin(), made.grains.begin() + static_cast<std::ptrdiff_t>(floor.size()));
+    made.steps += simulation.steps();
+  }
+  std::filesystem::remove(folder / "lift.txt");
+  return made;
+}
+
+} // namespace
+
+double BedPreparation::coarsest(const Soil& soil) const { return grading.scaleAt(size.depth, soil.grains.radius); }
+
+std::string floorSections(const Soil& soil, const BedPreparation& bed, std::int64_t seed) {
+  if (bed.floor == BedFloor::fixed) {
+    std::string text;
+    const Soil below = coarse(soil, bed.coarsest(soil));
+    for (const BedGrain& g : roughFloor(below, bed.size, seed))
+      text += fmt::format("[[grain]]\nposition = [{:.12g}, {:.12g}, {:.12g}]\nradius = {:.9g}\nmaterial = \"grain\"\n"
+                          "fixed = true\n",
+                          g.position.x, g.position.y, g.position.z, g.radius);
+    // Below them all: it catches a small grain that finds a hole.
+    text += fmt::format("[[plane]]\npoint = [0, 0, {:.12g}]\nmaterial = \"grain\"\n", -roughFloorDepth(below));
+    return text;
+  }
+  SampleGrains floor = soil.grains;
+  if (bed.floor == BedFloor::rough) floor.friction = kRoughFriction;
+  std::string text = floor.toml("floor") + "[[plane]]\nmaterial = \"floor\"\n";
+  if (bed.floor == BedFloor::rough) text += fmt::format("[contact.\"grain|floor\"]\nfriction = {}\n", kRoughFriction);
+  return text;
+}
+
+std::vector<double> liftTops(const BedPreparation& bed) {
+  const double wanted = bed.lift > 0 ? bed.size.depth / bed.lift : 1;
+  const int lifts = std::max(1, static_cast<int>(std::lround(wanted)));
+  std::vector<double> tops;
+  for (int k = 1; k <= lifts; ++k) tops.push_back(bed.size.depth * k / lifts);
+  return tops;
+}
+
+PreparedBed prepareBed(const Soil& soil, const BedPreparation& bed, std::int64_t seed,
+                       const std::filesystem::path& folder, const base::Exec& exec,
+                       const std::function<void(const std::string&)>& tell) {
+  const auto begin = std::chrono::steady_clock::now();
+  PreparedBed made =
+      bed.lattice ? layLattice(soil, bed, seed, folder, exec) : rainBed(soil, bed, seed, folder, exec, tell);
+  made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return made;
+}
+
+PreparedBed keptBed(const Soil& soil, const BedPreparation& bed, std::int64_t seed, const std::filesystem::path& folder,
+                    const base::Exec& exec, const std::function<void(const std::string&)>& tell) {
+  constexpr const char* kHead = "# x, y, z, r [m]; steps, seconds: %ld, %lf";
+  const std::filesystem::path file = folder / "bed.txt";
+  PreparedBed made;
+  if (!std::filesystem::exists(file)) {
+    made = prepareBed(soil, bed, seed, folder, exec, tell);
+    writeBed(file, made.grains, fmt::format("; steps, seconds: {}, {:.3f}", made.steps, made.seconds));
+  }
+  // Read back even where it has just been written: what is pushed then does not depend on where it came from.
+  std::ifstream in(file);
+  std::string head;
+  std::getline(in, head);
+  long steps = 0;
+  if (std::sscanf(head.c_str(), kHead, &steps, &made.seconds) == 2) made.steps = steps;
+  made.grains = readBed(file);
+  return made;
+}
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/virtual_tests/plate_pace.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+constexpr double kFaster = 1.5;     // at most, at once: what is sped up sends waves of its own
+constexpr double kAboutRight = 0.2; // of a speed
+constexpr double kSoftest = 1e-6;   // of the first modulus
+constexpr double kThereAndBack = 2; // depths
+
+double meanOf(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// From the mean of one half of the rows to that of the other.
+double slopeOver(std::span<const double> sinkage, std::span<const double> pressure) {
+  const std::size_t half = sinkage.size() / 2;
+  const double way = std::fabs(meanOf(sinkage.last(half)) - meanOf(sinkage.first(half)));
+  return way > 0 ? std::fabs(meanOf(pressure.last(half)) - meanOf(pressure.first(half))) / way : 0;
+}
+
+} // namespace
+
+double PlatePace::speedAt(double modulus) const {
+  return std::min(fastest, added / std::sqrt(density * std::max(modulus, kSoftest * firstModulus)));
+}
+
+double PlatePace::wavesBack(double modulus) const {
+  return kThereAndBack * depth / std::sqrt(std::max(modulus, kSoftest * firstModulus) / density);
+}
+
+double PlatePace::next(double now, double modulus) const {
+  const double wanted = std::min(speedAt(modulus), kFaster * now);
+  return std::fabs(wanted - now) <= kAboutRight * now ? now : wanted;
+}
+
+double shownModulus(std::span<const double> sinkage, std::span<const double> pressure, double breadth,
+                    std::size_t last) {
+  if (sinkage.size() < 2) return 0;
+  const std::size_t n = std::min(last, sinkage.size());
+  return breadth * std::max(slopeOver(sinkage, pressure), slopeOver(sinkage.last(n), pressure.last(n)));
+}
+
+} // namespace grouser::virtual_tests

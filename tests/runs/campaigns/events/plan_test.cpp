@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the events ask of a vehicle, by its shape, and whether every scene takes every ready vehicle.
+#include "runs/campaigns/events/event_plan.hpp"
+#include "runs/campaigns/events/event_report.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/campaigns/sweeps/scene_check.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace grouser::events {
+
+namespace {
+
+/// A box of 2 x 0.5 m, its centre of mass `ahead` of its middle and `height` high.
+VehicleShape boxShape(double ahead, double height) {
+  VehicleShape s;
+  s.rear = s.front = 1, s.diagonal = 2.06, s.firstWheel = -0.8, s.lastWheel = 0.8;
+  s.massCentre = {ahead, height}, s.halfWidth = 0.6;
+  return s;
+}
+
+TEST(StepBound, LoopsAreAsLongAsBeltsInClosedForm) {
+  const double r = 0.2, apart = 3;
+  const std::vector<SideDisc> two{{{0, 0.1}, r}, {{apart, 0.1}, r}};
+  // Polygons of 96 corners: shorter by pi^2 / (6 96^2) = 1.8e-4 of the arcs, 2.2e-4 of those that turn by less.
+  const double belt = 2 * apart + 2 * base::kPi * r;
+  EXPECT_LE(shortestLoop(two), belt);
+  EXPECT_NEAR(shortestLoop(two), belt, 2e-4 * 2 * base::kPi * r);
+  EXPECT_EQ(shortestLoop(two, {1, -0.3}), shortestLoop(two)) << "below the loop nothing presses it in";
+  // From a point as high as the middles tangents of sqrt(a^2 - r^2) lead to rims acos(r / a) below the line of middles;
+  // from there the arcs go round to the top.
+  const double a = 1.2, b = apart - a;
+  const double arcs = r * (3 * base::kPi - std::acos(r / a) - std::acos(r / b));
+  const double notched = apart + std::sqrt(a * a - r * r) + std::sqrt(b * b - r * r) + arcs;
+  EXPECT_LE(shortestLoop(two, {a, 0.1}), notched + 1e-12);
+  EXPECT_NEAR(shortestLoop(two, {a, 0.1}), notched, 3e-4 * arcs);
+}
+
+TEST(StepBound, IsAboveWhatIsClimbedAndDoesNotForgetTheArms) {
+  EventOptions options;
+  options.only = {"step"}, options.levels = {0.3};
+  const auto boundOf = [&options](const std::vector<std::string>& changes) {
+    options.fixed = changes;
+    return planEvents(options).course.shape.highestStep;
+  };
+  const double free = boundOf({});
+  EXPECT_GT(free, 0.67) << "the light vehicle has climbed that";
+  EXPECT_LT(free, 1.0);
+  std::printf("highest step: %.3f m\n", free);
+  EXPECT_LT(boundOf({"spec.arm.suspension=rigid"}), free - 0.05);
+  EXPECT_GT(boundOf({"spec.chassis.centre=[1.6, 0, 0.10]"}), free);
+  EXPECT_LT(boundOf({"spec.chassis.centre=[1.437, 0, 0.25]"}), free);
+  for (const char* vehicle : {"m113_like", "robot"}) {
+    options.vehicle = vehicle, options.fixed = {};
+    const EventPlan plan = planEvents(options);
+    const VehicleShape& s = plan.course.shape;
+    EXPECT_GT(s.highestStep, 0.3 * s.massCentre.z) << vehicle;
+    EXPECT_LT(s.highestStep, 0.5 * s.length()) << vehicle;
+  }
+}
+
+TEST(VehicleShape, GapsAndTippingFollowTheCentreOfMass) {
+  const VehicleShape box = boxShape(0.1, 0.4);
+  EXPECT_DOUBLE_EQ(gapBounds(box).sure, 0.7);
+  EXPECT_DOUBLE_EQ(gapBounds(box).level, 0.9);
+  EXPECT_DOUBLE_EQ(gapBounds(box).never, 2.06);
+  EXPECT_DOUBLE_EQ(tippingSlope(box), 1.5);
+}
+
+TEST(EventPlan, EveryEventTakesEveryReadyVehicle) {
+  for (const char* vehicle : {"light_tracked", "m113_like", "robot"}) {
+    EventOptions options;
+    options.vehicle = vehicle;
+    const EventPlan plan = planEvents(options); // loads and checks every run's scene
+    for (const PlannedTrial& t : plan.trials) EXPECT_FALSE(t.runs.empty());
+    EXPECT_EQ(plan.trials.size(), 26u) << vehicle;
+    EXPECT_GT(plan.course.shape.diagonal, plan.course.shape.length());
+    EXPECT_TRUE(plan.omitted.contains(Event::softSoil));
+    // The scene as it stands, with the vehicle alone changed.
+    for (const Event event : allEvents())
+      EXPECT_NO_THROW(sweeps::checkScene(
+          setup::loadScene(sceneOf(event), {std::string("vehicle.spec=vehicles/") + vehicle + ".toml"})))
+          << base::wordOf(event) << " " << vehicle;
+  }
+}
+
+TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
+  EventOptions options;
+  options.soil = "lete_sand", options.quick = true, options.only = {"step", "soft_soil", "grade"};
+  const EventPlan plan = planEvents(options);
+  EXPECT_EQ(plan.seeds, 2);
+  EXPECT_EQ(plan.sweep.runs.size(), 2u * (2 + 1 + 2));
+  EXPECT_EQ(plan.sweep.runs[0].name, "grade=0.2,seed=1");
+  EXPECT_EQ(plan.sweep.runs[4].scene.boxes.at(0).material, "lete_sand"); // of the step, in a bed of Hertz' law
+  const scene::Scene& weak = plan.sweep.runs[6].scene;
+  EXPECT_EQ(plan.sweep.runs[6].name, "soft_soil=0.4,seed=1");
+  const auto bed = std::find_if(weak.materials.begin(), weak.materials.end(),
+                                [](const scene::Material& m) { return m.name == "lete_sand"; });
+  ASSERT_NE(bed, weak.materials.end());
+  EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // of assets/soils/lete_sand.toml
+  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 6, 1e-5); // of a pad's width, in four digits
+  EXPECT_EQ(weak.terrain->porosity, 0.42) << "deep enough for its grains to be prepared to the soil's";
+  EXPECT_TRUE(weak.terrain->granular());
+}
+
+TEST(EventPlan, GrainsTooCoarseForTheRunningGearMeetTheShoesAlone) {
+  EventOptions options;
+  options.soil = "lete_sand", options.quick = true, options.only = {"pivot_turn"};
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::shoes) << "four on a pad";
+  options.grainRadius = 0.0135;
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "ten on a pad";
+  options.grainRadius.reset(), options.fixed = {"vehicle.soil_meets=all"};
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "as the user says";
+  EXPECT_FALSE(planEvents(options).shoesAlone());
+  options.fixed.clear();
+  EXPECT_TRUE(planEvents(options).shoesAlone());
+}
+
+TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
+  EventOptions options;
+  options.only = {"grade"}, options.levels = {0.4};
+  const EventPlan grade = planEvents(options);
+  // 8 m at 1.2 m/s, a fifth more, and 1.2 s before it drives; its limit is 22 s.
+  EXPECT_DOUBLE_EQ(grade.sweep.runs[0].expectedEnd, 1.2 + 1.2 * 8 / 1.2);
+  EXPECT_EQ(grade.sweep.runs[0].scene.run.duration, 22);
+  options.only = {"drawbar"}, options.levels = {0.6, 0.2}; // from the easiest on, however they are given
+  const EventPlan drawbar = planEvents(options);
+  const auto driving = [&](std::size_t run) { return drawbar.sweep.runs[run].expectedEnd - 1.2; };
+  EXPECT_NEAR(driving(1), 2 * driving(0), 1e-12) << "half as fast"; // round-off of some seconds
+  options.only = {"pivot_turn"}, options.levels = {};
+  const EventPlan turn = planEvents(options);
+  EXPECT_EQ(turn.sweep.runs[0].expectedEnd, turn.sweep.runs[0].scene.run.duration);
+}
+
+TEST(EventPlan, RigidGroundLeavesRoomForATurnOfATenthOfARadian) {
+  for (const char* event : {"step", "gap", "ditch"}) {
+    EventOptions options;
+    options.vehicle = "robot", options.only = {event};
+    const EventPlan plan = planEvents(options);
+    const scene::Scene& scene = plan.sweep.runs[0].scene;
+    const double aside = 0.1 * plan.trials[0].trial.distance, half = plan.course.shape.halfWidth + aside;
+    EXPECT_GT(0.5 * scene.terrain->size[1], half) << event;
+    for (const scene::BoxSection& box : scene.boxes) EXPECT_GT(0.5 * box.size.y, half) << event;
+  }
+}
+
+TEST(EventPlan, LeansGravityAndKeepsItsSize) {
+  EventOptions options;
+  options.only = {"grade"}, options.levels = {0.75};
+  const base::Vec3d g = planEvents(options).sweep.runs[0].scene.run.gravity;
+  EXPECT_NEAR(g.x, -9.81 * 0.6, 1e-5); // six digits
+  EXPECT_NEAR(g.z, -9.81 * 0.8, 1e-5);
+  EXPECT_EQ(g.y, 0);
+}
+
+TEST(EventPlan, RefusesWhatIsNone) {
+  const auto fault = [](const EventOptions& options) -> std::string {
+    try {
+      planEvents(options);
+      return "";
+    } catch (const base::InputError& error) {
+      return error.what();
+    }
+  };
+  EventOptions options;
+  options.only = {"jump"};
+  EXPECT_NE(fault(options).find("--only jump: is no event; events: acceleration, grade"), std::string::npos);
+  options = {}, options.vehicle = "tank";
+  EXPECT_NE(fault(options).find("--vehicle tank: is no vehicle; ready ones: light_tracked, m113_like, robot"),
+            std::string::npos);
+  options = {}, options.soil = "cheese";
+  EXPECT_NE(fault(options).find("--soil cheese: is neither rigid ground nor a soil"), std::string::npos);
+  options = {}, options.soil = "my/sand.toml";
+  EXPECT_NE(fault(options).find("--soil my/sand.toml: give a soil's name"), std::string::npos);
+  options = {}, options.levels = {0.5};
+  EXPECT_NE(fault(options).find("--levels: are of one event"), std::string::npos);
+  options.only = {"step"}, options.levels = {INFINITY};
+  EXPECT_NE(fault(options).find("--levels: give each once"), std::string::npos);
+  // What the command has made of a word is told of that word; what --set has, of that.
+  options = {}, options.only = {"drawbar"}, options.levels = {100};
+  EXPECT_EQ(fault(options).find("--levels 100: hitch.slip = 100"), 0u) << fault(options);
+  options = {}, options.only = {"step"}, options.speed = 1e9;
+  EXPECT_EQ(fault(options).find("--speed: driver.sprocket_speed"), 0u) << fault(options);
+  options = {}, options.only = {"step"}, options.soil = "dry_sand", options.quick = true, options.depth = 1e-3;
+  EXPECT_EQ(fault(options).find("--depth: terrain.depth"), 0u) << fault(options);
+  options.depth.reset(), options.grainRadius = 1;
+  EXPECT_EQ(fault(options).find("--grain-radius: terrain.depth"), 0u) << fault(options);
+  options = {}, options.only = {"step"}, options.fixed = {"driver.sprocket_speed=1e9"}, options.speed = 1;
+  EXPECT_EQ(fault(options).find("--set: driver.sprocket_speed"), 0u) << fault(options);
+  options = {}, options.seeds = 3;
+  EXPECT_NE(fault(options).find("--seeds: rigid ground has no grains"), std::string::npos);
+  options = {}, options.only = {"soft_soil"};
+  EXPECT_NE(fault(options).find("--only soft_soil: rigid ground does not become softer"), std::string::npos);
+}
+
+TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {
+  Course course;
+  course.shape = boxShape(0, 0.45), course.shape.friction = 0.8;
+  std::vector<EventRow> rows;
+  for (const auto& [level, gos] : {std::pair{0.4, 1}, {0.784, 1}, {0.816, 0}}) {
+    EventRow row;
+    row.event = Event::grade, row.level = level, row.runs = 1, row.gos = gos;
+    rows.push_back(row);
+  }
+  std::vector<EventLimit> limits = eventLimits(rows, course);
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_EQ(limits[0].go, 0.784);
+  EXPECT_EQ(limits[0].noGo, 0.816);
+  EXPECT_EQ(limits[0].agrees, true);
+  rows[2].gos = 1;
+  EXPECT_EQ(eventLimits(rows, course)[0].agrees, false); // friction 0.8 blocks 0.816
+  EXPECT_FALSE(eventLimits(rows, course)[0].noGo);
+  rows[0].gos = 0;
+  EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go is none to rely on
+}
+
+TEST(EventRow, TellsWhyOfTheRunThatDecides) {
+  EventRow row;
+  EXPECT_EQ(row.why(), "");
+  row.each = {{"step=1,seed=1", "pending", ""}, {"step=1,seed=2", "failed", "energy"}};
+  EXPECT_EQ(row.why(), "energy");
+  row.each.push_back({"step=1,seed=3", "go", "5.0 m in 6 s"});
+  EXPECT_EQ(row.why(), "5.0 m in 6 s");
+  row.each.push_back({"step=1,seed=4", "no-go", "throws a track"});
+  EXPECT_EQ(row.why(), "throws a track") << "one no-go makes the level none to rely on";
+  row.event = Event::drawbar, row.runs = row.gos = 2;
+  row.each = {{"a", "go", "pulls 19 kN"}, {"b", "go", "pulls 23 kN"}};
+  row.figures = {{"drawbar pull [N]", 2, {21e3, 25e3}}};
+  EXPECT_EQ(row.why(), "pulls 21 kN in the mean");
+  row.gos = 1, row.each[1] = {"b", "no-go", "is pulled with 2 kN"};
+  EXPECT_EQ(row.why(), "is pulled with 2 kN");
+}
+
+} // namespace
+
+} // namespace grouser::events

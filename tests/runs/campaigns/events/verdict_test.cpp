@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Go or no-go on motions that are made up, and what is read out of them.
+#include "runs/campaigns/events/event_figures.hpp"
+#include "runs/campaigns/events/event_report.hpp"
+#include "runs/campaigns/events/event_verdict.hpp"
+
+#include "base/math.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace grouser::events {
+
+namespace {
+
+constexpr double kRow = 0.02; // s
+
+/// A motion along x with the speed of each stretch: {seconds, m/s}.
+Motion straightOn(const std::vector<std::pair<double, double>>& stretches) {
+  Motion m;
+  double time = 0, way = 0;
+  const auto add = [&] {
+    m.time.push_back(time), m.way.push_back(way);
+    for (auto* column : {&m.turned, &m.left, &m.roll, &m.pitch, &m.upSpeed}) column->push_back(0);
+  };
+  add();
+  for (const auto& [seconds, speed] : stretches)
+    for (int i = 0; i < std::lround(seconds / kRow); ++i) time += kRow, way += speed * kRow, add();
+  return m;
+}
+
+Trial course(double distance, double speed) {
+  Trial trial;
+  trial.distance = distance, trial.speed = speed;
+  return trial;
+}
+
+TEST(EventVerdict, IsGoAtHalfTheSpeedAndNoGoBelow) {
+  EXPECT_TRUE(judge(straightOn({{10, 0.51}}), course(5, 1)).go);
+  const Verdict slow = judge(straightOn({{15, 0.49}}), course(5, 1));
+  EXPECT_FALSE(slow.go);
+  EXPECT_NE(slow.why.find("too slowly"), std::string::npos) << slow.why;
+}
+
+TEST(EventReport, CountsRunsInWordsThatFit) {
+  const auto text = [](int incomplete, int pending) {
+    EventRow row;
+    row.incomplete = incomplete, row.pending = pending;
+    return eventsText({row}, {}, {});
+  };
+  EXPECT_NE(text(1, 1).find("1 of its runs is incomplete"), std::string::npos) << text(1, 1);
+  EXPECT_NE(text(1, 1).find("1 of its runs is still to be done"), std::string::npos) << text(1, 1);
+  EXPECT_NE(text(2, 3).find("2 of its runs are incomplete"), std::string::npos) << text(2, 3);
+  EXPECT_NE(text(2, 3).find("3 of its runs are still to be done"), std::string::npos) << text(2, 3);
+}
+
+TEST(EventVerdict, LooksAtTheLastFiveMetresAlone) {
+  // 3 m in 6 s, then 5 m at 0.8 m/s: of the whole way the mean would be 0.65.
+  EXPECT_TRUE(judge(straightOn({{6, 0.5}, {8, 0.8}}), course(8, 1.5)).go);
+  EXPECT_FALSE(judge(straightOn({{3.75, 0.8}, {10, 0.55}}), course(8, 1.5)).go);
+}
+
+TEST(EventVerdict, AsksForTwentySecondsAndTheWholeWay) {
+  const Verdict late = judge(straightOn({{16, 0}, {6, 1}}), course(5, 1));
+  EXPECT_FALSE(late.go);
+  EXPECT_NE(late.why.find("takes"), std::string::npos) << late.why;
+  const Verdict stuck = judge(straightOn({{4, 1}, {10, 0}}), course(5, 1));
+  EXPECT_FALSE(stuck.go);
+  EXPECT_EQ(stuck.why, "comes 4.0 of 5.0 m");
+  EXPECT_EQ(judge(straightOn({{5, -1}}), course(5, 1)).why, "comes 0.0 of 5.0 m");
+  EXPECT_EQ(judge(Motion(), course(5, 1)).why, "never drove off");
+}
+
+TEST(EventVerdict, EndsAtThirtyDegreesOfRoll) {
+  Motion m = straightOn({{10, 1}});
+  m.roll[100] = -29.9 * base::kPi / 180;
+  EXPECT_TRUE(judge(m, course(5, 1)).go);
+  m.roll[100] = -30.1 * base::kPi / 180;
+  EXPECT_FALSE(judge(m, course(5, 1)).go);
+}
+
+TEST(EventVerdict, OfATurnIsOfItsRate) {
+  Trial half;
+  half.angle = base::kPi, half.rate = 1;
+  const auto turning = [](double rate) {
+    Motion m = straightOn({{15, 0}});
+    for (std::size_t i = 0; i < m.time.size(); ++i) m.turned[i] = rate * m.time[i];
+    return m;
+  };
+  EXPECT_TRUE(judge(turning(0.52), half).go);
+  EXPECT_FALSE(judge(turning(0.48), half).go);
+  EXPECT_EQ(judge(turning(0.1), half).why, "turns by 86 degrees only");
+  EXPECT_FALSE(judge(turning(-1), half).go);
+}
+
+TEST(EventVerdict, KnowsWhichFailuresAreTheVehicles) {
+  EXPECT_TRUE(judgeFailure("step 9: left track thrown: shoe 3 is 80 mm beside its wheels").known);
+  EXPECT_TRUE(judgeFailure("the vehicle has not come to rest within driver.rest_time_limit = 5 s").known);
+  EXPECT_TRUE(judgeFailure("right track skips: 3.00 teeth have passed, but 1.90 pitches").known);
+  EXPECT_TRUE(judgeFailure("the left shoe 3 has left the terrain at (1, 2) m").known);
+  EXPECT_FALSE(judgeFailure("the energy left over is above what is allowed").known);
+  EXPECT_FALSE(judgeFailure("ended by signal 9 (Killed)").known);
+}
+
+TEST(EventMotion, BeginsWithTheDriveAndUnwindsTheHeading) {
+  sweeps::RunSeries series;
+  series.columns = {"vehicle.position.x [m]",   "vehicle.position.y [m]",    "vehicle.heading [rad]",
+                    "vehicle.roll_angle [rad]", "vehicle.pitch_angle [rad]", "vehicle.velocity.z [m/s]"};
+  series.time = {0, 1, 2, 3};
+  series.values = {{0, 2, 5, 5}, {0, 1, 1, 5}, {0, 3.0, -3.0, -2.5}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}};
+  const Motion straight = motionOf(series, 0.5, false), path = motionOf(series, 0.5, true);
+  ASSERT_EQ(straight.time.size(), 3u);
+  EXPECT_DOUBLE_EQ(straight.time[0], 0.5);
+  EXPECT_DOUBLE_EQ(straight.way[2], 3);
+  EXPECT_DOUBLE_EQ(path.way[2], 3 + 4);
+  EXPECT_DOUBLE_EQ(straight.left[2], 4);
+  // From 3.0 over pi to -3.0 = 3.283, then half a radian more.
+  EXPECT_NEAR(straight.turned[1], 2 * base::kPi - 6, 1e-12); // round-off of numbers about 6
+  EXPECT_NEAR(straight.turned[2], 2 * base::kPi - 5.5, 1e-12);
+}
+
+TEST(EventFigures, LowPassKeepsLevelsAndHalvesThePowerAtItsCutoff) {
+  constexpr double kDt = 0.005, kCutoff = 30;
+  const auto gainAt = [&](double hertz) {
+    std::vector<double> wave;
+    for (int i = 0; i < 4000; ++i) wave.push_back(std::sin(2 * base::kPi * hertz * kDt * i));
+    const std::vector<double> passed = lowPass(wave, kDt, kCutoff);
+    double in = 0, out = 0;
+    for (std::size_t i = 2000; i < wave.size(); ++i) in += wave[i] * wave[i], out += passed[i] * passed[i];
+    return std::sqrt(out / in);
+  };
+  // The bilinear transform is exact at the cutoff; sums over 2000 rows of waves with whole periods.
+  EXPECT_NEAR(gainAt(kCutoff), std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(gainAt(1), 1, 1e-6);
+  // 1 / sqrt(1 + (tan(pi f dt) / tan(pi fc dt))^8)
+  const double ratio = std::tan(base::kPi * 60 * kDt) / std::tan(base::kPi * kCutoff * kDt);
+  EXPECT_NEAR(gainAt(60), 1 / std::sqrt(1 + std::pow(ratio, 8)), 1e-6);
+  EXPECT_DOUBLE_EQ(lowPass({2, 2, 2}, kDt, kCutoff)[2], 2);
+}
+
+TEST(EventFigures, TurningMomentIsTheIntegralOverTheGroundRun) {
+  VehicleShape shape;
+  shape.firstWheel = -0.9, shape.lastWheel = 0.9;
+  EXPECT_DOUBLE_EQ(turningMoment(shape, 0.8, 1000), 0.8 * 1000 * 1.8 / 4);
+  EXPECT_DOUBLE_EQ(turningMoment(shape, 0.8, 1000, 0.5, 0), turningMoment(shape, 0.8, 1000));
+  // Midpoint rule: error of h^2 times the second derivative, 1e-7 of the moment with 1000 pieces.
+  double sum = 0;
+  const int n = 1000;
+  for (int i = 0; i < n; ++i) {
+    const double x = -0.9 + 1.8 * (i + 0.5) / n, across = 0.5 * x;
+    sum += std::fabs(x) * std::fabs(across) / std::hypot(across, 0.2);
+  }
+  EXPECT_NEAR(turningMoment(shape, 0.8, 1000, 0.5, 0.2), 0.8 * 1000 * sum / n, 1e-6 * 360);
+}
+
+} // namespace
+
+} // namespace grouser::events

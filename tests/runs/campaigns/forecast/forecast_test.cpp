@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `grouser plan` tells beforehand: its arithmetic, its count of grains, and what does not fit. How long things
+// take decides no test.
+#include "coupling/simulation.hpp"
+#include "runs/campaigns/forecast/forecast.hpp"
+#include "runs/campaigns/forecast/machine_fit.hpp"
+#include "runs/campaigns/forecast/probe.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+namespace grouser::forecast {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// 90 grains on a rough floor; `more` ends the file.
+std::string bedScene(const std::string& terrain = "", const std::string& more = "") {
+  const std::string maps = std::string(GROUSER_SOURCE_DIR) + "/assets/heightmaps/";
+  return "version = 1\n[run]\nduration = 0.02\nframe_interval = 0.01\n[material.sand]\nstiffness = 1e4\n"
+         "[terrain]\nheightmap = \"" +
+         maps + "flat.png\"\nsize = [0.2, 0.12]\nheight_range = [0, 0]\nmaterial = \"sand\"\ngrain_radius = 0.01\n" +
+         "depth = 0.05\nsettle_time_limit = 5\n" + terrain + "[output]\nplots = false\npicture_width = 64\n" + more;
+}
+
+const char* const kBoxInBed = "[[box]]\nname = \"post\"\nposition = [0.1, 0, 0]\nsize = [0.05, 0.05, 0.3]\n"
+                              "material = \"sand\"\n";
+
+scene::Scene parsed(const std::string& text) { return setup::parseScene(text, "bed.toml"); }
+
+std::int64_t counted(const scene::Scene& scene) { return countGrains(scene, setup::chooseTimeStep(scene)).grains; }
+
+std::int64_t run(const scene::Scene& scene) {
+  const coupling::Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1),
+                                        coupling::SettleProgress([](double, double) {}));
+  return static_cast<std::int64_t>(simulation.ground().grains->count());
+}
+
+TEST(CountedGrains, BedHasAsManyAsItsRun) {
+  for (const std::string& terrain : {std::string(), std::string("floor_grains = false\n")}) {
+    const scene::Scene scene = parsed(bedScene(terrain));
+    EXPECT_EQ(counted(scene), run(scene)) << terrain;
+  }
+}
+
+TEST(CountedGrains, WhatStandsInTheBedTakesTheirPlaces) {
+  const scene::Scene scene = parsed(bedScene("", kBoxInBed));
+  EXPECT_EQ(counted(scene), run(scene));
+  EXPECT_LT(counted(scene), counted(parsed(bedScene())));
+}
+
+TEST(CountedGrains, WhatIsPutOnTheBedCounts) {
+  const std::string grain = "[[grain]]\nposition = [0.1, 0, 0]\nabove_bed = 0.01\nradius = 0.01\nmaterial = \"sand\"\n";
+  const scene::Scene scene = parsed(bedScene("", grain));
+  EXPECT_EQ(counted(scene), run(scene));
+  EXPECT_EQ(counted(scene), counted(parsed(bedScene())) + 1);
+}
+
+TEST(CountedGrains, BedTooLargeToBeLaidSaysHowSureItIs) {
+  const scene::Scene scene = parsed(bedScene());
+  const CountedGrains sure = countGrains(scene, 1e-5), unsure = countGrains(scene, 1e-5, 10);
+  EXPECT_TRUE(sure.exact && sure.doubt.empty());
+  EXPECT_FALSE(unsure.exact);
+  EXPECT_NE(unsure.doubt.find("within"), std::string::npos);
+}
+
+StepTimes::Group group(double steps, double seconds, double lists = 0, double parts = 0, double grains = 100) {
+  return {steps, seconds, lists, parts, grains};
+}
+
+TEST(ProbedSteps, RestTakesWhatTheLastThirdTook) {
+  StepTimes times;
+  for (int k = 0; k < 6; ++k) times.groups.push_back(group(10, k < 3 ? 1.0 : 2.0));
+  // A third of 9 s is reached by the last two groups: 0.2 s a step.
+  EXPECT_DOUBLE_EQ(times.last().seconds / times.last().steps, 0.2);
+  EXPECT_NEAR(costOfRun(times, 100, 1, 0).whole(), 9 + 40 * 0.2, 1e-12);
+  // A run that ends within the probe takes what its steps took.
+  EXPECT_NEAR(costOfRun(times, 25, 1, 0).whole(), 2.5, 1e-12);
+  EXPECT_EQ(costOfRun({}, 40, 1, 0).whole(), 0);
+}
+
+TEST(ProbedSteps, LongerStepsCountAsManyButTheirListsEndAsOften) {
+  StepTimes times;
+  times.groups.push_back(group(10, 1, 0.3, 0.2));
+  const StepCost cost = costOfRun(times, 40, 4, 0);
+  EXPECT_NEAR(cost.grains, 4 * 0.5, 1e-12);
+  EXPECT_NEAR(cost.parts, 4 * 0.2, 1e-12);
+  EXPECT_NEAR(cost.lists, 0.3, 1e-12);
+}
+
+TEST(ProbedSteps, GrainsThatEnterLaterMakeThemDearerAlongTheLine) {
+  StepTimes times;
+  for (int k = 1; k <= 6; ++k) times.groups.push_back(group(100, 100 * (1e-6 + 2e-8 * k), 0, 0, k));
+  double probe = 0;
+  for (const StepTimes::Group& g : times.groups) probe += g.seconds;
+  // Exactly on a line of 1 us and 20 ns a grain.
+  EXPECT_NEAR(costOfRun(times, 1600, 1, 50).whole(), probe + 1000 * (1e-6 + 2e-8 * 50), 1e-12);
+}
+
+Forecast someForecast() {
+  Forecast f;
+  f.preparation = {{"settling the bed", 3, "how"}, {"sphere sets", 0.25, ""}};
+  f.steps = {{"grains", 10, ""}, {"neighbour lists", 1, ""}};
+  f.output = {{"rows", 0.5, "7"}};
+  f.process = 2e9, f.disk = 3e6, f.diskSpeed = 1e8;
+  return f;
+}
+
+TEST(ForecastFigures, PartsAddUp) {
+  const Forecast f = someForecast();
+  EXPECT_DOUBLE_EQ(f.total(), 14.75);
+  const auto json = nlohmann::json::parse(forecastJson(f));
+  EXPECT_DOUBLE_EQ(json["total_s"].get<double>(), 14.75);
+  for (const char* group : {"preparation", "steps", "output"}) {
+    double sum = 0;
+    for (const auto& [name, value] : json[group].items()) sum += name == "total_s" ? 0 : value.get<double>();
+    EXPECT_DOUBLE_EQ(sum, json[group]["total_s"].get<double>()) << group;
+  }
+  const std::string text = forecastText(f);
+  for (const char* part : {"settling the bed", "3.0 s (how)", "in all", "15 s", "2 GB", "3 MB, written at 100 MB/s"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(ForecastFigures, ProbeThatFailedTellsNoTotal) {
+  Forecast f = someForecast();
+  f.warning = "the probe's steps failed";
+  EXPECT_EQ(forecastText(f).find("  in all"), std::string::npos);
+  EXPECT_NE(forecastText(f).find("warning: the probe's steps failed"), std::string::npos);
+}
+
+TEST(MachineFit, SaysWhatLacksAndWhatHelps) {
+  Demand demand;
+  demand.process = 3e9, demand.device = 2e9, demand.frames = 5e9;
+  const Room ample{4e9, 3e9, 6e9, "/data"};
+  EXPECT_EQ(misfit(demand, ample), "");
+  EXPECT_EQ(misfit(demand, {}), "") << "what cannot be known does not refuse";
+  const auto with = [&](auto change) {
+    Room room = ample;
+    change(room);
+    return misfit(demand, room);
+  };
+  EXPECT_NE(with([](Room& r) { r.process = 1e9; }).find("fewer or larger grains"), std::string::npos);
+  EXPECT_NE(with([](Room& r) { r.device = 1e9; }).find("of each GPU"), std::string::npos);
+  const std::string disk = with([](Room& r) { r.disk = 1e9; });
+  EXPECT_NE(disk.find("/data"), std::string::npos);
+  EXPECT_NE(disk.find("frame_interval"), std::string::npos);
+}
+
+TEST(MachineFit, DemandGrowsWithGrainsAndFrames) {
+  const scene::Scene scene = parsed(bedScene());
+  const Demand one = demandOf(scene, 1'000'000, 1e-5, false), two = demandOf(scene, 2'000'000, 1e-5, false);
+  // Frames at 0, 0.01 and 0.02 s.
+  EXPECT_DOUBLE_EQ(one.frames, 3e6 * frameBytesOfGrain(scene));
+  EXPECT_DOUBLE_EQ(two.frames, 2 * one.frames);
+  EXPECT_GT(two.process, one.process + 3e8);
+  EXPECT_EQ(one.device, 0);
+  EXPECT_GT(demandOf(scene, 1'000'000, 1e-5, true).device, 3e8);
+  scene::Scene bare = scene;
+  bare.output.frames = false;
+  EXPECT_EQ(demandOf(bare, 1'000'000, 1e-5, false).frames, 0);
+  EXPECT_EQ(demandOf(scene, 0, 1e-5, false).frames, 0);
+  scene::Scene told = bare;
+  told.output.grainsCsv = true;
+  EXPECT_GT(demandOf(told, 1'000'000, 1e-5, false).disk(), demandOf(bare, 1'000'000, 1e-5, false).disk() + 3e8);
+}
+
+/// The program itself.
+class PlanProgram : public ProgramTest {
+protected:
+  void write(const std::string& text) const { std::ofstream(folder_ / "bed.toml") << text; }
+};
+
+TEST_F(PlanProgram, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
+  write(bedScene());
+  const Outcome o = call("plan bed.toml --json plan.json --threads 1");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const char* part : {"settling the bed", "neighbour lists", "rows", "frames", "picture", "\n  in all  ",
+                           "to expect on", "memory of the process", "on the disk", "steps to rest of a tile of"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+  const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
+  double sum = 0;
+  for (const char* group : {"preparation", "steps", "output"}) sum += json[group]["total_s"].get<double>();
+  EXPECT_NEAR(json["total_s"].get<double>(), sum, 1e-9 * sum);
+  EXPECT_GT(json["preparation"]["settling the bed"].get<double>(), 0);
+  EXPECT_FALSE(json["output"].contains("plots"));
+  EXPECT_EQ(o.out.find("H200"), std::string::npos) << "of other machines it knows nothing:\n" << o.out;
+  int left = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    ++left;
+    EXPECT_TRUE(entry.path().filename() == "bed.toml" || entry.path().filename() == "plan.json") << entry.path();
+  }
+  EXPECT_EQ(left, 2);
+}
+
+TEST_F(PlanProgram, KeptBedIsFoundAndNotSettledAgain) {
+  write(bedScene());
+  const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
+  ASSERT_EQ(call("run bed.toml --out first", keep).code, 0);
+  const Outcome kept = call("plan bed.toml", keep);
+  EXPECT_NE(kept.out.find("bed, kept"), std::string::npos) << kept.out;
+  EXPECT_EQ(kept.out.find("settling the bed"), std::string::npos) << kept.out;
+  const Outcome anew = call("plan bed.toml --no-cache", keep);
+  EXPECT_NE(anew.out.find("settling the bed"), std::string::npos) << anew.out;
+}
+
+TEST_F(PlanProgram, WithoutProbeRunsNothing) {
+  write(bedScene());
+  const Outcome o = call("plan bed.toml --no-probe");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(o.out.find("to expect on"), std::string::npos);
+  EXPECT_NE(o.out.find("grain steps"), std::string::npos);
+  const Outcome both = call("plan bed.toml --no-probe --json plan.json");
+  EXPECT_EQ(both.code, 2);
+  EXPECT_EQ(call("plan bed.toml --threads some").code, 2);
+}
+
+TEST_F(PlanProgram, WhatDoesNotFitIsRefusedByPlanAndRun) {
+  // A million frames of 86 thousand grains: 4 TB of frames a million steps.
+  write(
+      "version = 1\n[run]\nduration = 100\ntime_step = 1e-6\nframe_interval = 1e-6\n[material.sand]\nstiffness = 1e4\n"
+      "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [1, 1, 0.9]\nradius = 0.01\nmaterial = \"sand\"\n");
+  for (const char* words : {"plan bed.toml", "run bed.toml"}) {
+    const Outcome o = call(words, "ulimit -f 4000; "); // were it begun, it would end soon
+    EXPECT_EQ(o.code, 2) << words;
+    EXPECT_NE(o.error().find("bed.toml: does not fit this machine: its results take"), std::string::npos) << o.errors;
+    EXPECT_NE(o.error().find("run.frame_interval"), std::string::npos) << o.errors;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(PlanProgram, MemoryThatTheShellLimitsCounts) {
+  write("version = 1\n[run]\nduration = 1e-3\ntime_step = 1e-6\n[material.sand]\nstiffness = 1e4\n"
+        "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [4, 4, 4]\nradius = 0.01\nmaterial = \"sand\"\n");
+  const Outcome o = call("run bed.toml", "ulimit -v 3000000; ");
+  EXPECT_EQ(o.code, 2) << o.errors;
+  EXPECT_NE(o.error().find("of memory"), std::string::npos) << o.errors;
+}
+
+} // namespace
+} // namespace grouser::forecast

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// In which order runs of a sweep are begun, and how much of them is told to be done.
+#include "runs/campaigns/sweeps/run_progress.hpp"
+#include "runs/campaigns/sweeps/runner.hpp"
+#include "runs/setup/grain_count.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <utility>
+
+namespace grouser::sweeps {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Scenes of a grain that flies 100 s: as a limit, which [stop] would not reach. None is run.
+class SweepOrder : public ProgramTest {
+protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    std::ofstream(scene()) << "version = 1\n[run]\nduration = 100\nthreads = 1\n[material.glass]\n[[grain]]\n"
+                              "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n";
+  }
+  fs::path scene() const { return folder_ / "fall.toml"; }
+  /// Runs are a shell script that finds its folder in $2.
+  SweepOptions options(const std::string& script) const {
+    SweepOptions o;
+    o.folder = folder_ / "out", o.program = folder_ / "program", o.plot = false;
+    std::ofstream(o.program) << "#!/bin/sh\nwhile [ \"$1\" != --out ]; do shift; done\n" << script;
+    fs::permissions(o.program, fs::perms::owner_all);
+    return o;
+  }
+};
+
+TEST(SweepProgress, IncompleteRunsHaveEndedAndAreNotFinished) {
+  using output::RunStatus;
+  const SweepOutcome finished{RunStatus::finished, ""}, incomplete{RunStatus::incomplete, "never drove"};
+  EXPECT_EQ(endedText({finished, {RunStatus::failed, "x"}}), "1 of 2 runs finished");
+  EXPECT_EQ(endedText({finished, finished}), "2 of 2 runs finished");
+  EXPECT_EQ(endedText({finished, incomplete}), "2 of 2 runs ended, 1 incomplete");
+}
+
+TEST_F(SweepOrder, RunsWithTheMostWorkAreBegunFirstWhereSeveralGoAtATime) {
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,2],[0,0,3],[0,0,4]"}});
+  const double ends[] = {5, 20, 5, 8};
+  for (std::size_t i = 0; i < 4; ++i) plan.runs[i].expectedEnd = ends[i];
+  const fs::path begun = folder_ / "begun";
+  SweepOptions o = options("basename \"$2\" >> " + begun.string() + "\nsleep 0.5\n");
+  const auto order = [&](int jobs, double seconds) {
+    fs::remove(begun);
+    o.jobs = jobs, o.seconds = seconds;
+    runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {});
+    std::ifstream file(begun);
+    std::string names;
+    for (std::string line; std::getline(file, line);)
+      for (std::size_t i = 0; i < 4; ++i)
+        if (line == plan.runs[i].name) names += std::to_string(i);
+    return names;
+  };
+  // Two at a time: of those begun together either may be the first to write.
+  const auto inPairs = [&](double seconds) {
+    std::string names = order(2, seconds);
+    EXPECT_EQ(names.size(), 4U);
+    for (std::size_t i = 0; i + 1 < names.size(); i += 2)
+      if (names[i] > names[i + 1]) std::swap(names[i], names[i + 1]);
+    return names;
+  };
+  EXPECT_EQ(order(1, 0), "0123");
+  EXPECT_EQ(inPairs(1000), "0123") << "the end may come before the last";
+  EXPECT_EQ(inPairs(0), "1302");
+}
+
+TEST_F(SweepOrder, AVehicleAndGrainsAreWorkAndSoIsTime) {
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,2]"}});
+  EXPECT_EQ(workOf(plan.runs[0]), 100) << "one grain, 100 s";
+  plan.runs[0].expectedEnd = 8;
+  EXPECT_EQ(workOf(plan.runs[0]), 8);
+  plan.runs[1].scene = setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/scenes/soil_coarse.toml");
+  plan.runs[1].expectedEnd = 2;
+  EXPECT_EQ(workOf(plan.runs[1]), 2 * (20000.0 + static_cast<double>(setup::plannedGrains(plan.runs[1].scene))));
+}
+
+TEST_F(SweepOrder, ShareDoneIsOfTheTimeAtWhichRunsAreExpectedToEnd) {
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,2]"}});
+  EXPECT_EQ(expectedEnd(plan.runs[0]), 100);
+  plan.runs[0].expectedEnd = 8, plan.runs[1].expectedEnd = 2;
+  EXPECT_EQ(expectedEnd(plan.runs[0]), 8);
+  plan.runs[1].expectedEnd = 200;
+  EXPECT_EQ(expectedEnd(plan.runs[1]), 100) << "its duration ends it";
+  plan.runs[1].expectedEnd = 2;
+  // A program that has simulated 5 s at once and then takes until after the first line of progress.
+  SweepOptions o = options("printf 'step,time [s]\\n100,2\\n250,5\\n260,5.2' > \"$2/timeseries.csv\"\nsleep 5.3\n");
+  o.jobs = 2;
+  ::testing::internal::CaptureStderr();
+  runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {});
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  // Of the first 5 s of 8; of the second no more than the 2 s that were expected. The last line is half written.
+  EXPECT_NE(said.find("sweep:  70.0 %"), std::string::npos) << said;
+  EXPECT_EQ(timeReached(folder_), 0);
+  std::ofstream(folder_ / "timeseries.csv") << "step,time [s]\n";
+  EXPECT_EQ(timeReached(folder_), 0);
+}
+
+} // namespace
+} // namespace grouser::sweeps

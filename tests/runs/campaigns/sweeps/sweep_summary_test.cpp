@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The table of a sweep: which part of a run its figures are of, and what they are.
+#include "runs/campaigns/sweeps/run_figures.hpp"
+#include "runs/campaigns/sweeps/sweep.hpp"
+#include "runs/campaigns/sweeps/sweep_summary.hpp"
+#include "runs/output/channels.hpp"
+#include "runs/output/output.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
+#include "tests/runs/csv_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace grouser::sweeps {
+
+using namespace test; // fixtures
+
+namespace {
+
+class SweepSummary : public FolderTest {};
+
+TEST_F(SweepSummary, SteadyPartIsTheSecondHalfOfWhatFollowsTheRamp) {
+  scene::Scene scene = setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml");
+  scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
+  EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.0);
+  EXPECT_DOUBLE_EQ(steadyFrom(scene, 1.0, 2.3), 1.8) << "it drove off later, and [stop] has ended it";
+  scene.driver.table = scene::SpeedTable{{0, 1.3}, {0, 1}, {0, 1}};
+  EXPECT_DOUBLE_EQ(steadyFrom(scene), 2.5);
+  scene.run.duration = 1;
+  EXPECT_TRUE(std::isnan(steadyFrom(scene)));
+  scene.vehicle.reset();
+  EXPECT_DOUBLE_EQ(steadyFrom(scene), 0.5);
+}
+
+/// A vehicle that stands until t = 2 s and then drives as the formulas below say.
+TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
+  SweepPlan plan;
+  plan.keys = {"driver.sprocket_speed"};
+  plan.runs = {
+      {"sprocket_speed=2", {"2"}, {}, setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")}};
+  scene::Scene& scene = plan.runs[0].scene;
+  scene.run.duration = 30, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3; // steady from 2 s on: see below
+
+  std::vector<output::Channel> channels = {{"vehicle/motion_resistance", "N", "", 1, {}},
+                                           {"ledger/integration_error", "J", "", 1, {}},
+                                           {"ledger/impulse_residual", "N s", "", 3, {"x", "y", "z"}}};
+  for (const std::string side : {"left", "right"}) {
+    for (const char* scalar : {"sprocket_speed", "speed", "mean_torque", "drive_power", "teeth_passed"})
+      channels.push_back({"vehicle/" + side + "/" + scalar, "", "", 1, {}});
+    for (const char* shoes : {"sinkage", "tension"})
+      channels.push_back({"vehicle/" + side + "/" + shoes, "", "", 2, {}});
+  }
+  output::RunWriter writer(folder_ / "sprocket_speed=2", setup::provenanceOf(scene), channels, {});
+  writer.constant(output::kPitchRadius, 0.25);
+  output::RowBuilder row(channels);
+  for (int r = 0; r <= 30; ++r) {
+    const bool isSteady = r >= 20;
+    row.begin(100 * r, 0.1 * r);
+    for (const std::string side : {"left", "right"}) {
+      const double of = side == "left" ? 1 : 3;
+      row.set("vehicle/" + side + "/sprocket_speed", isSteady ? 2 : 77);
+      row.set("vehicle/" + side + "/speed", isSteady ? 0.2 * of : 77); // mean 0.4 of 0.5 m/s
+      row.set("vehicle/" + side + "/teeth_passed", 0.5 * r * of);      // 10 rows: 5 and 15
+      row.set("vehicle/" + side + "/mean_torque", isSteady ? 100 * of : 77);
+      row.set("vehicle/" + side + "/drive_power", isSteady ? 200 * of : 77);
+      row.set("vehicle/" + side + "/sinkage",
+              std::vector<double>{isSteady ? 0.01 * of : 77, std::nan("")}); // one shoe is off the ground
+      row.set("vehicle/" + side + "/tension",
+              std::vector<double>{isSteady ? 1000.0 : 77e3, isSteady && r == 25 ? 6000 * of : 1000.0});
+    }
+    row.set("vehicle/motion_resistance", isSteady ? 50 + 10 * (r % 2 ? 1 : -1) : 77);
+    row.set("ledger/integration_error", 0.1 * r);
+    row.set("ledger/impulse_residual", base::Vec3d{0, 3, 4});
+    writer.row(row.row());
+  }
+  output::Summary summary;
+  summary.steps = 3000, summary.wallTime = 12.5, summary.stateHash = "0123456789abcdef";
+  summary.simulatedTime = 3;
+  writer.finish(summary);
+
+  const Csv csv(writeSummary(plan, {{output::RunStatus::finished, ""}}, folder_));
+  const auto number = [&](const char* column) { return std::stod(csv.at(0, column)); };
+  EXPECT_EQ(csv.at(0, "driver.sprocket_speed"), "2");
+  EXPECT_EQ(number("wall time [s]"), 12.5);
+  EXPECT_EQ(csv.at(0, "state hash"), "0123456789abcdef");
+  // Nine digits are written.
+  EXPECT_NEAR(number("steady from [s]"), 2, 1e-8);
+  EXPECT_NEAR(number("teeth passed [-]"), 10, 1e-8) << "mean of both sprockets";
+  EXPECT_NEAR(number("speed [m/s]"), 0.4, 1e-8);
+  EXPECT_NEAR(number("slip [-]"), 1 - 0.4 / 0.5, 1e-8);
+  EXPECT_NEAR(number("sinkage mean [m]"), 0.02, 1e-9);
+  EXPECT_NEAR(number("sinkage max [m]"), 0.03, 1e-9);
+  EXPECT_NEAR(number("drive torque [N m]"), 400, 1e-6);
+  EXPECT_NEAR(number("drive power [W]"), 800, 1e-6);
+  EXPECT_NEAR(number("tension mean [N]"), 1000 + (5000 + 17000) / 44.0, 1e-5) << "11 rows, 2 tracks, 2 shoes";
+  EXPECT_NEAR(number("tension peak [N]"), 18000, 1e-4);
+  EXPECT_NEAR(number("motion resistance [N]"), 50 - 10 / 11.0, 1e-7);
+  EXPECT_NEAR(number("integration error [J]"), 3, 1e-8) << "at the end";
+  EXPECT_NEAR(number("impulse residual [N s]"), 5, 1e-8);
+  EXPECT_EQ(csv.at(0, "drawbar pull [N]"), "") << "what the results lack is empty";
+  // What a report says of this run begins where its figures do: at the end that [stop] has made.
+  const auto told = nlohmann::json::parse(runFiguresText(folder_ / "sprocket_speed=2"));
+  ASSERT_TRUE(told["steady_from"].is_number()) << told.dump();
+  EXPECT_NEAR(told["steady_from"].get<double>(), 2, 1e-12);
+}
+
+} // namespace
+} // namespace grouser::sweeps

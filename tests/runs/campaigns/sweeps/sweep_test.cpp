@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sweeps: the product of values, names, what is left out when called again, and a failed run that stops no other.
+#include "runs/campaigns/sweeps/sweep.hpp"
+#include "runs/setup/load_scene.hpp"
+
+#include "base/error.hpp"
+#include "runs/campaigns/sweeps/runner.hpp"
+#include "runs/campaigns/sweeps/sweep_intervals.hpp"
+#include "runs/output/output.hpp"
+#include "tests/runs/csv_fixture.hpp"
+#include "tests/runs/program_fixture.hpp"
+#include "tests/runs/scene_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace grouser::sweeps {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+class Sweep : public ProgramTest {
+protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    writeScene("1e-3");
+  }
+
+  /// A falling grain above a plane, which at 100 m/s it would meet v sqrt(m / k) = 1e-2 m deep, five times what is
+  /// allowed: then a run fails.
+  void writeScene(const std::string& duration) const {
+    std::ofstream(scene()) << "version = 1\n[run]\nduration = " << duration
+                           << "\ntime_step = 1e-5\noutput_interval = 1e-4\nthreads = 1\n[material.glass]\n[[grain]]\n"
+                              "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
+                              "[[plane]]\npoint = [0, 0, 0.98]\nmaterial = \"glass\"\n"
+                              "[output]\nplots = false\npicture = false\nframes = false\n";
+  }
+  fs::path scene() const { return folder_ / "fall.toml"; }
+  fs::path out() const { return folder_ / "out"; }
+
+  SweepOptions options() const {
+    SweepOptions o;
+    o.program = programUnderTest(), o.folder = out(), o.plot = false;
+    return o;
+  }
+  int sweep(const Words& sets, int jobs = 1, bool force = false) const {
+    SweepOptions o = options();
+    o.jobs = jobs, o.force = force;
+    return runSweep(planSweep(scene(), {sets}), o);
+  }
+  /// When a run last wrote its manifest; what was left out keeps it.
+  fs::file_time_type ended(const std::string& run) const { return fs::last_write_time(out() / run / "manifest.json"); }
+};
+
+TEST(SweepValues, SplitAtCommasOutsideBracketsAndQuotes) {
+  EXPECT_EQ(splitValues("0.5,1, 2"), (Words{"0.5", "1", "2"}));
+  EXPECT_EQ(splitValues("[1, 2],[3, 4]"), (Words{"[1, 2]", "[3, 4]"}));
+  EXPECT_EQ(splitValues("\"a,b\",'c,d'"), (Words{"\"a,b\"", "'c,d'"}));
+  EXPECT_EQ(splitValues("[0, 0, 1]"), Words{"[0, 0, 1]"});
+  EXPECT_EQ(splitValues("1,"), (Words{"1", ""}));
+}
+
+TEST_F(Sweep, IsTheProductOfAllListsNamedByTheirValues) {
+  const SweepPlan plan = planSweep(scene(), {{"run.seed=1,2", "run.skin=0.5", "grain.0.velocity=[0, 0, 1],[1,0,0]"}});
+  EXPECT_EQ(plan.keys, (Words{"run.seed", "grain.0.velocity"}));
+  Words names;
+  for (const SweepRun& run : plan.runs) {
+    names.push_back(run.name);
+    EXPECT_EQ(run.scene.run.skin, 0.5) << "one value is for all";
+  }
+  EXPECT_EQ(names, (Words{"seed=1,velocity=0_0_1", "seed=1,velocity=1_0_0", "seed=2,velocity=0_0_1",
+                          "seed=2,velocity=1_0_0"}));
+  EXPECT_EQ(plan.runs[3].scene.run.seed, 2);
+  EXPECT_EQ(plan.runs[3].scene.grains[0].velocity, (base::Vec3d{1, 0, 0}));
+}
+
+TEST_F(Sweep, NamesTellKeysOfOneLastWordApart) {
+  std::ofstream(scene(), std::ios::app) << "[material.steel]\n";
+  const SweepPlan plan = planSweep(scene(), {{"material.glass.friction=0.1,0.2", "material.steel.friction=0.3,0.4"}});
+  EXPECT_EQ(plan.runs[1].name, "material.glass.friction=0.1,material.steel.friction=0.4");
+}
+
+TEST_F(Sweep, AnEntryOfAListIsNamedByItsWholeKey) {
+  const SweepPlan plan = planSweep(scene(), {{"grain.0.position.2=1,2"}});
+  EXPECT_EQ(plan.runs[1].name, "grain.0.position.2=2");
+}
+
+TEST_F(Sweep, ValuesThatLookAlikeAsFolderNamesGetTheirOwn) {
+  const SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0, 0, 1]"}});
+  EXPECT_EQ(plan.runs[0].name, "velocity=0_0_1");
+  EXPECT_EQ(plan.runs[1].name, "velocity=0_0_1~2");
+}
+
+TEST_F(Sweep, OneValueIsASweepOfOneRun) {
+  const SweepPlan plan = planSweep(scene(), {{"run.seed=3"}});
+  ASSERT_EQ(plan.runs.size(), 1u);
+  EXPECT_EQ(plan.runs[0].name, "seed=3");
+}
+
+TEST_F(Sweep, WrongValuesAreFoundBeforeAnythingRuns) {
+  for (const Words& sets : {Words{}, Words{"run.seed=1,-2"}, Words{"run.seed=1,,2"}, Words{"run.seed=1,1"},
+                            Words{"run.seed=1,2", "run.seed=3"}, Words{"run.sead=1,2"}, Words{"run.seed"},
+                            Words{"run.time_step=1e-5,1e-2"}})
+    EXPECT_THROW(planSweep(scene(), {sets}), base::InputError) << (sets.empty() ? "" : sets[0]);
+}
+
+TEST_F(Sweep, ACaseIsKeysThatChangeTogether) {
+  SweepLists lists;
+  lists.cases = {"as it is", "fast: grain.0.velocity=[0, 0, 1], run.duration=2e-3"};
+  lists.sets = {"run.skin=0.3,0.5"}, lists.seeds = 2;
+  const SweepPlan plan = planSweep(scene(), lists);
+  EXPECT_EQ(plan.keys, (Words{"case", "run.skin", "run.seed"}));
+  ASSERT_EQ(plan.runs.size(), 8u);
+  EXPECT_EQ(plan.runs[0].name, "as_it_is,skin=0.3,seed=1");
+  EXPECT_EQ(plan.runs[7].name, "fast,skin=0.5,seed=2");
+  EXPECT_EQ(plan.runs[7].values, (Words{"fast", "0.5", "2"}));
+  EXPECT_EQ(plan.runs[0].scene.run.duration, 1e-3);
+  EXPECT_EQ(plan.runs[7].scene.run.duration, 2e-3);
+  EXPECT_EQ(plan.runs[7].scene.grains[0].velocity, (base::Vec3d{0, 0, 1}));
+  EXPECT_EQ(plan.runs[7].scene.run.seed, 2);
+  EXPECT_EQ(plan.runs[7].scene.run.skin, 0.5);
+}
+
+TEST_F(Sweep, ACaseMaySetWhatOneValueSetsForTheOthers) {
+  SweepLists lists;
+  lists.cases = {"base", "long: run.duration=2e-3"};
+  lists.sets = {"run.duration=1e-4"};
+  SweepOptions o = options();
+  o.jobs = 2; // the threads are shared among them, whatever --threads says
+  const SweepPlan plan = planSweep(scene(), lists, {"run.threads=0", "run.device=cpu"});
+  EXPECT_EQ(plan.runs[0].scene.run.duration, 1e-4);
+  EXPECT_EQ(plan.runs[1].scene.run.duration, 2e-3);
+  EXPECT_EQ(runSweep(plan, o), 0);
+  lists.sets = {"run.duration=1e-4,2e-4"};
+  EXPECT_THROW(planSweep(scene(), lists), base::InputError);
+}
+
+TEST_F(Sweep, WrongCasesAreFoundBeforeAnythingRuns) {
+  const auto wrong = [&](const Words& cases, const Words& sets, int seeds) {
+    SweepLists lists;
+    lists.cases = cases, lists.sets = sets, lists.seeds = seeds;
+    EXPECT_THROW(planSweep(scene(), lists), base::InputError) << cases[0];
+  };
+  wrong({""}, {}, 0);
+  wrong({": run.seed=1"}, {}, 0);
+  wrong({"run.seed=1"}, {}, 0); // no name
+  wrong({"a: run.seed"}, {}, 0);
+  wrong({"a: run.seed="}, {}, 0);
+  wrong({"a", "a: run.seed=1"}, {}, 0);
+  wrong({"a: run.seed=1, run.seed=2"}, {}, 0);
+  wrong({"a: run.seed=1"}, {"run.seed=1,2"}, 0);
+  wrong({"a: run.seed=1"}, {}, 2);
+  wrong({"a: run.sead=1"}, {}, 0);
+  for (const char* name : {".", "..", "/", "\u00fc", "summary.csv", "summary.png", "intervals.csv"})
+    wrong({name}, {}, 0);
+}
+
+TEST_F(Sweep, LeavesAFolderARunAndASummary) {
+  EXPECT_EQ(sweep({"run.seed=1,2"}, 2), 0);
+  for (const char* run : {"seed=1", "seed=2"})
+    for (const char* file : {"results.h5", "timeseries.csv", "manifest.json", "scene.toml", "log.txt"})
+      EXPECT_TRUE(fs::exists(out() / run / file)) << run << "/" << file;
+  const Csv csv(out() / "summary.csv");
+  ASSERT_EQ(csv.rows.size(), 2u);
+  EXPECT_EQ(csv.at(1, "run"), "seed=2");
+  EXPECT_EQ(csv.at(1, "run.seed"), "2");
+  EXPECT_EQ(csv.at(1, "status"), "finished");
+  EXPECT_EQ(csv.at(1, "steps"), "100");
+  EXPECT_EQ(csv.at(1, "state hash").size(), 16u);
+  EXPECT_EQ(csv.at(0, "state hash"), csv.at(1, "state hash")) << "a single grain knows no seed";
+  EXPECT_EQ(csv.at(0, "speed [m/s]"), "no such cell") << "no vehicle, no speed";
+  EXPECT_GE(std::stod(csv.at(0, "wall time [s]")), 0);
+}
+
+TEST_F(Sweep, RunsThatEndBeforeTheyAreUpToSpeedAreNamed) {
+  const std::string words = "sweep '" + std::string(GROUSER_SOURCE_DIR) +
+                            "/runs/scenes/rigid_control.toml' --set output.plots=false --set output.picture=false "
+                            "--set driver.drive_start=0.45 --set driver.drive_ramp=0.005 ";
+  const Outcome brief = call(words + "--set run.duration=0.02 --set vehicle.sphere_radius=0.03 --seeds 2 --out brief",
+                             "export GROUSER_CACHE=cache\n");
+  EXPECT_EQ(brief.code, 0) << brief.errors;
+  EXPECT_NE(brief.out.find("note      2 of 2 runs ended before their drive was up to speed, and have no figures"),
+            std::string::npos)
+      << brief.out;
+  EXPECT_EQ(brief.out.find("slip [-]"), std::string::npos) << "a heading of nothing";
+  EXPECT_EQ(call("sweep fall.toml --set run.seed=1,2").out.find("note"), std::string::npos) << "no vehicle, no drive";
+}
+
+TEST_F(Sweep, TheSummaryHasTheLoadsOnSurfaces) {
+  // The grain lies on it from the start.
+  std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"belt\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"
+                                           "material = \"glass\"\nvelocity = [0.1, 0, 0]\n";
+  ASSERT_EQ(sweep({"run.duration=0.05", "run.output_interval=1e-3", "box.0.velocity.0=0.1,0.2"}), 0);
+  const Csv csv(out() / "summary.csv");
+  const double weight = 2500 * 4.0 / 3 * 3.14159265 * 1e-6 * 9.81;
+  for (std::size_t row = 0; row < 2; ++row) {
+    const auto number = [&](const char* column) { return std::stod(csv.at(row, column)); };
+    EXPECT_EQ(csv.at(row, "run"), row == 0 ? "box.0.velocity.0=0.1" : "box.0.velocity.0=0.2");
+    EXPECT_EQ(number("steady from [s]"), 0.025);
+    EXPECT_NEAR(number("belt force z [N]"), -weight, 0.05 * weight) << "at rest but for what is left of its sinking in";
+    EXPECT_NEAR(number("belt position x at the end [m]"), row == 0 ? 0.005 : 0.01, 1e-12);
+    EXPECT_EQ(number("belt force y [N]"), 0);
+    EXPECT_NEAR(number("belt torque z [N m]"), 0, 1e-9) << "grain and centre lie in one plane";
+  }
+}
+
+TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
+  ASSERT_EQ(sweep({"run.seed=1,2"}), 0);
+  const auto one = ended("seed=1"), two = ended("seed=2");
+  // One value more, and a run that was killed in between.
+  std::string manifest = contents(out() / "seed=2/manifest.json");
+  manifest.replace(manifest.find("finished"), 8, "running");
+  std::ofstream(out() / "seed=2/manifest.json") << manifest;
+  ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
+  EXPECT_EQ(ended("seed=1"), one);
+  EXPECT_NE(ended("seed=2"), two);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(2, "status"), "finished");
+  // Threads are no other scene; a longer duration is.
+  SweepOptions o = options();
+  ASSERT_EQ(runSweep(planSweep(scene(), {{"run.seed=1,2,3"}}, {"run.threads=2"}), o), 0);
+  EXPECT_EQ(ended("seed=1"), one);
+  writeScene("2e-3");
+  ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
+  EXPECT_NE(ended("seed=1"), one);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(0, "steps"), "200");
+}
+
+TEST_F(Sweep, SeedsGiveIntervalsAndDifferences) {
+  // A named box at a height that the seed has no part in: each case's interval has no width, and the force of a box
+  // that bears two grains is twice that of one.
+  std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"pan\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"
+                                           "material = \"glass\"\n";
+  SweepLists lists;
+  lists.cases = {"light", "heavy: material.glass.density=5000"};
+  lists.sets = {"run.duration=0.05", "run.output_interval=1e-3"}, lists.seeds = 3;
+  ASSERT_EQ(runSweep(planSweep(scene(), lists), options()), 0);
+  const Csv csv(out() / "intervals.csv");
+  int seen = 0;
+  for (std::size_t row = 0; row < csv.rows.size(); ++row) {
+    if (csv.at(row, "figure") != "pan force z [N]") continue;
+    ++seen;
+    EXPECT_EQ(csv.at(row, "case"), seen == 1 ? "light" : "heavy");
+    EXPECT_EQ(csv.at(row, "seeds"), "3");
+    EXPECT_EQ(csv.number(row, "half width"), 0);
+    EXPECT_NEAR(csv.number(row, "difference to the first [-]"), seen == 1 ? 0 : 1, 0.1);
+    EXPECT_NEAR(csv.number(row, "half width of the difference [-]"), 0, 1e-14) << "but for rounding of the mean";
+  }
+  EXPECT_EQ(seen, 2);
+  EXPECT_EQ(csv.at(0, "run.seed"), "no such cell");
+}
+
+TEST_F(Sweep, NoRunIsBegunAfterTheTimeGivenAndACallAgainGoesOn) {
+  SweepOptions o = options();
+  o.seconds = 1e-9;
+  EXPECT_EQ(runSweep(planSweep(scene(), {{"run.seed=1,2"}}), o), 0);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(1, "status"), "pending");
+  EXPECT_FALSE(fs::exists(out() / "seed=1"));
+  EXPECT_EQ(sweep({"run.seed=1,2"}), 0);
+  EXPECT_EQ(Csv(out() / "summary.csv").at(1, "status"), "finished");
+}
+
+TEST_F(Sweep, ForceRunsAll) {
+  ASSERT_EQ(sweep({"run.seed=1,2"}), 0);
+  const auto one = ended("seed=1");
+  ASSERT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
+  EXPECT_NE(ended("seed=1"), one);
+}
+
+TEST_F(Sweep, AFailedRunStopsNoOther) {
+  EXPECT_EQ(sweep({"grain.0.velocity=[0,0,1],[0,0,-145],[0,0,2]"}), 1);
+  const Csv csv(out() / "summary.csv");
+  EXPECT_EQ(csv.at(0, "status"), "finished");
+  EXPECT_EQ(csv.at(1, "status"), "failed");
+  EXPECT_NE(csv.at(1, "message").find("pass through"), std::string::npos) << csv.at(1, "message");
+  EXPECT_EQ(csv.at(1, "state hash"), "");
+  EXPECT_EQ(csv.at(2, "status"), "finished");
+  EXPECT_EQ(csv.rows[1].size(), csv.header.size()) << "a message with commas is one cell";
+}
+
+TEST_F(Sweep, ARunThatIsKilledIsAFailedRun) {
+  const fs::path killer = folder_ / "killer";
+  std::ofstream(killer) << "#!/bin/sh\nkill -9 $$\n";
+  fs::permissions(killer, fs::perms::owner_all);
+  SweepOptions o = options();
+  o.program = killer;
+  EXPECT_EQ(runSweep(planSweep(scene(), {{"run.seed=1,2"}}), o), 2);
+  EXPECT_NE(Csv(out() / "summary.csv").at(0, "message").find("signal 9"), std::string::npos);
+}
+
+TEST_F(Sweep, TablesOfAnEarlierOneDoNotStay) {
+  ASSERT_EQ(call("sweep fall.toml --set material.glass.restitution=0.3,0.9 --seeds 2 --out s").code, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "s/intervals.csv"));
+  ASSERT_EQ(call("sweep fall.toml --set material.glass.restitution=0.5,0.6 --out s").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "s/intervals.csv")) << "of other values";
+}
+
+TEST_F(Sweep, TheFolderOfARunIsNone) {
+  ASSERT_EQ(call("run fall.toml --out one").code, 0);
+  const Outcome o = call("sweep fall.toml --set run.seed=1,2 --out one");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.error().find("one: holds the results of a run"), std::string::npos) << o.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "one/summary.csv"));
+  EXPECT_EQ(call("sweep fall.toml --set output.folder=a,b").code, 2);
+}
+
+TEST_F(Sweep, WhoeverStartedItMayIgnoreEndsOfProcesses) {
+  const Outcome o = shell("/usr/bin/python3 -c \"import os, signal, sys; signal.signal(signal.SIGCHLD, "
+                          "signal.SIG_IGN); os.execv(sys.argv[1], sys.argv[1:])\" \"$grouser\" sweep fall.toml "
+                          "--set run.seed=1,2 --out s");
+  EXPECT_EQ(o.code, 0) << o.errors;
+}
+
+TEST_F(Sweep, RunsAtTheSameTimeTakeTheGpusInTurn) {
+  unsetenv("GROUSER_GPU");
+  // A program that does nothing but say which GPU it was given; on the first it takes long.
+  const fs::path program = folder_ / "says.sh";
+  std::ofstream(program) << "#!/bin/sh\necho gpu $GROUSER_GPU\n[ $GROUSER_GPU = 1 ] || sleep 2\n";
+  fs::permissions(program, fs::perms::owner_all);
+  SweepOptions o = options();
+  o.program = program, o.jobs = 2;
+  const SweepPlan plan = planSweep(scene(), {Words{"grain.0.radius=0.01,0.011,0.012,0.013"}});
+  runMissing(plan, o, "gpus", [](const std::vector<SweepOutcome>&) {});
+  std::vector<std::string> given;
+  for (const SweepRun& run : plan.runs) given.push_back(contents(out() / run.name / "log.txt"));
+  // Each that begins takes the place of one that has ended.
+  EXPECT_EQ(given, (std::vector<std::string>{"gpu 0\n", "gpu 1\n", "gpu 1\n", "gpu 1\n"}));
+}
+
+TEST_F(Sweep, AWrongFirstGpuTakesNothingAway) {
+  ASSERT_EQ(sweep({"grain.0.radius=0.01"}), 0);
+  const auto before = ended("radius=0.01");
+  setenv("GROUSER_GPU", "first", 1);
+  EXPECT_THROW(sweep({"grain.0.radius=0.01"}, 1, true), base::InputError);
+  unsetenv("GROUSER_GPU");
+  ASSERT_TRUE(fs::exists(out() / "radius=0.01" / "results.h5"));
+  EXPECT_EQ(ended("radius=0.01"), before);
+}
+
+TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
+  fs::create_directories(out() / "seed=2");
+  std::ofstream(out() / "seed=2/thesis.txt") << "precious";
+  EXPECT_THROW(sweep({"run.seed=1,2"}), base::InputError);
+  EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
+  EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
+  EXPECT_EQ(contents(out() / "seed=2/thesis.txt"), "precious");
+}
+
+TEST_F(Sweep, TablesOfOtherOriginAreKept) {
+  fs::create_directories(out());
+  for (const char* name : {"summary.csv", "summary.png", "intervals.csv"}) {
+    put(out() / name, "run,marks,status\nthesis,1,good\n");
+    const Outcome o = call("sweep fall.toml --set run.seed=1,2 --out out");
+    EXPECT_EQ(o.code, 2) << name;
+    EXPECT_NE(o.error().find(std::string("out/") + name + ": is a file that no sweep has written"), std::string::npos)
+        << o.errors;
+    EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
+    EXPECT_EQ(contents(out() / name), "run,marks,status\nthesis,1,good\n");
+    fs::remove(out() / name);
+  }
+  put(out() / "summary.csv", "");
+  EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
+  EXPECT_EQ(sweep({"run.seed=1,2"}), 0) << "its own";
+}
+
+TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
+  const Outcome sound = call("sweep fall.toml --set run.seed=1,2");
+  EXPECT_EQ(sound.code, 0) << sound.errors;
+  EXPECT_TRUE(fs::exists(folder_ / "out/fall_sweep/seed=2/results.h5"));
+  EXPECT_NE(sound.out.find("run 2 of 2  seed=2"), std::string::npos) << sound.out;
+  EXPECT_EQ(call("sweep fall.toml --set run.seed=1,-1 --out a").code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "a"));
+  const Outcome unsound = call("sweep fall.toml --set 'grain.0.velocity=[0,0,1],[0,0,-145]' --out b");
+  EXPECT_EQ(unsound.code, 3);
+  EXPECT_NE(unsound.errors.find("1 of 2 runs failed"), std::string::npos) << unsound.errors;
+}
+
+TEST_F(Sweep, StoppedOneEndsItsRunsAndSaysWhatIsReady) {
+  writeScene("1e-3");
+  const Outcome stopped = shell("\"$grouser\" sweep fall.toml --set run.duration=1e-3,50 --jobs 2 --out s & pid=$!\n"
+                                "while [ ! -s s/duration=50/timeseries.csv ] || ! grep -q finished "
+                                "s/duration=1e-3/manifest.json; do sleep 0.01; done\nsleep 0.2\n"
+                                "kill -TERM $pid\nwait $pid\nexit $?");
+  EXPECT_EQ(stopped.code, 143) << stopped.errors;
+  EXPECT_NE(stopped.errors.find("grouser: stopped by SIGTERM after 1 of 2 runs; go on with: "), std::string::npos)
+      << stopped.errors;
+  EXPECT_NE(contents(folder_ / "s/duration=50/manifest.json").find("\"stopped\""), std::string::npos);
+}
+
+/// By hand: of 2, 4, 6 the mean is 4 and half the interval t(2) 2 / sqrt 3, t(2) = 4.3027; the differences to 1, 2, 3
+/// are 1, 2, 3 with mean 2 and half width t(2) / sqrt 3, over the first's mean of 2.
+TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
+  SweepPlan plan;
+  plan.keys = {kCaseKey, kSeedKey};
+  for (const char* name : {"base", "other"})
+    for (const char* seed : {"1", "2", "3"}) plan.runs.push_back({"", {name, seed}, {}, {}});
+  plan.runs.push_back({"", {"other", "4"}, {}, {}}); // has no like among the first
+  SweepFigures figures;
+  figures.columns = {"speed [m/s]", "slip [-]"};
+  for (const double v : {1.0, 2.0, 3.0, 2.0, 4.0, 6.0}) figures.values.push_back({v, std::nan("")});
+  figures.values.push_back({std::nan(""), std::nan("")}); // has failed
+  const SeedIntervals all = seedIntervals(plan, figures);
+  ASSERT_EQ(all.groups.size(), 2u);
+  EXPECT_EQ(all.keys, Words{kCaseKey});
+  EXPECT_EQ(all.groups[1].values, Words{"other"});
+  EXPECT_EQ(all.groups[1].runs, 3);
+  const double t = 4.30265 / std::sqrt(3.0); // the program has the quantile to three digits after the point
+  EXPECT_NEAR(all.groups[1].figures[0].value, 4, 1e-12);
+  EXPECT_NEAR(all.groups[1].figures[0].halfWidth, 2 * t, 1e-3);
+  EXPECT_NEAR(all.groups[1].differences[0].value, 1, 1e-12);
+  EXPECT_NEAR(all.groups[1].differences[0].halfWidth, t / 2, 1e-3);
+  EXPECT_EQ(all.groups[0].differences[0].value, 0);
+  EXPECT_TRUE(std::isnan(all.groups[1].figures[1].value)) << "no run has it";
+  EXPECT_NEAR(all.groups[1].changes[0].value, 2, 1e-12);
+  EXPECT_NEAR(all.groups[1].changes[0].halfWidth, t, 1e-3);
+  // 2 +- 2.48 may as well be zero: no shares of it.
+  EXPECT_NE(intervalsText(all).find("+2.0 +- 2.5\n"), std::string::npos) << intervalsText(all);
+  for (std::vector<double>& row : figures.values) row[0] += 10;
+  EXPECT_NE(intervalsText(seedIntervals(plan, figures)).find("+16.7 +- "), std::string::npos);
+  plan.keys = {kCaseKey, "run.skin"};
+  EXPECT_TRUE(seedIntervals(plan, figures).groups.empty()) << "no seeds, no intervals";
+}
+
+TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
+  SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,-145]"}});
+  // Each run names its scene: of the plan's nothing is taken.
+  plan.scene = folder_ / "none.toml";
+  for (SweepRun& run : plan.runs) run.file = scene();
+  SweepOptions o = options();
+  o.failuresStay = true;
+  const auto again = [&] { return runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {}); };
+  const std::vector<SweepOutcome> first = again();
+  ASSERT_EQ(first[0].status, output::RunStatus::finished) << first[0].message;
+  ASSERT_EQ(first[1].status, output::RunStatus::failed);
+  const std::string fast = plan.runs[1].name;
+  const auto before = ended(fast);
+  const std::vector<SweepOutcome> second = again();
+  EXPECT_EQ(ended(fast), before);
+  EXPECT_EQ(second[1].status, output::RunStatus::failed);
+  EXPECT_EQ(second[1].message, first[1].message);
+  o.failuresStay = false;
+  again();
+  EXPECT_NE(ended(fast), before);
+}
+
+} // namespace
+} // namespace grouser::sweeps

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A vehicle on a side slope whose grip lets it tip rather than slide: the slope on which it does is that of its
+// geometry.
+#include "coupling/simulation.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "tests/device_under_test.hpp"
+#include "tests/runs/shared_cache.hpp"
+
+#include "runs/scene/scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace grouser::coupling {
+namespace {
+
+using base::Vec3d;
+
+constexpr double kEarth = 9.81; // [m/s2]
+
+/// On rigid arms, its sprockets held, its left side uphill: gravity leans to the right by `angle` [rad]. Shoes grip
+/// ground and wheels: at the friction of a ready vehicle's wheels, 0.35, the hull slides down to the horns of its shoes
+/// first, and the blow tips it degrees below its limit.
+scene::Scene leaning(double angle) {
+  return setup::parseScene(
+      fmt::format(
+          "version = 1\n[run]\nduration = 6\ntime_step = 1e-4\ngravity = [0, {}, {}]\n[material.steel]\n"
+          "stiffness = 1e8\nfriction = 3.0\n[terrain]\nkind = \"rigid\"\nheightmap = \"heightmaps/flat.png\"\n"
+          "size = [12, 12]\nheight_range = [0, 0]\nmaterial = \"steel\"\n[vehicle]\n"
+          "spec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\nhull_touches = false\n"
+          "position = [4, 0]\nclearance = 0\n[driver]\nsprocket_speed = 0\ntension_ramp = 0.05\nweight_ramp = 0.5\n"
+          "rest_time_limit = 100\n[spec.contact]\nfriction_ground = 3.0\nfriction_inside = 2.0\n[spec.arm]\n"
+          "suspension = \"rigid\"\n",
+          -kEarth * std::sin(angle), -kEarth * std::cos(angle)),
+      GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
+}
+
+Simulation standingOn(double angle) {
+  return Simulation(
+      setup::simulationSetup(leaning(angle)), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
+}
+
+/// Across the middle of the right track's shoes, of the outermost of the spheres on which they stand [m].
+double padEdge(const Simulation& simulation) {
+  const VehicleRig& rig = *simulation.vehicle();
+  const vehicle::Track& track = rig.assembly().tracks.back();
+  const int shoe = rig.parts().contactIndex(track.shoeParts.front());
+  const auto set = static_cast<std::size_t>(rig.parts().setOfContactPart()[static_cast<std::size_t>(shoe)]);
+  const std::vector<base::SetSphere>& spheres = rig.parts().sets()[set]->spheres;
+  const auto under = [](const base::SetSphere& s) { return s.centre.z - s.radius; };
+  double lowest = 1e9, edge = 0;
+  for (const base::SetSphere& s : spheres) lowest = std::min(lowest, under(s));
+  for (const base::SetSphere& s : spheres)
+    if (under(s) < lowest + 1e-4) edge = std::max(edge, std::fabs(s.centre.y) + s.flat);
+  return edge;
+}
+
+/// Slope [rad] on which it tips over the right track's pads, as drawn. Its wheels lift off the left track's ground run,
+/// whose shoes lie on the ground until the track is taut: these do not hold it down.
+double tippingAngle(const Simulation& simulation) {
+  const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
+  const std::vector<base::Pose>& poses = simulation.vehicle()->state().pose;
+  const vehicle::Track& left = assembly.tracks.front();
+  double low = 1e9, mass = 0;
+  const auto at = [&](int body) { return poses[static_cast<std::size_t>(body)].position; };
+  for (const int shoe : left.shoes) low = std::min(low, at(shoe).z);
+  Vec3d centre;
+  const auto add = [&](int body, double share) {
+    const double m = share * assembly.model.bodies()[static_cast<std::size_t>(body)].mass;
+    centre += at(body) * m, mass += m;
+  };
+  for (std::size_t b = 0; b < poses.size(); ++b) add(static_cast<int>(b), 1);
+  int loose = 0;
+  for (const int shoe : left.shoes)
+    if (at(shoe).z < low + 1e-3) add(shoe, -1), ++loose;
+  centre = centre * (1 / mass);
+  const double edge = assembly.spec.trackOffset + padEdge(simulation);
+  std::printf("%d shoes loose, edge at %.4f m, middle of the mass %.4f m beside the middle and %.4f m high\n", loose,
+              edge, centre.y, centre.z);
+  return std::atan((edge + centre.y) / centre.z);
+}
+
+/// Roll of the hull [rad] at 2.5 s.
+double rollAt(double angle) {
+  Simulation simulation = standingOn(angle);
+  const auto end = std::llround(2.5 / simulation.timeStep());
+  while (simulation.steps() < end) simulation.step();
+  return std::fabs(simulation.vehicle()->observe().rollAngle);
+}
+
+TEST(Tipping, IsWithinADegreeOfGeometry) {
+  constexpr double kDegree = base::kPi / 180;
+  const double limit = tippingAngle(standingOn(0));
+  const double below = rollAt(limit - kDegree), above = rollAt(limit + kDegree);
+  std::printf("tips at %.2f degrees by geometry: rolls by %.4f rad one below, %.4f one above\n", limit / kDegree, below,
+              above);
+  EXPECT_LT(below, 0.01);
+  EXPECT_GT(above, 0.2);
+}
+
+} // namespace
+} // namespace grouser::coupling
