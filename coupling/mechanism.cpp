@@ -42,6 +42,21 @@ void Mechanism::fail(const std::string& message) const {
   throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, state_.time, message));
 }
 
+void Mechanism::require(const Input& input) const {
+  if (input.kind == InputKind::gravity) return;
+  if (input.kind != InputKind::bodyLoad)
+    throw base::InputError(fmt::format("a mechanism has no {}; it takes gravity and body_load", base::wordOf(input.kind)));
+  if (input.target < 0 || at(input.target) >= model_.bodies().size())
+    throw base::InputError(fmt::format("the mechanism has no body {}; it has {}", input.target, model_.bodies().size()));
+}
+
+void Mechanism::command(const Inputs& inputs) {
+  for (multibody::Wrench& wrench : loads_.external) wrench = {};
+  for (const Input& i : inputs.acting())
+    if (i.kind == InputKind::bodyLoad)
+      loads_.external[at(i.target)] = {{i.value[0], i.value[1], i.value[2]}, {i.value[3], i.value[4], i.value[5]}};
+}
+
 void Mechanism::advance() {
   if (controller_) {
     controller_->advance(solver_, state_, loads_, static_cast<double>(steps_ + 1) * timeStep_,
@@ -156,7 +171,7 @@ Mechanism::Ledger Mechanism::ledger() const {
   const multibody::Balance b = multibody::balance(model_, state_, loads_);
   const multibody::Totals& t = b.now;
   Ledger ledger;
-  ledger.driveWork = b.driveWork;
+  ledger.driveWork = b.driveWork + b.externalWork;
   ledger.kinetic = t.kinetic, ledger.potential = t.gravity, ledger.elastic = t.elastic;
   ledger.jointDamping = b.jointDamping, ledger.springDamping = b.springDamping, ledger.stopDamping = b.stopDamping;
   ledger.dissipated = b.dissipated();

@@ -5,6 +5,7 @@
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 #include "coupling/mechanism_setup.hpp"
+#include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/mechanism_state.hpp"
 #include "coupling/step_controller.hpp"
@@ -23,6 +24,12 @@ public:
   Mechanism(const MechanismSetup& setup, double timeStep);
   Mechanism(const Mechanism&) = delete;
   Mechanism& operator=(const Mechanism&) = delete;
+
+  /// Throws base::InputError where the mechanism has nothing that the input could set.
+  void require(const Input& input) const;
+  /// From the next step on what acts among these; all have passed require().
+  void command(const Inputs& inputs);
+  void setGravity(const base::Vec3d& gravity) { loads_.gravity = gravity; } ///< [m/s2]; inputs besides
 
   /// One step. Throws base::SimulationError, also where the motion has become too quick for the step: at every
   /// kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.

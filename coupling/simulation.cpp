@@ -15,7 +15,7 @@ namespace grouser::coupling {
 
 Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, SettledBeds* beds, SphereSets* spheres)
-    : setup_(std::move(setup)), exec_(exec), comm_(comm) {
+    : setup_(std::move(setup)), exec_(exec), comm_(comm), gravity_(setup_.gravity) {
   if (hasBed()) {
     const BedSetup& bed = *bedGround().grains->bed;
     const bool kept = beds && bed.settle.timeLimit > 0;
@@ -264,7 +264,7 @@ std::string Simulation::causeOf(const terrain::GrainFault& fault) {
                                  timeStep(), impactNote(now));
   const PressedGrain grain = pressed(fault.id);
   if (fault.fault == Fault::speed)
-    return grain.fallsFreely(setup_.gravity)
+    return grain.fallsFreely(gravity_)
                ? "it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before"
                : "";
   std::string by = grain.sentence();

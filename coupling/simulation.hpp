@@ -5,6 +5,7 @@
 #include "coupling/settled_beds.hpp"
 #include "coupling/energy_guard.hpp"
 #include "coupling/ground.hpp"
+#include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/mechanism.hpp"
 #include "coupling/pressed_grain.hpp"
@@ -14,7 +15,10 @@
 #include "coupling/surfaces.hpp"
 #include "coupling/vehicle_rig.hpp"
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace grouser::terrain {
@@ -44,6 +48,16 @@ public:
   /// many were taken. Where it throws some may have been.
   std::int64_t advance(std::int64_t most);
 
+  /// Sets something from outside, from the next step on; empty: back to what the scene says. It is kept in checkpoints,
+  /// and acts on the state hash as long as it acts. Units and meaning: InputKind. All ranks call it alike. Throws
+  /// base::InputError where the scene has nothing of the kind, or the value is no number or out of range.
+  void set(InputKind kind, std::int32_t target, const std::optional<std::array<double, 6>>& value);
+  void require(const Input& input) const; ///< throws what set() would
+  const Inputs& inputs() const { return inputs_; }
+  /// Place of a body among those of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the
+  /// nearest name.
+  std::int32_t bodyIndex(const std::string& name) const;
+
   const SimulationSetup& setup() const { return setup_; }
   double timeStep() const { return setup_.timeStep; }
   std::int64_t steps() const { return steps_; }
@@ -59,6 +73,10 @@ public:
     if (surfaces_) surfaces_->restartMeans();
     if (vehicle_) vehicle_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
+  }
+  /// Means of VehicleRig::watch(), for who steps from outside.
+  void restartWatch() {
+    if (vehicle_) vehicle_->restartWatch();
   }
   const TakenOut& takenOut() const { return taken_; } ///< since the start
   /// By a part or mesh since restartMeans(); empty where grains meet none. All ranks call it.
@@ -76,6 +94,8 @@ public:
   std::string stateHash() const;
 
 private:
+  void command();
+  void setGravity(const base::Vec3d& gravity);
   bool canStepAhead() const;
   void stepAhead(bool last);
   void checkAlarm();
@@ -115,6 +135,8 @@ private:
   std::unique_ptr<Mechanism> mechanism_;
   std::unique_ptr<StepsAhead> ahead_; ///< of steps that can be launched ahead; made by the first
   EnergyGuard guard_;
+  Inputs inputs_;       ///< from outside
+  base::Vec3d gravity_; ///< now [m/s2]
   std::int64_t steps_{0};
   TakenOut taken_;
   Ledger start_; ///< before the first step; the ledger counts from here

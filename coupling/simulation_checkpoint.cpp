@@ -16,6 +16,9 @@ std::string SimulationState::hash(const base::Comm& comm) const {
     if (way != 0) hash.add(base::bitsAs<std::uint64_t>(way));
   if (vehicle) hash.add(vehicle->words());
   if (mechanism) hash.add(mechanism->words());
+  Inputs set;
+  set.restore(inputs);
+  for (const std::uint64_t word : set.words()) hash.add(word);
   return hash.hex();
 }
 
@@ -30,6 +33,7 @@ SimulationState Simulation::save() const {
   state.ledgerAtStart = start_.counted();
   state.guard = guard_.save();
   state.taken = taken_;
+  state.inputs = inputs_.save();
   if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
   if (ground_.grains) state.grains = ground_.grains->state();
   if (surfaces_) state.surfaces = surfaces_->save();
@@ -58,7 +62,7 @@ Ground groundOf(GroundSetup& setup, const SimulationState& state, const base::Ex
 Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
                        const base::Comm& comm, SphereSets* spheres)
     : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(groundOf(setup_.ground, state, exec, comm)),
-      settled_(state.settled), lifts_(state.lifts), steps_(state.steps) {
+      settled_(state.settled), lifts_(state.lifts), gravity_(setup_.gravity), steps_(state.steps) {
   if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
       state.mechanism.has_value() != setup_.mechanism.has_value() ||
@@ -82,6 +86,8 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
     mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
     mechanism_->restore(*state.mechanism);
   }
+  inputs_.restore(state.inputs);
+  command();
   start_.setCounted(state.ledgerAtStart);
   guard_.restore(state.guard);
   taken_ = state.taken;

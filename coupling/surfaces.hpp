@@ -37,6 +37,7 @@ public:
   /// periodic boundary, beyond which grains do not feel it.
   void advance(terrain::Grains& grains, std::int64_t step);
 
+  void setGravity(const base::Vec3d& gravity) { gravity_ = gravity; } ///< [m/s2]
   std::size_t count() const { return surfaces_.size(); }
   const SurfaceSetup& surface(std::size_t i) const { return surfaces_[i]; }
   base::Pose pose(std::size_t i, std::int64_t step) const;

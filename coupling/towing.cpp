@@ -27,29 +27,33 @@ void Towing::book(const vehicle::Assembly& vehicle, const multibody::State& stat
   const double power = dot(wrench_.force, v) + dot(wrench_.torque, w);
   work_ += power * dt;
   const Vec3d left{-ahead_.y, ahead_.x, 0};
-  forces_ += Vec3d{dot(wrench_.force, ahead_), dot(wrench_.force, left), wrench_.force.z};
-  speeds_ += dot(v + cross(w, lever_), ahead_), taken_ -= power, ++steps_;
+  for (Sums* sums : {&rows_, &watch_}) {
+    sums->forces += Vec3d{dot(wrench_.force, ahead_), dot(wrench_.force, left), wrench_.force.z};
+    sums->speeds += dot(v + cross(w, lever_), ahead_), sums->taken -= power, ++sums->steps;
+  }
 }
 
-HitchObservation Towing::observe() const {
-  const double share = steps_ > 0 ? 1 / static_cast<double>(steps_) : 0.0;
+HitchObservation Towing::observe(Means of) const {
+  const Sums& s = of == Means::rows ? rows_ : watch_;
+  const double share = s.steps > 0 ? 1 / static_cast<double>(s.steps) : 0.0;
   HitchObservation o;
-  o.force = forces_ * share, o.pull = 0.0 - o.force.x;
-  o.speed = speeds_ * share, o.power = taken_ * share, o.work = work_;
+  o.force = s.forces * share, o.pull = 0.0 - o.force.x;
+  o.speed = s.speeds * share, o.power = s.taken * share, o.work = work_;
   o.towedWay = hitch_.way(), o.towedSpeed = hitch_.towedSpeed();
   return o;
 }
 
 std::vector<double> Towing::books() const {
-  return {work_.sum, work_.lost, forces_.x, forces_.y, forces_.z, speeds_, taken_, static_cast<double>(steps_)};
+  return {work_.sum,   work_.lost,  rows_.forces.x, rows_.forces.y, rows_.forces.z,
+          rows_.speeds, rows_.taken, static_cast<double>(rows_.steps)};
 }
 
 void Towing::restore(const std::vector<double>& state, const std::vector<double>& books) {
   hitch_.restore(state);
   if (books.size() != this->books().size())
     throw base::InputError("hitch: the checkpoint is of another hitch; resume with the scene that was run");
-  work_.sum = books[0], work_.lost = books[1], forces_ = {books[2], books[3], books[4]};
-  speeds_ = books[5], taken_ = books[6], steps_ = static_cast<std::int64_t>(books[7]);
+  work_.sum = books[0], work_.lost = books[1];
+  rows_ = {{books[2], books[3], books[4]}, books[5], books[6], static_cast<std::int64_t>(books[7])};
 }
 
 } // namespace grouser::coupling

@@ -8,6 +8,7 @@
 #include "vehicle/hitch.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace grouser::coupling {
@@ -30,14 +31,19 @@ class Towing {
 public:
   explicit Towing(const vehicle::HitchOptions& options) : hitch_(options) {}
 
+  /// Force [N] or speed [m/s] from outside; see vehicle::Hitch::command().
+  void command(std::optional<double> value) { hitch_.command(value); }
+  vehicle::HitchKind kind() const { return hitch_.options().kind; }
   /// Adds the hitch's force to the hull's loads, for a step of `dt` [s] that begins at `state`.
   void pull(const vehicle::Assembly& vehicle, const multibody::State& state, const vehicle::Driver& driver, double dt,
             const base::Vec3d& gravity, multibody::Loads& loads);
   /// Books that step's work, with the means of the velocities before and behind it as the bodies' books do.
   void book(const vehicle::Assembly& vehicle, const multibody::State& state, double dt);
 
-  HitchObservation observe() const;
-  void restartMeans() { forces_ = {}, speeds_ = taken_ = 0, steps_ = 0; }
+  /// Two sets of means: of the rows, and of who steps the simulation from outside.
+  enum class Means { rows, watch };
+  HitchObservation observe(Means of = Means::rows) const;
+  void restartMeans(Means of = Means::rows) { sumsOf(of) = {}; }
   double work() const { return work_; } ///< on the vehicle since the start [J]
 
   std::vector<double> save() const { return hitch_.save(); } ///< what later steps depend on
@@ -50,10 +56,16 @@ private:
   multibody::Twist before_;  ///< of the hull, as it began
   base::Vec3d ahead_;        ///< its heading then, level
   base::Vec3d lever_;        ///< of the hitch point
+  /// Summed over steps.
+  struct Sums {
+    base::Vec3d forces;           ///< [N]
+    double speeds = 0, taken = 0; ///< of the speed [m/s] and of the work taken from the vehicle [W]
+    std::int64_t steps = 0;
+  };
+  Sums& sumsOf(Means of) { return of == Means::rows ? rows_ : watch_; }
+
   multibody::CompensatedSum work_;
-  base::Vec3d forces_;            ///< summed over steps [N]
-  double speeds_ = 0, taken_ = 0; ///< the same of the speed [m/s] and of the work taken from the vehicle [W]
-  std::int64_t steps_ = 0;
+  Sums rows_, watch_;
 };
 
 } // namespace grouser::coupling

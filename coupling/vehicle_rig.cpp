@@ -106,10 +106,8 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, con
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
       loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
-      observer_(std::make_unique<vehicle::Observer>(assembly_,
-                                                    vehicle::ObserverOptions{.stone = setup.vehicle->thickestStone,
-                                                                             .heading = setup.vehicle->place.heading,
-                                                                             .gravity = gravity_})),
+      thickestStone_(setup.vehicle->thickestStone), heading_(setup.vehicle->place.heading),
+      observer_(std::make_unique<vehicle::Observer>(assembly_, observerOptions())),
       blows_(assembly_.mass * norm(gravity_)) {
   contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
                                                 setup.vehicle->soilMeetsShoesAlone, kept);
@@ -118,7 +116,8 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, con
 
 void VehicleRig::collectLoads() {
   contacts_->collect(loads_);
-  for (ForceMeans* means : {&rowMeans_, &alarmMeans_}) {
+  for (ForceMeans* means : {&rowMeans_, &alarmMeans_, watch_ ? &watch_->forces : nullptr}) {
+    if (!means) continue;
     means->sums.resize(parts_->contactParts() + contacts_->surfaces());
     for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);
     ++means->steps;
@@ -130,6 +129,7 @@ vehicle::Controls VehicleRig::controls() {
   vehicle::Controls controls = driver_.course()
                                    ? driver_.step(state_.time, timeStep_, vehicle::hullMotion(assembly_, state_))
                                    : driver_.at(state_.time);
+  commands_.layOver(controls);
   if (driver_.options().drive == vehicle::SprocketDrive::engine) vehicle::addEngineTorques(assembly_, state_, controls);
   return controls;
 }
@@ -138,9 +138,12 @@ void VehicleRig::advance() {
   vehicle::applyControls(assembly_, controls(), gravity_, loads_);
   replicated_.run([this] {
     if (towing_) towing_->pull(assembly_, state_, driver_, timeStep_, gravity_, loads_);
+    applied_.add(state_, loads_);
     solver_->step(state_, loads_, timeStep_);
+    applied_.book(state_, timeStep_);
     if (towing_) towing_->book(assembly_, state_, timeStep_);
     observer_->update(state_, timeStep_);
+    if (watch_) watch_->observer.update(state_, timeStep_);
     contacts_->trackTravel(state_);
   });
 }
@@ -157,10 +160,26 @@ vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
   return loads;
 }
 
-vehicle::Observation VehicleRig::observe() const {
-  vehicle::Observation seen = observer_->observe(state_, groundLoads(rowMeans_), surfaceHeight_);
+vehicle::ObserverOptions VehicleRig::observerOptions() const {
+  return {.stone = thickestStone_, .heading = heading_, .gravity = gravity_};
+}
+
+vehicle::Observation VehicleRig::watch() const {
+  return observe(watch_ ? watch_->observer : *observer_, watch_ ? watch_->forces : rowMeans_,
+                 watch_ ? Towing::Means::watch : Towing::Means::rows);
+}
+
+void VehicleRig::restartWatch() {
+  if (!watch_) watch_.emplace(Watch{vehicle::Observer(assembly_, observerOptions())});
+  watch_->observer.restartMeans(), watch_->forces.restart();
+  if (towing_) towing_->restartMeans(Towing::Means::watch);
+}
+
+vehicle::Observation VehicleRig::observe(const vehicle::Observer& observer, const ForceMeans& means,
+                                         Towing::Means ofHitch) const {
+  vehicle::Observation seen = observer.observe(state_, groundLoads(means), surfaceHeight_);
   if (towing_) {
-    seen.drawbarPull = 0.0 - seen.along.of(towing_->observe().force);
+    seen.drawbarPull = 0.0 - seen.along.of(towing_->observe(ofHitch).force);
   } else {
     // The ground's force less the share that holds the weight on a slope.
     const double c = base::cos(seen.heading), s = base::sin(seen.heading);
@@ -279,7 +298,7 @@ void VehicleRig::addTo(Ledger& ledger) const {
   const multibody::Balance b = bodiesBalance();
   const VehicleContacts::Ledger c = contacts_->ledger();
   ledger.kinetic += b.now.kinetic, ledger.work += b.now.kinetic - b.leftOver, ledger.turnover += b.turnover;
-  ledger.driveWork += b.driveWork + (towing_ ? towing_->work() : 0);
+  ledger.driveWork += b.driveWork + (towing_ ? towing_->work() : 0) + applied_.work();
   ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;
   ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
   ledger.dissipated.microSlip += c.slipped, ledger.dissipated.crushing += c.crushed;
@@ -300,6 +319,7 @@ VehicleState VehicleRig::save() const {
   s.observers = observer_->save();
   s.driver = driver_.save();
   if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->books();
+  s.appliedWork = applied_.save();
   contacts_->save(s);
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
   s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
@@ -319,6 +339,7 @@ void VehicleRig::restore(const VehicleState& s) {
   observer_->restore(s.observers);
   driver_.restore(s.driver);
   if (towing_) towing_->restore(s.hitch, s.hitchBooks);
+  applied_.restore(s.appliedWork);
   contacts_->restore(s);
   rowMeans_ = {s.groundForces, s.meanSteps};
   alarmMeans_ = {s.alarmForces, s.alarmSteps};

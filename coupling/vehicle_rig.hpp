@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/applied_loads.hpp"
 #include "multibody/readings.hpp"
 #include "multibody/solver.hpp"
 #include "coupling/simulation_setup.hpp"
@@ -48,8 +49,18 @@ public:
   /// Pose of part `i` of the assembly in the world.
   base::Pose partPose(std::size_t i) const { return vehicle::partPose(assembly_.parts[i], state_); }
 
+  /// Throws base::InputError where this vehicle has nothing that the input could set.
+  void require(const Input& input) const;
+  /// From the next step on what acts among these; all have passed require().
+  void command(const Inputs& inputs);
+  void setGravity(const base::Vec3d& gravity); ///< [m/s2]; inputs besides
+
   /// Ground loads are means since the last restartMeans(): on grains a single step says little.
-  vehicle::Observation observe() const;
+  vehicle::Observation observe() const { return observe(*observer_, rowMeans_, Towing::Means::rows); }
+  /// The same with means of its own, for who steps the simulation from outside: since the last restartWatch(), or the
+  /// state alone before the first.
+  vehicle::Observation watch() const;
+  void restartWatch();
   void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
   void restartMeans();
   const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
@@ -89,6 +100,13 @@ private:
     std::int64_t steps{0};
     void restart() { sums.assign(sums.size(), {}), steps = 0; }
   };
+  /// For who steps from outside.
+  struct Watch {
+    vehicle::Observer observer;
+    ForceMeans forces{};
+  };
+  vehicle::Observation observe(const vehicle::Observer& observer, const ForceMeans& means, Towing::Means ofHitch) const;
+  vehicle::ObserverOptions observerOptions() const;
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
   base::Vec3d groundForce(const ForceMeans& means) const; ///< sum over all parts [N]
   vehicle::Controls controls();
@@ -111,8 +129,12 @@ private:
   multibody::State state_;
   multibody::Loads loads_;
   vehicle::Driver driver_;
+  vehicle::Commands commands_; ///< from outside
+  AppliedLoads applied_;       ///< the same
   std::optional<Towing> towing_;
+  double thickestStone_, heading_; ///< for observers [m], [rad]
   std::unique_ptr<vehicle::Observer> observer_;
+  std::optional<Watch> watch_;
   vehicle::BlowMeter blows_;
   std::unique_ptr<VehicleContacts> contacts_;
   ForceMeans rowMeans_, alarmMeans_;

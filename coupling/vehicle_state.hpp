@@ -32,6 +32,7 @@ struct VehicleState {
   std::int64_t alarmSteps{};             ///< of that sum
   std::vector<double> judged;            ///< SwingGrowth::save(), vehicle::BlowMeter::save()
   std::vector<double> hitchBooks;        ///< Towing::books()
+  std::vector<double> appliedWork;       ///< AppliedLoads::save()
   std::int64_t stalledSteps{};           ///< for which driven tracks have not moved the hull
   base::Vec3l impulseOnParts;            ///< since the start, over the time step
   base::Vec3d angularOnParts;            ///< since the start [N m s]

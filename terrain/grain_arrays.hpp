@@ -68,6 +68,7 @@ public:
     std::apply([&](const auto&... field) { (visit(field), ...); }, GrainFields::all(fields_));
   }
 
+  void setGravityStep(const base::Vec3d& step) { gravityStep_ = step; } ///< g dt [m/s], for grains that enter
   /// Fills slots behind the others; what is not given is zero. Grains that enter count as having fallen freely until
   /// now.
   void append(const EnteringGrains& grains);

@@ -41,11 +41,16 @@ Vec3i signedUnits(const Words3& travelled) {
 
 /// Slots of the grains that this rank integrates, in the order of their ids.
 std::vector<std::uint32_t> ownSlots(const GrainSystem& system) {
+  constexpr std::uint32_t kElsewhere = ~std::uint32_t{0};
   const std::vector<std::uint32_t> id = system.arrays.fields().id.now.toHost(), ghost = system.ghostsOnHost();
-  std::vector<std::uint32_t> slots;
-  for (std::size_t i = 0; i < id.size(); ++i)
-    if (!ghost[i]) slots.push_back(static_cast<std::uint32_t>(i));
-  std::sort(slots.begin(), slots.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
+  std::vector<std::uint32_t> slots, slotOf;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    if (ghost[i]) continue;
+    if (id[i] >= slotOf.size()) slotOf.resize(std::max<std::size_t>(id[i] + std::size_t{1}, system.count), kElsewhere);
+    slotOf[id[i]] = static_cast<std::uint32_t>(i);
+  }
+  for (const std::uint32_t slot : slotOf)
+    if (slot != kElsewhere) slots.push_back(slot);
   return slots;
 }
 
@@ -180,6 +185,13 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   saveBoundarySprings(system, slots, s);
   saveContacts(system, slots, s);
   return system.comm.alone() ? s : redistribute(system.comm, s, blocksOf(system, s.id));
+}
+
+void GrainCheckpoint::readPositions(const GrainSystem& system, double* xyz) {
+  forSlots(system.arrays.fields().position, ownSlots(system), [&](const Position& p) {
+    const Vec3d metres = system.constants.scale.toMetres(p);
+    *xyz++ = metres.x, *xyz++ = metres.y, *xyz++ = metres.z;
+  });
 }
 
 GrainSnapshot GrainCheckpoint::snapshot(const GrainSystem& system, const SnapshotOptions& options) {

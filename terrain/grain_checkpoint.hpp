@@ -11,6 +11,8 @@ class GrainCheckpoint {
 public:
   /// On several ranks this rank's block of ids.
   static GrainState state(const GrainSystem& system);
+  /// x, y, z [m] of this rank's grains in the order of their ids, to memory for three numbers each.
+  static void readPositions(const GrainSystem& system, double* xyz);
   static GrainSnapshot snapshot(const GrainSystem& system, const SnapshotOptions& options);
 
   /// Sends each row to the rank that owns its grain. Throws InputError when they are of other grains.

@@ -99,12 +99,15 @@ void Grains::replaceLaws(const GrainModel& other) {
   if (!alike) throw std::logic_error("other laws of grains with other features than those that they began with");
   model.law = other.law, model.materials.grains = other.materials.grains, model.gravity = other.gravity;
   system_.laws.replacePairs(system_.exec, system_.constants);
+  system_.arrays.setGravityStep(model.gravity * model.timeStep);
   stepper_.forgetGraph();
 }
 
 GrainSnapshot Grains::snapshot(const SnapshotOptions& options) const {
   return GrainCheckpoint::snapshot(system_, options);
 }
+
+void Grains::readPositions(double* xyz) const { GrainCheckpoint::readPositions(system_, xyz); }
 
 GrainState Grains::state() const { return GrainCheckpoint::state(system_); }
 

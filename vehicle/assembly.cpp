@@ -316,8 +316,10 @@ HitchMotion hitchMotion(const Assembly& vehicle, const multibody::State& state, 
 void addEngineTorques(const Assembly& vehicle, const multibody::State& state, Controls& controls) {
   for (const Track& track : vehicle.tracks) {
     const std::size_t side = track.side == Side::kLeft ? 0 : 1;
-    controls.torque[side] =
-        engineTorque(*vehicle.spec.engine, controls.sprocketSpeed[side], state.joint[track.sprocketJoint].rate);
+    const double rate = state.joint[track.sprocketJoint].rate;
+    controls.torque[side] = controls.throttle[side]
+                                ? throttleTorque(*vehicle.spec.engine, *controls.throttle[side], rate)
+                                : engineTorque(*vehicle.spec.engine, controls.sprocketSpeed[side], rate);
   }
 }
 

@@ -19,6 +19,7 @@ public:
   BlowMeter() = default;
   explicit BlowMeter(double weight) : weight_(weight) {} ///< [N]; 0: nothing is a blow
 
+  void setWeight(double weight) { weight_ = weight; } ///< [N]
   /// `up`: mean force of the ground since the last call [N]; NaN where it is not known.
   void add(double time, double up) {
     const double span = time - last_;

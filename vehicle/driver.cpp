@@ -92,7 +92,7 @@ Controls Driver::at(double time) const {
   const std::optional<double> start = driveStart();
   if (!start) return controls;
   controls.held = time < *start;
-  const double drive = smoothRamp(time, *start, options_.driveRamp);
+  const double drive = controls.drive = smoothRamp(time, *start, options_.driveRamp);
   const double t = time - *start;
   controls.sprocketSpeed = {drive * tableValue(options_.speeds.time, options_.speeds.left, t),
                             drive * tableValue(options_.speeds.time, options_.speeds.right, t)};
@@ -100,6 +100,15 @@ Controls Driver::at(double time) const {
     controls.torque = {drive * tableValue(options_.torques.time, options_.torques.left, t),
                        drive * tableValue(options_.torques.time, options_.torques.right, t)};
   return controls;
+}
+
+void Commands::layOver(Controls& controls) const {
+  if (controls.held) return;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (sprocketSpeed[side]) controls.sprocketSpeed[side] = controls.drive * *sprocketSpeed[side];
+    if (torque[side]) controls.torque[side] = controls.drive * *torque[side];
+    if (throttle[side]) controls.throttle[side] = controls.drive * *throttle[side];
+  }
 }
 
 Controls Driver::step(double time, double dt, const HullMotion& motion) {

@@ -54,11 +54,22 @@ struct DriverOptions {
 
 /// What the driver asks for at one time.
 struct Controls {
-  double tension = 1;                        ///< factor on the tensioner's preload, 0..1
-  double weight = 1;                         ///< factor on the vehicle's weight and the arms' preload, 0..1
-  std::array<double, 2> sprocketSpeed{0, 0}; ///< left, right [rad/s]
-  std::array<double, 2> torque{0, 0};        ///< left, right [N m]; where not speeds are given
-  bool held = true;                          ///< sprockets that torques drive are held still
+  double tension = 1;                              ///< factor on the tensioner's preload, 0..1
+  double weight = 1;                               ///< factor on the vehicle's weight and the arms' preload, 0..1
+  std::array<double, 2> sprocketSpeed{0, 0};       ///< left, right [rad/s]
+  std::array<double, 2> torque{0, 0};              ///< left, right [N m]; where not speeds are given
+  bool held = true;                                ///< sprockets that torques drive are held still
+  double drive = 0;                                ///< ramp of the drive, 0..1; speeds and torques have it in them
+  std::array<std::optional<double>, 2> throttle{}; ///< of the engines, -1..1; empty: the governors'
+};
+
+/// What is set from outside in place of the driver, left and right; empty: the driver's.
+struct Commands {
+  std::array<std::optional<double>, 2> sprocketSpeed{}; ///< [rad/s]
+  std::array<std::optional<double>, 2> torque{};        ///< [N m]
+  std::array<std::optional<double>, 2> throttle{};      ///< of the engines [-], -1..1
+  /// Puts them into `controls` once the drive has begun, with its ramp.
+  void layOver(Controls& controls) const;
 };
 
 /// Tension, then weight, then drive, each on a smooth ramp: a step of the tension gives peaks of 16 kN where a ramp

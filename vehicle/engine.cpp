@@ -14,13 +14,27 @@ double fullLoadTorque(const EngineSpec& engine, double speed) {
   return torque.back();
 }
 
+namespace {
+
+/// Of an engine that drives, in the gear for that direction.
+double driveTorque(const EngineSpec& engine, double throttle, bool forwards, double speed) {
+  // Rolling against the gear the engine stands at the low end of its curve.
+  const double shaft = forwards ? speed * engine.ratio : -speed * engine.ratio;
+  return throttle * engine.ratio * engine.efficiency * fullLoadTorque(engine, std::max(0.0, shaft));
+}
+
+} // namespace
+
 double engineTorque(const EngineSpec& engine, double wanted, double speed) {
   const double most = engine.governedSpeed / engine.ratio, w = std::clamp(wanted, -most, most);
   const double throttle = std::clamp((w - speed) * engine.ratio / engine.droop, -1.0, 1.0);
   if (w == 0 || throttle * w < 0) return throttle * engine.brakeTorque;
-  // Rolling against the gear the engine stands at the low end of its curve.
-  const double shaft = w > 0 ? speed * engine.ratio : -speed * engine.ratio;
-  return throttle * engine.ratio * engine.efficiency * fullLoadTorque(engine, std::max(0.0, shaft));
+  return driveTorque(engine, throttle, w > 0, speed);
+}
+
+double throttleTorque(const EngineSpec& engine, double throttle, double speed) {
+  if (throttle * speed < 0) return throttle * engine.brakeTorque;
+  return driveTorque(engine, throttle, throttle > 0, speed);
 }
 
 double governorSlope(const EngineSpec& engine) {

@@ -18,6 +18,10 @@ double fullLoadTorque(const EngineSpec& engine, double speed);
 /// than asked by d L / (full load at the sprocket).
 double engineTorque(const EngineSpec& engine, double wanted, double speed);
 
+/// The same without a governor, at a throttle that is given, -1 to 1: it drives with its share of the full load,
+/// forward where positive; against the way the sprocket turns it brakes with its share of the brake's torque.
+double throttleTorque(const EngineSpec& engine, double throttle, double speed);
+
 /// The steepest slope of that torque over the sprocket's speed [N m s/rad]: together with the inertia that it turns it
 /// makes the time that a step must resolve.
 double governorSlope(const EngineSpec& engine);

@@ -43,6 +43,13 @@ void Hitch::takeHold(const HitchMotion& m) {
   place_ = origin_ - line_ * options_.length, motion_ = line_ * begun_;
 }
 
+void Hitch::command(std::optional<double> value) {
+  if (value && options_.kind != HitchKind::force && options_.kind != HitchKind::speed)
+    throw base::InputError(
+        "hitch: a ramp or a sled has neither force nor speed that can be set; use kind force or speed");
+  command_ = value;
+}
+
 Vec3d Hitch::step(const HitchMotion& m, double sinceDrive, double dt, const Vec3d& gravity) {
   const HitchOptions& o = options_;
   const double since = sinceDrive - o.start;
@@ -51,7 +58,7 @@ Vec3d Hitch::step(const HitchMotion& m, double sinceDrive, double dt, const Vec3
   const Vec3d ahead{m.forwardX, m.forwardY, 0};
   switch (o.kind) {
   case HitchKind::force:
-    return ahead * (-smoothRamp(since, 0, o.ramp) * o.force);
+    return ahead * (-smoothRamp(since, 0, o.ramp) * command_.value_or(o.force));
   case HitchKind::ramp:
     return ahead * -(o.force + o.rate * since);
   case HitchKind::sled:
@@ -83,7 +90,7 @@ Vec3d Hitch::pullCarriage(const HitchMotion& m, double since, double dt) {
   const HitchOptions& o = options_;
   const double share = smoothRamp(since, 0, o.ramp);
   const double ahead = dot(levelled(m.position) - origin_, line_) - way_;
-  speed_ = (1 - share) * begun_ + share * (1 - o.slip) * m.trackSpeed;
+  speed_ = (1 - share) * begun_ + share * command_.value_or((1 - o.slip) * m.trackSpeed);
   const double force = o.stiffness * ahead + o.damping * (dot(m.velocity, line_) - speed_);
   way_ += speed_ * dt;
   return line_ * -force;

@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace grouser::vehicle {
@@ -61,6 +62,10 @@ public:
   /// (negative: before it). Once a step.
   base::Vec3d step(const HitchMotion& motion, double sinceDrive, double dt, const base::Vec3d& gravity);
 
+  /// From the next step on the force [N] of a hitch of kind force, or the speed [m/s] of a carriage, in place of what
+  /// the options say; empty: as they say. Ramps stay. Throws base::InputError on another kind.
+  void command(std::optional<double> value);
+
   /// Has it taken hold?
   bool holds() const { return holds_; }
   /// Way of sled or carriage since the hitch took hold [m]: of a sled along its path; 0 of a force.
@@ -79,13 +84,14 @@ private:
 
   HitchOptions options_;
   bool holds_ = false;
-  base::Vec3d origin_; ///< level place of the hitch when it took hold [m]
-  base::Vec3d line_;   ///< its heading then
-  double begun_{};     ///< speed of the hitch along it then [m/s]
-  base::Vec3d place_;  ///< of the sled, level [m]
-  base::Vec3d motion_; ///< its velocity [m/s]
-  double way_{};       ///< of sled or carriage [m]
-  double speed_{};     ///< of the carriage [m/s]
+  base::Vec3d origin_;            ///< level place of the hitch when it took hold [m]
+  base::Vec3d line_;              ///< its heading then
+  double begun_{};                ///< speed of the hitch along it then [m/s]
+  base::Vec3d place_;             ///< of the sled, level [m]
+  base::Vec3d motion_;            ///< its velocity [m/s]
+  double way_{};                  ///< of sled or carriage [m]
+  double speed_{};                ///< of the carriage [m/s]
+  std::optional<double> command_; ///< see command()
 };
 
 } // namespace grouser::vehicle

@@ -103,6 +103,7 @@ public:
   Observation observe(const multibody::State& state, const GroundLoads& ground, const SurfaceHeight& surface) const;
   /// The alarm alone, cheap enough for every step or every few: "" while all is well.
   std::string alarm(const multibody::State& state, const GroundLoads& ground) const;
+  void setGravity(const base::Vec3d& gravity) { gravity_ = gravity; } ///< [m/s2]
   /// Begins the means of torque and power anew. Before the first update() behind it they are those of the state.
   void restartMeans();
   const Travel& travel(int track) const { return travel_[track]; }

@@ -99,12 +99,19 @@ void runCommand(const RunCommand& command) {
   if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
   if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
   sweeps::checkGivenOnce(overrides);
-  const scene::Scene scene = setup::loadScene(command.scene, overrides);
+  const fs::path replayed = fs::path(command.replay).lexically_normal();
+  const scene::Scene scene =
+      setup::loadScene(command.replay.empty() ? fs::path(command.scene) : replayed / "scene.toml", overrides);
   if (!command.ranks || command.ranks->comm().first()) scene::printNotes(scene);
 
   session::RunRequest options;
   options.folder = folderOf(scene, command.folder);
-  options.force = command.force, options.hash = command.hash, options.steps = command.steps;
+  if (!command.replay.empty()) {
+    options.replay = replayed;
+    if (command.folder.empty())
+      options.folder = (replayed.has_filename() ? replayed : replayed.parent_path()).string() + "_replay";
+  }
+  options.force = command.force, options.hash = command.hash || options.replay, options.steps = command.steps;
   options.cache = command.cache;
   options.commandLine = command.commandLine;
   options.switches = switchesText(scene);

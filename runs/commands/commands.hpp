@@ -25,6 +25,7 @@ struct RunCommand {
   bool hash = false;
   bool resume = false;
   std::string checkpoint; ///< of --resume; empty: that of the folder
+  std::string replay;     ///< folder of the run to repeat, instead of a scene; empty: none
   std::string commandLine;
   const base::Ranks* ranks = nullptr; ///< that run it together
 };

@@ -13,7 +13,7 @@ void addRun(CLI::App& app, const Invocation& invocation) {
   RunCommand& c = *command;
   c.ranks = &invocation.ranks, c.commandLine = invocation.words;
   CLI::App* run = app.add_subcommand("run", "Settle the bed, lower the vehicle, drive, and write the results");
-  run->add_option("scene", c.scene, "scene file; `grouser fields` lists its keys")->required();
+  CLI::Option* scene = run->add_option("scene", c.scene, "scene file; `grouser fields` lists its keys");
   run->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
   run->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   run->add_option("--threads", c.threads, "CPU threads, 0 for all; the answer does not depend on it")
@@ -26,9 +26,16 @@ void addRun(CLI::App& app, const Invocation& invocation) {
                       "go on from this checkpoint as if the run had not been stopped; default: that of its folder")
           ->expected(0, 1)
           ->type_name("[FILE]");
+  run->add_option(
+         "--replay", c.replay,
+         "repeat the run of this folder, with all that was set from outside while it went; compares the hashes")
+      ->excludes(scene)
+      ->excludes(resume);
   run->add_flag("!--no-cache", c.cache, "settle the bed and cut the parts anew, and keep neither");
   run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
   run->callback([command, resume] {
+    if (command->scene.empty() && command->replay.empty())
+      throw CLI::RequiredError("run: a scene file, or --replay FOLDER");
     command->resume = resume->count() > 0;
     runCommand(*command);
   });

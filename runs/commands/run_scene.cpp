@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/run_scene.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "coupling/mechanism.hpp"
 #include "coupling/simulation.hpp"
@@ -171,6 +172,18 @@ void drive(session::RunSession& run) {
   progress.finish(fmt::format("{} step{}", simulation.steps(), simulation.steps() == 1 ? "" : "s"));
 }
 
+/// Compares the end of a repeated run with that of the recorded one. Throws SimulationError where they differ.
+void describeReplay(const session::RecordedRun& recorded, const std::string& stateHash) {
+  fmt::print("replay    {} of {}: {}\n", base::counted(recorded.inputs.size(), "input"), recorded.folder.string(),
+             recorded.stateHash.empty()        ? "no state hash there to compare with"
+             : recorded.stateHash == stateHash ? "the same state hash"
+                                               : "ANOTHER STATE HASH");
+  if (!recorded.stateHash.empty() && recorded.stateHash != stateHash)
+    throw base::SimulationError(
+        fmt::format("the replay ends with state hash {}, {} with {}; replay with the program (commit) that wrote it",
+                    stateHash, recorded.folder.string(), recorded.stateHash));
+}
+
 /// `hasFolder`: whether it came so far that the folder is that of this run.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance,
                             const session::RunRequest& options, bool& hasFolder) {
@@ -190,8 +203,9 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
       setup::simulationSetup(scene, comm.size(), setup::SizeChecks::passed), record, exec, former.get(), options, kept);
   coupling::Simulation& simulation = *made;
   const double timeStep = simulation.timeStep();
-  const std::int64_t all = std::llround(record.run.duration / timeStep), begin = simulation.steps(),
-                     total = std::min(all, options.steps.value_or(all));
+  const session::RecordedRun recorded = options.replay ? session::recordedRun(*options.replay) : session::RecordedRun{};
+  const std::int64_t all = options.replay ? recorded.steps : std::llround(record.run.duration / timeStep),
+                     begin = simulation.steps(), total = std::min(all, options.steps.value_or(all));
   if (begin > total)
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));
@@ -203,6 +217,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   if (!former && comm.first()) warnOf(scene, simulation);
   session::RunSession run(simulation, record, options, exec, former.get(), total);
   hasFolder = true;
+  run.replay(recorded.inputs);
   if (!ofBed.empty()) run.writer().fact("bed_warnings", fmt::format("{}", fmt::join(ofBed, "; ")));
   if (former) fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
   output::Summary summary;
@@ -235,6 +250,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     summary.figures["microseconds_a_step"] =
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, simulation.steps() - begin));
     if (options.hash) summary.stateHash = simulation.stateHash();
+    if (options.replay && total == all) describeReplay(recorded, summary.stateHash);
     describeLedger(simulation);
     describeSqueezed(simulation, run.recorder(), summary);
     fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step), {:.1f} s of CPU "

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/rounded.hpp"
+#include "coupling/inputs.hpp"
 #include "runs/output/frames_file.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/storage/checkpoint.hpp"
@@ -105,6 +106,8 @@ struct RunWriter::Series {
   Manifest manifest;
   std::size_t width = 0;
   std::int64_t rowsWritten = 0;
+  std::optional<support::GrowingDataset> inputs; ///< made by the first
+  std::size_t inputsWritten = 0;                 ///< [numbers]
 
   /// While former rows are copied the new files have another name, so that a kill loses none.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
@@ -300,6 +303,19 @@ void RunWriter::setParts(std::vector<FramePart> parts, const base::TriangleMesh&
   } else {
     w.frames.emplace(w.folder, std::move(parts), ground, w.options.comm);
   }
+}
+
+void RunWriter::inputs(const std::vector<double>& all) {
+  if (!impl_->series || all.size() <= impl_->series->inputsWritten) return;
+  Series& s = *impl_->series;
+  constexpr int kWidth = coupling::Input::kNumbers;
+  if (!s.inputs) {
+    s.inputs = s.results.growing(kInputs.path, support::NumberType::Float64, kWidth, kChunkRows);
+    s.results.attribute(kInputs.path, "unit", std::string(kInputs.unit));
+    s.results.attribute(kInputs.path, "help", std::string(kInputs.help));
+    s.results.attribute(kInputs.path, "kinds", base::wordsOf<coupling::InputKind>());
+  }
+  for (; s.inputsWritten < all.size(); s.inputsWritten += kWidth) s.inputs->append(all.data() + s.inputsWritten);
 }
 
 void RunWriter::row(const Row& row) {

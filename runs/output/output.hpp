@@ -74,6 +74,9 @@ public:
   /// Parts and rigid ground of the pictures; once, before the first frame. The ground mesh may be empty.
   void setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground);
 
+  /// All that has been set from outside so far, coupling::Input::kNumbers a setting; in results.h5: inputs/series.
+  void inputs(const std::vector<double>& all);
+
   void row(const Row& row);
   void frame(const Frame& frame);
   /// Closes the files and completes the manifest. Without it the manifest says

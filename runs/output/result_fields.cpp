@@ -111,6 +111,9 @@ std::vector<FileField> resultFields() {
       fieldOf(kSurfaceFinal, "[lines, columns]"),
       {std::string(kSurfaceHeight.path) + "@interpolation", "text", "", "",
        "between the nodes: \"bilinear\", \"Catmull-Rom\" or \"monotone\""}};
+  fields.push_back(fieldOf(kInputs, "[settings, 10]"));
+  fields.push_back(
+      {std::string(kInputs.path) + "@kinds", "texts", "", "", "what can be set, in the order of its numbers"});
   for (const BedConstant& c : kBedConstants) fields.push_back(fieldOf(c.constant, "[1]"));
   for (const BedCurve& c : kBedCurves) fields.push_back(fieldOf(c.curve, "[n]"));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfHull()) add(fields, channelOf(q));

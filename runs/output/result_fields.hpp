@@ -57,6 +57,12 @@ inline constexpr ResultConstant kSurfaceX{"terrain/surface/x", "m", "of the node
         "of the bed's surface at the same nodes at the end of the run, found alike: what is below `height` are "
         "ruts; a bed under a vehicle alone, and where output.final_surface asks for it"};
 
+/// What was set from outside while the run went, where anything was.
+inline constexpr ResultConstant kInputs{
+    "inputs/series", "-, various",
+    "a row a setting: step before which it was made, kind (its place in the attribute kinds), target (track 0 left, 1 "
+    "right; place of a body), 1 where it was released, six values in the unit of the kind"};
+
 /// All that results.h5 may hold. Of each quantity of a series the dataset `value`; beside it lie `step` and `time`.
 std::vector<support::FileField> resultFields();
 

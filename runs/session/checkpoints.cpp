@@ -17,6 +17,15 @@ constexpr std::size_t kMostRemembered = 2'000'000; ///< grains: half a gigabyte
 
 } // namespace
 
+storage::Checkpoint checkpointOf(const coupling::Simulation& simulation, const setup::Provenance& provenance) {
+  storage::Checkpoint checkpoint;
+  checkpoint.scene = provenance.resolved, checkpoint.inputs = provenance.inputs;
+  checkpoint.commit = support::buildInfo().commit, checkpoint.timeStep = simulation.timeStep();
+  if (const auto& grains = simulation.ground().grains) checkpoint.lengths = storage::lengthsOf(*grains);
+  checkpoint.state = simulation.save();
+  return checkpoint;
+}
+
 Checkpoints::Checkpoints(const setup::Provenance& provenance, const RunRequest& options)
     : path_(options.folder / storage::kCheckpointName) {
   checkpoint_.scene = provenance.resolved;

@@ -15,6 +15,9 @@
 
 namespace grouser::session {
 
+/// Of a simulation as it is now, without rows and frames.
+storage::Checkpoint checkpointOf(const coupling::Simulation& simulation, const setup::Provenance& provenance);
+
 /// The checkpoint of a run, written again and again.
 class Checkpoints {
 public:

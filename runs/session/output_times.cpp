@@ -2,9 +2,9 @@
 #include "runs/session/output_times.hpp"
 
 #include "runs/output/plots.hpp"
+#include "runs/session/checkpoints.hpp"
 #include "runs/session/recorder.hpp"
 #include "runs/storage/checkpoint.hpp"
-#include "runs/support/build_info.hpp"
 #include "runs/support/stopwatch.hpp"
 
 #include <algorithm>
@@ -70,13 +70,7 @@ OutputTimes timeOutput(coupling::Simulation& simulation, const setup::RecordSetu
       times.picture = picture.seconds();
     }
     const Stopwatch saving;
-    storage::Checkpoint checkpoint;
-    const setup::Provenance& from = record.provenance;
-    checkpoint.scene = from.resolved, checkpoint.inputs = from.inputs;
-    checkpoint.commit = support::buildInfo().commit, checkpoint.timeStep = simulation.timeStep();
-    if (const auto& grains = simulation.ground().grains) checkpoint.lengths = storage::lengthsOf(*grains);
-    checkpoint.state = simulation.save();
-    storage::writeCheckpoint(files / storage::kCheckpointName, checkpoint);
+    storage::writeCheckpoint(files / storage::kCheckpointName, checkpointOf(simulation, record.provenance));
     times.checkpoint = saving.seconds(), times.checkpointBytes = files.bytesOf(storage::kCheckpointName);
     recorder.writer().finish({});
   }

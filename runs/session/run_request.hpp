@@ -15,6 +15,7 @@ struct RunRequest {
   std::filesystem::path folder;                ///< of the results
   bool force = false;                          ///< overwrite what is there
   std::optional<std::filesystem::path> resume; ///< go on from this checkpoint, in the folder it lies in
+  std::optional<std::filesystem::path> replay; ///< set what was set in the run of this folder
   bool hash = false;                           ///< take the state hash at the end
   std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
   std::string commandLine;                     ///< for the manifest

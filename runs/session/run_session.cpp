@@ -40,10 +40,12 @@ bool RunSession::goesOn() const {
 }
 
 void RunSession::advance(std::int64_t most) {
+  most = replay_.apply(simulation_, most);
   const auto until = [now = simulation_.steps()](std::int64_t every) { return every - now % every; };
   simulation_.advance(
       std::min({most, total_ - simulation_.steps(), until(rowEvery_), until(frameEvery_), until(saveEvery_)}));
   const std::int64_t now = simulation_.steps();
+  if (!simulation_.inputs().series().empty()) writer().inputs(simulation_.inputs().save());
   if (now % rowEvery_ == 0) recorder_.row();
   if (now % frameEvery_ == 0) recorder_.frame();
   if (now % rowEvery_ == 0) checkpoints_.remember(simulation_, writer());

@@ -3,11 +3,14 @@
 
 #include "runs/session/checkpoints.hpp"
 #include "runs/session/recorder.hpp"
+#include "runs/session/replay.hpp"
 #include "runs/session/signal_watch.hpp"
 #include "runs/support/not_written.hpp"
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace grouser::session {
 
@@ -20,6 +23,8 @@ public:
   RunSession(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& request,
              const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total);
 
+  /// Sets these inputs at their steps from now on.
+  void replay(std::vector<coupling::Input> inputs) { replay_ = Replay(std::move(inputs)); }
   /// The first row and frame of a run that does not go on from a checkpoint.
   void begin();
   /// Whether steps are left: neither the end nor what [stop] names has come.
@@ -60,6 +65,7 @@ private:
   Recorder recorder_;
   Checkpoints checkpoints_;
   SignalWatch signals_;
+  Replay replay_;
 };
 
 template <class Write> void RunSession::record(const Write& write) {

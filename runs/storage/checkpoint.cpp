@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 12; // checkpoint file layout
+constexpr int kVersion = 13; // checkpoint file layout
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
@@ -65,6 +65,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   }
   archive("/undisturbed_surface", s.surface);
   archive("/lifts", s.lifts);
+  archive("/inputs", s.inputs);
   if (archive.present("/mechanism", s.mechanism)) {
     archive("/mechanism/bodies", s.mechanism->bodies);
     archive("/mechanism/worst", s.mechanism->worst);
@@ -101,6 +102,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/driver", v.driver);
     archive("/vehicle/hitch", v.hitch);
     archive("/vehicle/hitch_books", v.hitchBooks);
+    archive("/vehicle/applied_work", v.appliedWork);
     archive("/vehicle/track/states", v.track.states);
     archive("/vehicle/track/sums", v.track.sums);
     archive("/vehicle/ground/states", v.ground.states);

@@ -49,6 +49,10 @@ constexpr Meaning kMeanings[] = {
     {"bed/porosity_at_depth", "-", "at that depth"},
     {"undisturbed_surface", "m", "heights of its nodes"},
     {"lifts", "m", "of what was put on a settled bed"},
+    {"inputs", "-, various",
+     "set from outside, ten numbers a setting: step before which, kind, target (track or body), 1 where released, then "
+     "six values; kinds in order: sprocket_speed [rad/s], sprocket_torque [N m], throttle [-], hitch_force [N], "
+     "hitch_speed [m/s], gravity [m/s2], body_load [N, N m]"},
     {"mechanism/bodies", "m, -, m/s, rad/s", "places, velocities, springs and books of all bodies"},
     {"mechanism/worst", "m, -, -", "since the last row: widest gap of a joint, most iterations, singular steps"},
     {"mechanism/judged", "-, N, -, -, -",
@@ -113,6 +117,7 @@ constexpr Meaning kMeanings[] = {
      "sled or carriage, speed of the carriage; empty without a hitch"},
     {"vehicle/hitch_books", "J, N, m/s, W, -",
      "its work since the start, and sums since the last row of force, speed and power, and of how many steps"},
+    {"vehicle/applied_work", "J", "of loads that were set from outside, and what its sum has rounded off"},
     {"vehicle/track/states", "m, N/m, J",
      "of contacts of shoes with sprocket, wheels, rollers and idler: spring, its stiffness, dissipated"},
     {"vehicle/track/sums", "-",

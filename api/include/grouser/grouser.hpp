@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// All of grouser's public interface. What lies below <grouser/internal/> may change at any time.
+#include <grouser/errors.hpp>
+#include <grouser/scene.hpp>
+#include <grouser/simulation.hpp>
+#include <grouser/types.hpp>
+#include <grouser/vehicle.hpp>
+#include <grouser/version.hpp>

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <grouser/types.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace grouser {
+
+/// What is to be simulated: a scene file, or the same as text, with changed values. docs/keys.md lists all keys. Each
+/// function that changes it checks the whole scene and throws InputError, with nothing changed, where that is wrong.
+/// Values are copied; copies are cheap.
+class Scene {
+public:
+  /// Reads a scene file.
+  static Scene fromFile(const std::filesystem::path& file);
+  /// A scene as TOML text. Paths in it are relative to `folder`, and assets by name are found as in a file.
+  static Scene fromText(std::string_view toml, const std::filesystem::path& folder = ".");
+
+  /// Sets a key by its whole name, e.g. set("driver.sprocket_speed", 1.5) or set("material.soil.friction", 0.6).
+  Scene& set(std::string_view key, double value);
+  Scene& set(std::string_view key, int value);
+  Scene& set(std::string_view key, bool value);
+  Scene& set(std::string_view key, const char* value);
+  Scene& set(std::string_view key, std::string_view value);
+  Scene& set(std::string_view key, const std::vector<double>& values);
+
+  std::string name() const;
+  double duration() const;     ///< run.duration [s]; Simulation::step() may go beyond it
+  std::string resolved() const; ///< with every default filled in, as TOML
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+private:
+  explicit Scene(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  Scene& put(std::string_view key, std::string value);
+  std::shared_ptr<const Impl> impl_;
+};
+
+} // namespace grouser

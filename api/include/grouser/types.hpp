@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace grouser {
+
+/// World axes: x and y level, z up. SI units and radians throughout.
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+};
+
+/// Unit quaternion of a rotation from the body's axes to the world's.
+struct Quaternion {
+  double w = 1, x = 0, y = 0, z = 0;
+};
+
+/// A rigid body: of the vehicle ("hull", "left shoe 0", ...) or of a mechanism.
+struct Body {
+  std::string name;
+  double mass = 0;        ///< [kg]
+  Vec3 position;          ///< of the centre of mass [m]
+  Quaternion orientation; ///< body to world
+  Vec3 velocity;          ///< of the centre of mass [m/s]
+  Vec3 spin;              ///< angular velocity, world axes [rad/s]
+};
+
+/// All grains, ascending by id. On several ranks each has a block of ids.
+struct Grains {
+  std::vector<Vec3> position;        ///< [m]
+  std::vector<float> velocity, spin; ///< x, y, z of each grain [m/s], [rad/s]
+  std::vector<float> radius;         ///< [m], one a grain
+  std::vector<unsigned> id;
+};
+
+/// Energies since the first step [J]. With steps of finite length
+///   kinetic + potential + elastic + dissipated + integrationError = work + residual.
+struct Energies {
+  double kinetic = 0, potential = 0, elastic = 0, dissipated = 0;
+  double work = 0;             ///< of drives, hitch and loads set from outside
+  double integrationError = 0; ///< falls with the time step
+  double residual = 0;         ///< rounding
+};
+
+} // namespace grouser

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <grouser/scene.hpp>
+
+#include "api/detail/run.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace grouser {
+
+namespace {
+
+std::shared_ptr<const Scene::Impl> loaded(std::optional<std::string> text, const std::filesystem::path& file,
+                                          std::vector<std::string> overrides) {
+  return detail::translated([&] {
+    auto impl = std::make_shared<Scene::Impl>();
+    impl->scene = text ? setup::parseScene(*text, file, overrides) : setup::loadScene(file, overrides);
+    impl->text = std::move(text), impl->file = file, impl->overrides = std::move(overrides);
+    return std::shared_ptr<const Scene::Impl>(std::move(impl));
+  });
+}
+
+std::string quoted(std::string_view text) {
+  std::string all = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') all += '\\';
+    all += c;
+  }
+  return all + '"';
+}
+
+} // namespace
+
+Scene Scene::fromFile(const std::filesystem::path& file) { return Scene(loaded({}, file, {})); }
+
+Scene Scene::fromText(std::string_view toml, const std::filesystem::path& folder) {
+  return Scene(loaded(std::string(toml), folder / "scene.toml", {}));
+}
+
+/// In place of what was set for the same key.
+Scene& Scene::put(std::string_view key, std::string value) {
+  std::vector<std::string> overrides = impl_->overrides;
+  const std::string begin = std::string(key) + '=';
+  overrides.erase(std::remove_if(overrides.begin(), overrides.end(),
+                                 [&](const std::string& o) { return o.compare(0, begin.size(), begin) == 0; }),
+                  overrides.end());
+  overrides.push_back(begin + std::move(value));
+  impl_ = loaded(impl_->text, impl_->file, std::move(overrides));
+  return *this;
+}
+
+Scene& Scene::set(std::string_view key, double value) { return put(key, fmt::format("{}", value)); }
+Scene& Scene::set(std::string_view key, int value) { return put(key, fmt::format("{}", value)); }
+Scene& Scene::set(std::string_view key, bool value) { return put(key, value ? "true" : "false"); }
+Scene& Scene::set(std::string_view key, const char* value) { return put(key, quoted(value)); }
+Scene& Scene::set(std::string_view key, std::string_view value) { return put(key, quoted(value)); }
+
+Scene& Scene::set(std::string_view key, const std::vector<double>& values) {
+  std::string list = "[";
+  for (const double v : values) list += fmt::format("{}{}", list.size() > 1 ? ", " : "", v);
+  return put(key, list + "]");
+}
+
+std::string Scene::name() const { return impl_->scene.name(); }
+double Scene::duration() const { return impl_->scene.run.duration; }
+std::string Scene::resolved() const {
+  return detail::translated([&] { return setup::provenanceOf(impl_->scene).resolved; });
+}
+
+} // namespace grouser

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <grouser/simulation.hpp>
+#include <grouser/version.hpp>
+
+#include "api/detail/run.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "runs/support/build_info.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace grouser {
+
+namespace {
+
+Vec3 outside(const base::Vec3d& v) { return {v.x, v.y, v.z}; }
+
+} // namespace
+
+const char* version() {
+  static const std::string text = support::buildInfo().version;
+  return text.c_str();
+}
+
+const char* commit() {
+  static const std::string text = support::buildInfo().commit;
+  return text.c_str();
+}
+
+Ranks::Ranks(int& argc, char**& argv) : impl_(std::make_unique<Impl>(argc, argv)) {}
+Ranks::~Ranks() = default;
+int Ranks::rank() const { return impl_->ranks.comm().rank(); }
+int Ranks::size() const { return impl_->ranks.comm().size(); }
+
+Simulation::Simulation(std::unique_ptr<detail::Run> run) : run_(std::move(run)) {}
+Simulation::Simulation(const Scene& scene, const Options& options)
+    : run_(detail::translated([&] { return std::make_unique<detail::Run>(scene, options, std::nullopt); })) {}
+Simulation Simulation::resumed(const Scene& scene, const std::filesystem::path& checkpoint, const Options& options) {
+  return Simulation(detail::translated([&] { return std::make_unique<detail::Run>(scene, options, checkpoint); }));
+}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step(std::int64_t count, const std::function<bool()>& keepGoing) { run_->step(count, keepGoing); }
+
+void Simulation::stepFor(double seconds) {
+  step(std::max<std::int64_t>(1, std::llround(seconds / run_->simulation->timeStep())));
+}
+
+const std::string& Simulation::ended() const {
+  static const std::string none;
+  return run_->simulation->vehicle() ? run_->simulation->vehicle()->ended() : none;
+}
+
+double Simulation::time() const { return run_->simulation->time(); }
+double Simulation::timeStep() const { return run_->simulation->timeStep(); }
+std::int64_t Simulation::steps() const { return run_->simulation->steps(); }
+std::string Simulation::device() const { return base::describe(run_->exec); }
+bool Simulation::hasVehicle() const { return run_->simulation->vehicle() != nullptr; }
+
+Vehicle Simulation::vehicle() {
+  run_->rig();
+  return Vehicle(*run_);
+}
+
+std::size_t Simulation::grainCount() const {
+  const auto& grains = run_->simulation->ground().grains;
+  return grains ? grains->count() : 0;
+}
+
+Grains Simulation::grains() const {
+  Grains out;
+  const auto& grains = run_->simulation->ground().grains;
+  if (!grains) return out;
+  return detail::translated([&] {
+    const terrain::GrainSnapshot s = grains->snapshot();
+    out.id.assign(s.id.begin(), s.id.end());
+    for (const base::Vec3d& p : s.position) out.position.push_back(outside(p));
+    for (const base::Vec3f& v : s.velocity) out.velocity.insert(out.velocity.end(), {v.x, v.y, v.z});
+    for (const base::Vec3f& w : s.spin) out.spin.insert(out.spin.end(), {w.x, w.y, w.z});
+    out.radius = s.radius;
+    if (out.radius.empty()) out.radius.assign(s.id.size(), static_cast<float>(grains->model().radius));
+    return out;
+  });
+}
+
+void Simulation::readPositions(std::vector<Vec3>& positions) const {
+  const auto& grains = run_->simulation->ground().grains;
+  positions.resize(grains ? grains->ownCount() : 0);
+  if (grains) grains->readPositions(&positions.data()->x);
+}
+
+std::vector<Body> Simulation::bodies() const {
+  const coupling::Simulation& s = *run_->simulation;
+  const multibody::Model* model = s.vehicle() ? &s.vehicle()->assembly().model : nullptr;
+  const multibody::State* state = s.vehicle() ? &s.vehicle()->state() : nullptr;
+  if (s.mechanism()) model = &s.mechanism()->model(), state = &s.mechanism()->state();
+  std::vector<Body> bodies;
+  for (std::size_t b = 0; model && b < model->bodies().size(); ++b) {
+    const multibody::Body& body = model->bodies()[b];
+    const base::Quat& q = state->pose[b].orientation;
+    bodies.push_back({body.name, body.mass, outside(state->pose[b].position), {q.w, q.x, q.y, q.z},
+                      outside(state->twist[b].v), outside(state->twist[b].w)});
+  }
+  return bodies;
+}
+
+Energies Simulation::energies() const {
+  const coupling::Ledger l = run_->simulation->ledger();
+  return {l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.driveWork, l.integrationError, l.residual};
+}
+
+void Simulation::setGravity(const Vec3& g) { run_->set(coupling::InputKind::gravity, 0, {g.x, g.y, g.z}); }
+void Simulation::releaseGravity() { run_->release(coupling::InputKind::gravity, 0); }
+
+void Simulation::setLoad(std::string_view body, const Vec3& f, const Vec3& t) {
+  const auto index = detail::translated([&] { return run_->simulation->bodyIndex(std::string(body)); });
+  run_->set(coupling::InputKind::bodyLoad, index, {f.x, f.y, f.z, t.x, t.y, t.z});
+}
+
+void Simulation::releaseLoad(std::string_view body) {
+  const auto index = detail::translated([&] { return run_->simulation->bodyIndex(std::string(body)); });
+  run_->release(coupling::InputKind::bodyLoad, index);
+}
+
+void Simulation::save(const std::filesystem::path& checkpoint) const {
+  detail::translated([&] {
+    storage::writeCheckpoint(checkpoint, session::checkpointOf(*run_->simulation, run_->record.provenance), run_->comm());
+  });
+}
+
+void Simulation::restore(const std::filesystem::path& checkpoint) {
+  detail::Run& run = *run_;
+  if (run.session)
+    throw InputError("restore(): a folder is being written, whose rows would come twice; make the simulation without "
+                     "a folder, or Simulation::resumed() with another");
+  detail::translated([&] {
+    session::RunRequest request = run.request;
+    request.resume = checkpoint;
+    run.former = session::formerRun(run.record.provenance, request);
+    run.simulation = std::make_unique<coupling::Simulation>(setup::simulationSetup(run.scene, run.comm().size()), run.exec,
+                                                            run.former->state, run.comm(),
+                                                            run.kept.spheres ? &*run.kept.spheres : nullptr);
+    run.simulation->restartWatch();
+    run.finished = false;
+  });
+}
+
+std::string Simulation::hash() const {
+  return detail::translated([&] { return run_->simulation->stateHash(); });
+}
+
+void Simulation::finish() { run_->finish(); }
+
+} // namespace grouser

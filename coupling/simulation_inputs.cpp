@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is set from outside on a simulation.
+#include "base/error.hpp"
+#include "base/table.hpp"
+#include "coupling/simulation.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace grouser::coupling {
+
+namespace {
+
+/// Beyond these a value is a mistake, as in a scene.
+double largest(InputKind kind) {
+  switch (kind) {
+  case InputKind::sprocketSpeed:
+    return 100; // [rad/s]
+  case InputKind::sprocketTorque:
+    return 1e7; // [N m]
+  case InputKind::throttle:
+    return 1;
+  case InputKind::hitchForce:
+    return 1e8; // [N]
+  case InputKind::hitchSpeed:
+    return 100; // [m/s]
+  case InputKind::gravity:
+    return 1000; // [m/s2]
+  case InputKind::bodyLoad:
+    return 1e9; // [N], [N m]
+  }
+  return 0;
+}
+
+} // namespace
+
+void Simulation::require(const Input& input) const {
+  const double most = largest(input.kind);
+  for (const double v : input.value)
+    if (!(std::fabs(v) <= most))
+      throw base::InputError(fmt::format("{} = {:g} is outside [{:g}, {:g}]", base::wordOf(input.kind), v, -most, most));
+  if (vehicle_) return vehicle_->require(input);
+  if (mechanism_) return mechanism_->require(input);
+  if (input.kind != InputKind::gravity)
+    throw base::InputError(fmt::format("{} cannot be set: the scene has neither vehicle nor mechanism",
+                                       base::wordOf(input.kind)));
+}
+
+void Simulation::set(InputKind kind, std::int32_t target, const std::optional<std::array<double, 6>>& value) {
+  const Input input{steps_, kind, target, !value, value.value_or(std::array<double, 6>{})};
+  require(input);
+  inputs_.set(input);
+  if (kind != InputKind::gravity) return command();
+  // Potential energies are those of the gravity that acts: what this changes is no work of the simulation's.
+  const Ledger before = wholeLedger();
+  command();
+  start_.move(before, wholeLedger());
+}
+
+/// Gives what acts now to those that it acts on.
+void Simulation::command() {
+  if (vehicle_) vehicle_->command(inputs_);
+  if (mechanism_) mechanism_->command(inputs_);
+  const auto g = inputs_.now(InputKind::gravity);
+  setGravity(g ? base::Vec3d{(*g)[0], (*g)[1], (*g)[2]} : setup_.gravity);
+}
+
+void Simulation::setGravity(const base::Vec3d& gravity) {
+  if (gravity == gravity_) return;
+  gravity_ = gravity;
+  if (vehicle_) vehicle_->setGravity(gravity);
+  if (mechanism_) mechanism_->setGravity(gravity);
+  if (surfaces_) surfaces_->setGravity(gravity);
+  if (!ground_.grains) return;
+  terrain::GrainModel model = ground_.grains->model();
+  model.gravity = gravity;
+  ground_.grains->replaceLaws(model);
+  ahead_.reset(); // its graphs hold the former one
+}
+
+std::int32_t Simulation::bodyIndex(const std::string& name) const {
+  std::vector<std::string> names;
+  const multibody::Model* model = vehicle_ ? &vehicle_->assembly().model : nullptr;
+  if (mechanism_) model = &mechanism_->model();
+  if (model)
+    for (const multibody::Body& body : model->bodies()) {
+      if (body.name == name) return static_cast<std::int32_t>(names.size());
+      names.push_back(body.name);
+    }
+  throw base::InputError(names.empty() ? fmt::format("there is no body \"{}\": the scene has neither vehicle nor mechanism", name)
+                                       : fmt::format("there is no body \"{}\"; the nearest is \"{}\"", name,
+                                                     base::nearestWord(name, names)));
+}
+
+} // namespace grouser::coupling

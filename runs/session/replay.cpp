@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/session/replay.hpp"
+
+#include "runs/output/result_fields.hpp"
+#include "runs/support/hdf5_file.hpp"
+
+#include <algorithm>
+
+namespace grouser::session {
+
+RecordedRun recordedRun(const std::filesystem::path& folder) {
+  const support::Hdf5File results = support::Hdf5File::open(folder / "results.h5");
+  RecordedRun run;
+  run.folder = folder, run.stateHash = results.text("/", "state_hash");
+  if (const std::vector<double> steps = results.numbers("/series/step"); !steps.empty())
+    run.steps = static_cast<std::int64_t>(steps.back());
+  if (!results.has(output::kInputs.path)) return run;
+  const std::vector<double> numbers = results.numbers(output::kInputs.path);
+  for (std::size_t k = 0; k + coupling::Input::kNumbers <= numbers.size(); k += coupling::Input::kNumbers)
+    run.inputs.push_back(coupling::Input::of(numbers.data() + k));
+  return run;
+}
+
+std::int64_t Replay::apply(coupling::Simulation& simulation, std::int64_t most) {
+  for (; next_ < inputs_.size() && inputs_[next_].step <= simulation.steps(); ++next_) {
+    const coupling::Input& input = inputs_[next_];
+    if (input.step == simulation.steps()) // a run that goes on from a checkpoint has the earlier ones
+      simulation.set(input.kind, input.target, input.released ? std::nullopt : std::optional(input.value));
+  }
+  return next_ < inputs_.size() ? std::min(most, inputs_[next_].step - simulation.steps()) : most;
+}
+
+} // namespace grouser::session
