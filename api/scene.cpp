@@ -35,8 +35,8 @@ std::string quoted(std::string_view text) {
 
 Scene Scene::fromFile(const std::filesystem::path& file) { return Scene(loaded({}, file, {})); }
 
-Scene Scene::fromText(std::string_view toml, const std::filesystem::path& folder) {
-  return Scene(loaded(std::string(toml), folder / "scene.toml", {}));
+Scene Scene::fromText(std::string_view toml, const std::filesystem::path& folder, const std::string& file) {
+  return Scene(loaded(std::string(toml), folder / file, {}));
 }
 
 /// In place of what was set for the same key.

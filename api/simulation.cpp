@@ -6,6 +6,7 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/build_info.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -86,10 +87,21 @@ Grains Simulation::grains() const {
   });
 }
 
-void Simulation::readPositions(std::vector<Vec3>& positions) const {
+std::size_t Simulation::ownGrainCount() const {
   const auto& grains = run_->simulation->ground().grains;
-  positions.resize(grains ? grains->ownCount() : 0);
-  if (grains) grains->readPositions(&positions.data()->x);
+  if (!grains || run_->comm().alone()) return grainCount();
+  return grains->snapshot().id.size();
+}
+
+void Simulation::readPositions(std::span<Vec3> positions) const {
+  const auto& grains = run_->simulation->ground().grains;
+  if (positions.size() != ownGrainCount())
+    throw InputError(fmt::format("readPositions(): room for {} grains, there are {}", positions.size(), ownGrainCount()));
+  if (!grains || positions.empty()) return;
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  if (run_->comm().alone()) return grains->readPositions(&positions.front().x);
+  const terrain::GrainSnapshot s = grains->snapshot();
+  std::transform(s.position.begin(), s.position.end(), positions.begin(), outside);
 }
 
 std::vector<Body> Simulation::bodies() const {

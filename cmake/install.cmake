@@ -2,7 +2,6 @@
 # `cmake --install`: programs, assets, headers, exported targets, Python package, manual.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-set(GROUSER_PYTHON_DIR "lib/python3/dist-packages" CACHE STRING "Where the Python package goes, below the prefix")
 
 # The program and what it reads, which it finds from its own place: ../share/grouser (runs/support/locations.hpp).
 set(share ${CMAKE_INSTALL_DATADIR}/grouser)
@@ -39,27 +38,31 @@ add_custom_target(grouser_manual ALL DEPENDS ${manual}/man/man1/grouser.1)
 install(DIRECTORY ${manual}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
 install(DIRECTORY ${manual}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 
-# The libraries: `find_package(grouser)` and the target grouser::grouser; all rooms up to the output of runs.
+# The libraries: `find_package(grouser)` and the target grouser::grouser, for the headers <grouser/...>. Those of the
+# rooms, which may change at any time, lie below <grouser/internal/...>: grouser::internal finds them.
 set(rooms base contact spheredecomp multibody terrain vehicle coupling)
 set(program_rooms support scene setup storage output render session)
-set(targets grouser_flags)
+set(targets grouser_flags grouser_api)
 foreach(room ${rooms} ${program_rooms})
   list(APPEND targets grouser_${room})
   set_target_properties(grouser_${room} PROPERTIES EXPORT_NAME ${room})
 endforeach()
 set_target_properties(grouser_flags PROPERTIES EXPORT_NAME flags)
-add_library(grouser_all INTERFACE)
-set_target_properties(grouser_all PROPERTIES EXPORT_NAME grouser)
-target_link_libraries(grouser_all INTERFACE grouser_session)
-add_library(grouser::grouser ALIAS grouser_all)
-install(TARGETS grouser_all ${targets} EXPORT grouser_targets ARCHIVE COMPONENT development)
-# Sources include each other from the top folder ("terrain/grains.hpp"): include/grouser stands in its place.
+set_target_properties(grouser_api PROPERTIES EXPORT_NAME grouser)
+add_library(grouser::grouser ALIAS grouser_api)
+add_library(grouser_internal INTERFACE)
+set_target_properties(grouser_internal PROPERTIES EXPORT_NAME internal)
+target_include_directories(grouser_internal INTERFACE $<INSTALL_INTERFACE:include/grouser/internal>)
+target_link_libraries(grouser_internal INTERFACE grouser_api)
+install(TARGETS grouser_internal ${targets} EXPORT grouser_targets ARCHIVE COMPONENT development)
+install(DIRECTORY api/include/grouser DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+set(internal ${CMAKE_INSTALL_INCLUDEDIR}/grouser/internal)
 foreach(room ${rooms})
-  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/grouser COMPONENT development
+  install(DIRECTORY ${room} DESTINATION ${internal} COMPONENT development
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.cuh" PATTERN detail EXCLUDE)
 endforeach()
 foreach(room ${program_rooms})
-  install(DIRECTORY runs/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/grouser/runs COMPONENT development
+  install(DIRECTORY runs/${room} DESTINATION ${internal}/runs COMPONENT development
     FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE)
 endforeach()
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/grouser)

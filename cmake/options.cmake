@@ -2,9 +2,7 @@
 # Compiler flags that keep bits equal between machines and backends, warnings, and the two helpers every room uses.
 
 add_library(grouser_flags INTERFACE)
-# Installed headers include each other from include/grouser; who uses them may write <grouser/terrain/grains.hpp>.
-target_include_directories(grouser_flags INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/grouser>)
+target_include_directories(grouser_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 # No fused multiply-add unless written, no fast-math, no -march=native: one scene, one answer. x86-64-v2 (SSE4.2, every
 # processor since 2009) has no fused multiply-add and rounds in one instruction.
 target_compile_options(grouser_flags INTERFACE

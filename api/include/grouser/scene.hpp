@@ -18,8 +18,10 @@ class Scene {
 public:
   /// Reads a scene file.
   static Scene fromFile(const std::filesystem::path& file);
-  /// A scene as TOML text. Paths in it are relative to `folder`, and assets by name are found as in a file.
-  static Scene fromText(std::string_view toml, const std::filesystem::path& folder = ".");
+  /// A scene as TOML text. Paths in it are relative to `folder`, and assets by name are found as in a file; `file` is
+  /// what messages call it.
+  static Scene fromText(std::string_view toml, const std::filesystem::path& folder = ".",
+                        const std::string& file = "scene.toml");
 
   /// Sets a key by its whole name, e.g. set("driver.sprocket_speed", 1.5) or set("material.soil.friction", 0.6).
   Scene& set(std::string_view key, double value);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,8 +77,10 @@ public:
   Vehicle vehicle();           ///< throws InputError where the scene has none
   std::size_t grainCount() const; ///< of all ranks
   Grains grains() const;
-  /// Fills what the caller keeps, in one pass and in the order of ids: no memory is allotted where the sizes fit.
-  void readPositions(std::vector<Vec3>& positions) const;
+  std::size_t ownGrainCount() const; ///< of which this rank returns values; alone all
+  /// The positions of grains() in one pass into memory of the caller, for ownGrainCount() of them. Throws InputError on
+  /// another size.
+  void readPositions(std::span<Vec3> positions) const;
   std::vector<Body> bodies() const;
   Energies energies() const;
 

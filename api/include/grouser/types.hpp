@@ -16,7 +16,7 @@ struct Quaternion {
   double w = 1, x = 0, y = 0, z = 0;
 };
 
-/// A rigid body: of the vehicle ("hull", "left shoe 0", ...) or of a mechanism.
+/// A rigid body: of the vehicle ("chassis", "left shoe 0", ...) or of a mechanism.
 struct Body {
   std::string name;
   double mass = 0;        ///< [kg]

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/setup/simulation_setup.hpp"
-
-#include "runs/scene/scene.hpp"
-#include <grouser/base/error.hpp>
-#include <grouser/runs/setup/load_scene.hpp>
-#include <grouser/runs/simulation/simulation.hpp>
+#include <grouser/grouser.hpp>
 
 #include <cstdio>
 
-int main(int count, char** words) {
-  if (count != 2) {
-    std::fprintf(stderr, "usage: %s SCENE.toml\n", words[0]);
-    return 2;
+int main(int count, char** words) try {
+  grouser::Simulation simulation(grouser::Scene::fromFile(count > 1 ? words[1] : "scene.toml"));
+  grouser::Vehicle vehicle = simulation.vehicle();
+  while (simulation.time() < 1) {
+    const double speed = 2 + 4 * (0.3 - vehicle.state().speed); // towards 0.3 m/s [rad/s]
+    vehicle.setSprocketSpeed(speed, speed);
+    simulation.stepFor(0.01);
   }
-  try {
-    const grouser::scene::Scene scene = grouser::setup::loadScene(words[1], {});
-    grouser::coupling::Simulation simulation(grouser::setup::simulationSetup(scene), grouser::base::cpuExec(1),
-                                             [](double, double) {});
-    while (simulation.time() < scene.run.duration) simulation.step();
-    std::printf("state-hash %s step %lld\n", simulation.save().hash().c_str(),
-                static_cast<long long>(simulation.steps()));
-  } catch (const grouser::base::InputError& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return 2;
-  }
+  std::printf("%.3f m/s, state hash %s\n", vehicle.state().speed, simulation.hash().c_str());
+} catch (const grouser::Error& error) {
+  std::fprintf(stderr, "error: %s\n", error.what());
+  return 2;
 }

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""An environment for learning controllers, with the functions of Gymnasium: reset, step, observation, reward.
+
+    python/examples/environment.py
+
+The task: drive to a goal ahead and to the left. An action is the speed of both sprockets, -1 to 1 of the largest. The
+program below tries random actions, then a simple rule, and ends in an error where the rule does not earn more. It needs
+no package beside grouser and numpy; where gymnasium is installed, `gymnasium.Env` may be put before `object`.
+"""
+from __future__ import annotations
+
+import math
+import sys
+import tempfile
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))  # where the package is not installed
+import grouser  # noqa: E402
+
+
+class DriveToGoal:
+    """Observation: way to the goal ahead and to the left in the hull's frame [m], speed [m/s], turn rate [rad/s], slip of
+    both tracks [-]. Reward: metres come nearer. The episode ends 0.1 m before the goal, or after `limit` steps."""
+
+    observation_space = SimpleNamespace(shape=(6,), dtype=np.float64)
+    action_space = SimpleNamespace(shape=(2,), low=-1.0, high=1.0, dtype=np.float64)
+
+    def __init__(self, goal: tuple[float, float] = (1.0, 0.4), period: float = 0.05, limit: int = 40,
+                 fastest: float = 8.0):
+        self.goal, self.period, self.limit, self.fastest = np.array(goal), period, limit, fastest
+        scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
+        scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
+        self.sim = grouser.Simulation(scene)
+        while self.sim.vehicle.drive_start is None:  # lowered, and at rest: every episode begins here
+            self.sim.step_for(0.02)
+        self._folder = tempfile.TemporaryDirectory()
+        self._start = Path(self._folder.name) / "start.h5"
+        self.sim.save(self._start)
+
+    def reset(self, *, seed: int | None = None, options: dict | None = None) -> tuple[np.ndarray, dict]:
+        self.rng = np.random.default_rng(seed)
+        self.sim.restore(self._start)
+        self.origin, self.taken = self.sim.vehicle.position[:2].copy(), 0
+        return self._observation(), {}
+
+    def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict]:
+        before = self._distance()
+        left, right = self.fastest * np.clip(action, -1, 1)
+        self.sim.set_sprocket_speed(float(left), float(right))
+        self.sim.step_for(self.period)
+        self.taken += 1
+        distance = self._distance()
+        return self._observation(), before - distance, distance < 0.1, self.taken >= self.limit, {}
+
+    def close(self) -> None:
+        self.sim.close()
+        self._folder.cleanup()
+
+    def _to_goal(self) -> np.ndarray:
+        way, heading = self.origin + self.goal - self.sim.vehicle.position[:2], self.sim.vehicle.heading
+        c, s = math.cos(heading), math.sin(heading)
+        return np.array([c * way[0] + s * way[1], c * way[1] - s * way[0]])
+
+    def _distance(self) -> float:
+        return float(np.linalg.norm(self._to_goal()))
+
+    def _observation(self) -> np.ndarray:
+        v = self.sim.vehicle
+        return np.nan_to_num(np.array([*self._to_goal(), v.speed, v.turn_rate, v.left.slip, v.right.slip]))
+
+
+def rule(seen: np.ndarray) -> np.ndarray:
+    """Towards the goal, turning by where it lies."""
+    turn = np.clip(2 * math.atan2(seen[1], max(seen[0], 0.05)), -0.8, 0.8)
+    return np.array([0.6 - turn, 0.6 + turn])
+
+
+def episode(env: DriveToGoal, policy) -> float:
+    seen, _ = env.reset(seed=1)
+    total, done = 0.0, False
+    while not done:
+        seen, reward, reached, over, _ = env.step(policy(seen))
+        total, done = total + reward, reached or over
+    return total
+
+
+def main(limit: int = 40) -> tuple[float, float]:
+    env = DriveToGoal(limit=limit)
+    random = episode(env, lambda seen: env.rng.uniform(-1, 1, 2))
+    ruled, again = episode(env, rule), episode(env, rule)
+    env.close()
+    print(f"reward of random actions {random:.3f} m, of the rule {ruled:.3f} m; again {again:.3f} m")
+    if not ruled > random + 0.2 or ruled != again:
+        raise SystemExit("the rule should come nearer than random actions, and alike each time")
+    return random, ruled
+
+
+if __name__ == "__main__":
+    main()

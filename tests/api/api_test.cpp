@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <grouser/grouser.hpp>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace grouser {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* kFall = "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-3\n[material.glass]\nstiffness = 1e4\n"
+                    "[[plane]]\nmaterial = \"glass\"\n"
+                    "[[grain]]\nposition = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
+                    "[[grain]]\nposition = [1, 0, 2]\nradius = 0.01\nmaterial = \"glass\"\n";
+
+Scene vehicleScene() {
+  Scene scene = Scene::fromFile(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml");
+  scene.set("vehicle.sphere_radius", 0.03).set("driver.tension_ramp", 0.02).set("driver.weight_ramp", 0.02);
+  return scene.set("driver.drive_start", 0.04).set("driver.drive_ramp", 0.01).set("output.plots", false);
+}
+
+class Api : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("grouser_api_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(Api, GrainsFallAsFast) {
+  Simulation simulation(Scene::fromText(kFall));
+  EXPECT_EQ(simulation.grainCount(), 2u);
+  simulation.step(100);
+  EXPECT_NEAR(simulation.time(), 0.1, 1e-12);
+  const Grains grains = simulation.grains();
+  ASSERT_EQ(grains.position.size(), 2u);
+  EXPECT_NEAR(grains.velocity[2], -0.981, 1e-6);
+  EXPECT_NEAR(grains.position[1].z, 2 - 9.81 * 1e-6 * 100 * 101 / 2, 1e-9); // symplectic Euler
+  EXPECT_EQ(grains.radius[0], 0.01f);
+  std::vector<Vec3> places(simulation.ownGrainCount());
+  simulation.readPositions(places);
+  EXPECT_EQ(places[1].z, grains.position[1].z);
+  EXPECT_THROW(simulation.readPositions({places.data(), 1}), InputError);
+}
+
+TEST_F(Api, AVehicleIsReadAndSteered) {
+  Simulation simulation(vehicleScene());
+  Vehicle vehicle = simulation.vehicle();
+  EXPECT_EQ(vehicle.shoes(), 46);
+  simulation.step(600);
+  vehicle.setSprocketSpeed(2, 3);
+  simulation.step(100);
+  const VehicleState now = vehicle.state();
+  EXPECT_NEAR(now.left.sprocketSpeed, 2, 1e-9);
+  EXPECT_NEAR(now.right.sprocketSpeed, 3, 1e-9);
+  EXPECT_GT(now.turnRate, 0); // to the left
+  EXPECT_EQ(now.left.tension.size(), 46u);
+  EXPECT_NEAR(now.groundForce.z, 9.81 * vehicle.mass(), 0.3 * 9.81 * vehicle.mass());
+  EXPECT_THROW(vehicle.setThrottle(1, 1), InputError);
+  // Neither is set where one may not be.
+  const std::string before = simulation.hash();
+  EXPECT_THROW(vehicle.setSprocketSpeed(1, 1e9), InputError);
+  EXPECT_EQ(simulation.hash(), before);
+}
+
+TEST_F(Api, AStateIsSavedAndRestored) {
+  Simulation simulation(vehicleScene());
+  simulation.step(450);
+  simulation.vehicle().setSprocketSpeed(2, 2);
+  simulation.step(50);
+  simulation.save(folder_ / "state.h5");
+  simulation.step(100);
+  const std::string straight = simulation.hash();
+  simulation.restore(folder_ / "state.h5");
+  EXPECT_EQ(simulation.steps(), 500);
+  simulation.step(100);
+  EXPECT_EQ(simulation.hash(), straight);
+  Options two;
+  two.threads = 2;
+  Simulation resumed = Simulation::resumed(vehicleScene(), folder_ / "state.h5", two);
+  resumed.step(100);
+  EXPECT_EQ(resumed.hash(), straight);
+  EXPECT_THROW(Simulation::resumed(vehicleScene().set("vehicle.clearance", 0.02), folder_ / "state.h5"), InputError);
+}
+
+TEST_F(Api, SeveralSimulationsRunAtOnceAndAlike) {
+  std::vector<std::string> hashes(3);
+  std::vector<std::thread> threads;
+  for (std::string& hash : hashes)
+    threads.emplace_back([&hash] {
+      Options one;
+      one.threads = 1;
+      Simulation simulation(Scene::fromText(kFall), one);
+      simulation.step(50);
+      simulation.setGravity({0, 0, -1});
+      simulation.step(50);
+      hash = simulation.hash();
+    });
+  for (std::thread& t : threads) t.join();
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST_F(Api, AFolderHoldsWhatARunLeavesAndTheInputs) {
+  Options options;
+  options.folder = folder_ / "out";
+  std::string hash;
+  {
+    Simulation simulation(vehicleScene(), options);
+    simulation.step(500);
+    simulation.vehicle().setSprocketSpeed(2, 1);
+    simulation.step(100);
+    hash = simulation.hash();
+    simulation.finish();
+    EXPECT_THROW(simulation.step(), InputError);
+  }
+  for (const char* name : {"results.h5", "timeseries.csv", "scene.toml", "manifest.json", "checkpoint.h5"})
+    EXPECT_TRUE(fs::exists(options.folder / name)) << name;
+  EXPECT_THROW(Simulation(vehicleScene(), options), InputError); // the folder is not empty
+  Simulation again = Simulation::resumed(vehicleScene(), options.folder / "checkpoint.h5");
+  EXPECT_EQ(again.hash(), hash);
+}
+
+TEST_F(Api, WhatIsWrongIsAnErrorOfItsType) {
+  EXPECT_THROW(Scene::fromFile("nowhere.toml"), InputError);
+  Scene scene = Scene::fromText(kFall);
+  try {
+    scene.set("run.duratoin", 2.0);
+    FAIL() << "an unknown key was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("duration"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(scene.duration(), 0.1); // as it was
+  Simulation simulation(scene);
+  EXPECT_FALSE(simulation.hasVehicle());
+  EXPECT_THROW(simulation.vehicle(), InputError);
+  EXPECT_THROW(simulation.step(0), InputError);
+  EXPECT_THROW(simulation.setLoad("hull", {1, 0, 0}), InputError);
+  // Steps that are far too long for the contacts end in an error, and the state stays to be looked at.
+  Simulation unsound(Scene::fromText(kFall).set("run.max_overlap", 0.01).set("material.glass.stiffness", 10.0));
+  EXPECT_THROW(unsound.step(2000), SimulationError);
+  EXPECT_EQ(unsound.grains().position.size(), 2u);
+}
+
+TEST_F(Api, AskedOnTheWayAStepMayEndEarly) {
+  Simulation simulation(Scene::fromText(kFall).set("run.time_step", 1e-5));
+  int asked = 0;
+  simulation.step(1'000'000, [&] { return ++asked < 2; });
+  EXPECT_EQ(asked, 2);
+  EXPECT_LT(simulation.steps(), 1'000'000);
+}
+
+} // namespace
+} // namespace grouser
