@@ -7,10 +7,8 @@
 #include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // fixtures
 
 // Where a spring is as long at the end as at the start, its work under symplectic Euler is none, however long the step:
 // sum of k x_n (v_n + v_n+1) / 2 dt = sum of k x_n (x_n+1 - x_n-1) / 2. What the dashpot has taken is all that was
@@ -213,4 +211,4 @@ TEST(LedgerOfAVehicle, OnRigidGroundCountsWhatItsPartsHoldAndLose) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

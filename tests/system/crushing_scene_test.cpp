@@ -10,10 +10,8 @@
 
 #include <algorithm>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // pieces of scenes
 
 constexpr double kStiffness = 1e5, kYield = 1e-3, kCap = kStiffness * kYield; // 100 N at an overlap of 1 mm
 constexpr double kSpeed = 0.05;                                               // of the plate [m/s]
@@ -175,4 +173,4 @@ TEST(CrushedBed, HasOneAnswerForThreadsSkinsKernelsAndResumedRuns) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

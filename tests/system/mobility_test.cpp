@@ -24,7 +24,7 @@ void quiet(double, double) {}
 
 /// `together`: steps that are asked for at once, which a GPU is given ahead; 0: each by itself.
 std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {},
-                        std::int64_t together = 0, BedCache* beds = nullptr, SphereCache* spheres = nullptr) {
+                        std::int64_t together = 0, storage::BedCache* beds = nullptr, storage::SphereCache* spheres = nullptr) {
   Simulation simulation(setup::simulationSetup(setup::loadScene(testScene("coupled.toml"), overrides)), exec, quiet, {},
                         beds, spheres);
   while (simulation.steps() < 2000) {

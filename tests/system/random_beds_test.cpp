@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 
@@ -158,12 +157,6 @@ TEST(RandomBeds, CrystalsAreRefused) {
   // Unequal radii pack more densely without order.
   crystal.porosity = 1 - 0.645;
   EXPECT_NO_THROW(checkStructure(*setup::simulationSetup(randomBed()).ground.grains->bed, crystal));
-}
-
-TEST(RandomBeds, LatticeIsNoMoreThanOnRequest) {
-  EXPECT_NE(commands::planText(randomBed()).find("on   random arrangement"), std::string::npos);
-  EXPECT_NE(commands::planText(randomBed()).find("off  preparation"), std::string::npos);
-  EXPECT_NE(commands::planText(randomBed({"terrain.porosity=0.4"})).find("on   preparation"), std::string::npos);
 }
 
 } // namespace

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vehicle on rigid ground that pulls: by forces, a sled, and a carriage that imposes its slip.
 #include "base/error.hpp"
-#include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "tests/device_under_test.hpp"
-#include "tests/runs/shared_cache.hpp"
+#include "tests/system/driven_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,16 +26,6 @@ scene::Scene sceneWith(const std::string& hitch, double speed = 2, double step =
                   "position = [10, 0]\n[driver]\nsprocket_speed = {2}\n{0}",
                   hitch.empty() ? "" : "[hitch]\n" + hitch, step, speed),
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
-}
-
-Simulation begin(const scene::Scene& scene, int threads = 1) {
-  return Simulation(
-      setup::simulationSetup(scene), testExec(threads), [](double, double) {}, {}, nullptr, sharedSpheres());
-}
-
-void advance(Simulation& simulation, double until) {
-  const auto to = std::llround(until / simulation.timeStep());
-  while (simulation.steps() < to) simulation.step();
 }
 
 /// Of the hitch from `from` to `to` [s].

@@ -9,10 +9,8 @@
 #include <string>
 #include <vector>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // fixtures
 
 const std::string kStill = "gravity = [0, 0, 0]\nprecision = \"double\"";
 
@@ -133,4 +131,4 @@ TEST(Yielding, MaterialsThatMeetAreBothHertzianOrBothLinear) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers
