@@ -183,7 +183,7 @@ std::unique_ptr<Simulation> vehicleOf(const std::string& scene, const std::vecto
 }
 
 TEST(LedgerOfAVehicle, OnItsBedBalancesInMomenta) {
-  const auto s = vehicleOf("coupled.toml", {}, 0.08);
+  const auto s = vehicleOf("coupled.toml", {"vehicle.sphere_radius=0.03"}, 0.08);
   const Ledger l = s->ledger();
   const double impulse = s->vehicle()->assembly().mass * kGravity * 0.08;
   EXPECT_GT(norm(s->vehicle()->contacts().ledger().impulseOnParts), 0.01 * impulse) << "the bed bears it";

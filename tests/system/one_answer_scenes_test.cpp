@@ -8,7 +8,6 @@
 #include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <ostream>
 
 namespace grouser::coupling {
@@ -56,7 +55,6 @@ TEST_P(OneAnswerScenes, HashIsThatOfAResumedRun) {
 }
 
 TEST(OneAnswerBed, TwentyThousandGrainsOverTenThousandSteps) {
-  if (!std::getenv("GROUSER_LONG_TESTS")) GTEST_SKIP() << "a minute; tests/run --all asks for it";
   const Golden bed{"bed", 10000, "e53922e7928dfcc5", {}};
   Simulation simulation = begin(bed, 2);
   advance(simulation, bed.steps);

@@ -127,8 +127,8 @@ TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
   const auto bed = made(sceneWithBed(""))->ground().grains->snapshot();
   const auto s =
       made(sceneWithBed(plate("velocity = [0, 0, -0.1]\nabove_bed = 0.002\nspin = [0, 0, 1]\npivot = [0, 0, 4]\n") +
-                   "[[grains]]\nlow = [0.0, -0.3, 1]\nhigh = [0.1, -0.2, 1.1]\nradius = 0.01\n"
-                   "material = \"soil\"\nabove_bed = 0.001\n"));
+                        "[[grains]]\nlow = [0.0, -0.3, 1]\nhigh = [0.1, -0.2, 1.1]\nradius = 0.01\n"
+                        "material = \"soil\"\nabove_bed = 0.001\n"));
   EXPECT_NEAR(s->surfaces()->pose(0, 0).position.z - 0.02,
               highestUnder(bed, bed.position.size(), 0.2, 0.4, -0.1, 0.1) + 0.002, 1e-12);
   const SurfaceMotion& motion = s->surfaces()->surface(0).motion;
@@ -151,11 +151,12 @@ TEST(PutOnBed, OverlapIsRefusedWithNumbersAndRemedy) {
       refusal(sceneWithBed("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.05\nmaterial = \"steel\"\n"));
   for (const char* part : {"placed.toml:", "m deep in grain", "above_bed"})
     EXPECT_NE(grain.find(part), std::string::npos) << part << "\n" << grain;
-  EXPECT_NE(
-      refusal(sceneWithBed(plate(kFree + "above_bed = 0.01\n"), {"box.plate.position.0=7"})).find("no grain of the bed"),
-      std::string::npos);
+  EXPECT_NE(refusal(sceneWithBed(plate(kFree + "above_bed = 0.01\n"), {"box.plate.position.0=7"}))
+                .find("no grain of the bed"),
+            std::string::npos);
   EXPECT_THROW(sceneWithBed(plate("above_bed = 0.1\nplaced = \"before\"\n")), base::InputError);
-  EXPECT_THROW(sceneWithBed("[[plane]]\nmaterial = \"steel\"\nabove_bed = 0.1\n"), base::InputError) << "no lowest point";
+  EXPECT_THROW(sceneWithBed("[[plane]]\nmaterial = \"steel\"\nabove_bed = 0.1\n"), base::InputError)
+      << "no lowest point";
   // Two grains over one place, which no bed tells apart.
   const std::string stone =
       "[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.02\nmaterial = \"steel\"\nabove_bed = 0.01\n";
@@ -202,8 +203,8 @@ TEST(PutOnBed, LargerStonesLeaveTheBedToItself) {
   const std::vector<std::string> steps{"run.time_step=1e-4"};
   const auto alone = made(sceneWithBed("", steps)),
              s = made(sceneWithBed("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.09\nmaterial = \"steel\"\n"
-                              "above_bed = 0.05\n",
-                              steps));
+                                   "above_bed = 0.05\n",
+                                   steps));
   EXPECT_NE(s->ground().grains->scale().unit, alone->ground().grains->scale().unit);
   const double from = s->ground().grains->snapshot().position.back().z;
   while (s->steps() < 300) s->step(), alone->step();

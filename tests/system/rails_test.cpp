@@ -59,7 +59,7 @@ TEST(OnRails, ALevelHullDoesNotPitchAsItPulls) {
   for (const int level : {0, 1}) {
     Simulation simulation =
         begin(onRails(fmt::format("tracks = \"single\"\nchassis = \"{}\"", level ? "level" : "guided"),
-                             std::string("[hitch]\nkind = \"speed\"\nslip = 0.4\n") + kHalf));
+                      std::string("[hitch]\nkind = \"speed\"\nslip = 0.4\n") + kHalf));
     advance(simulation, 1.2);
     pitch[level] = simulation.vehicle()->observe().pitchAngle;
   }

@@ -305,9 +305,7 @@ TEST(Mill, EnergyOfTheGrainsIsTheWorkOfItsSurfaces) {
   EXPECT_LT(worst[1], 0.04);
 }
 
-TEST(Surfaces, AreNotBuiltWhereThereAreNone) {
-  EXPECT_EQ(made(sceneOf(grainAt("[0, 0, 0]")), 1)->surfaces(), nullptr);
-}
+TEST(Surfaces, AreNotBuiltWhereThereAreNone) { EXPECT_EQ(made(sceneOf(grainAt("[0, 0, 0]")), 1)->surfaces(), nullptr); }
 
 TEST(Surfaces, ResolvedCopyLoadsToTheSameScene) {
   const scene::Scene first = sceneOf(kMill + "[[box]]\nname = \"ramp\"\nposition = [1, 0, 0]\nsize = [1, 1, 0.1]\n"

@@ -262,7 +262,8 @@ TEST(HeightFieldBounds, OfASaddle_CountTheTwist) {
 }
 
 TEST(HeightFieldBounds, OverAPart_AreThoseOfThatPart) {
-  const HeightField field = HeightField::sample(kFieldArea, 41, 21, [](double x, double) { return x < 2.01 ? 0.0 : x - 2; });
+  const HeightField field =
+      HeightField::sample(kFieldArea, 41, 21, [](double x, double) { return x < 2.01 ? 0.0 : x - 2; });
   const auto level = field.boundsOver({0.1, 1.5, -0.5, 0.5}), all = field.boundsOver({-9, 9, -9, 9});
   EXPECT_EQ(level.slope, 0.0);
   EXPECT_EQ(level.highest, 0.0);
@@ -350,7 +351,8 @@ TEST(Interpolation, Monotone_HasContinuousNormalsAcrossCellsAndTheBorder) {
 
 TEST(Interpolation, OfAPlane_IsTheFormerSurfaceBitForBit) {
   const HeightField flat = HeightField::sample(kFieldArea, 41, 21, [](double, double) { return 0.037; });
-  const HeightField leaning = HeightField::sample(kFieldArea, 41, 21, [](double x, double y) { return 0.5 * x - 0.2 * y; });
+  const HeightField leaning =
+      HeightField::sample(kFieldArea, 41, 21, [](double x, double y) { return 0.5 * x - 0.2 * y; });
   for (const HeightField* plane : {&flat, &leaning})
     for (const Interpolation how : {Interpolation::monotone, Interpolation::bilinear})
       for (int i = 0; i < 100; ++i) {

@@ -22,7 +22,8 @@ constexpr Rectangle kCellsArea{-1.5, 2.25, 3, 4.2};
 constexpr int kColumns = 16, kRows = 25;
 
 double randomOf(int i, int k, double from, double to) {
-  return from + (to - from) * base::uniform(5, kCellsTest, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(k));
+  return from +
+         (to - from) * base::uniform(5, kCellsTest, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(k));
 }
 
 double bowl(double x, double y) {
@@ -71,7 +72,8 @@ TEST(UnequalCells, ClosestPointIsTheFootOfTheNormal) {
   const HeightField field = bowlField();
   // Sharpest hollow: the larger principal curvature is below hxx + hyy = 2.2 / m.
   for (int i = 0; i < 500; ++i) {
-    const double x = randomOf(i, 0, -1.0, 1.75), y = randomOf(i, 1, 3.2, 4.0), v = y - 3.6, d = randomOf(i, 2, -0.2, 0.2);
+    const double x = randomOf(i, 0, -1.0, 1.75), y = randomOf(i, 1, 3.2, 4.0), v = y - 3.6,
+                 d = randomOf(i, 2, -0.2, 0.2);
     const Vec3d n = base::normalized(Vec3d{-(0.1 + 0.8 * x - 0.25 * v), -(-0.3 - 0.25 * x + 1.4 * v), 1.0});
     const Vec3d foot{x, y, bowl(x, y)};
     const FootPoint is = field.closestPoint(foot + n * d);

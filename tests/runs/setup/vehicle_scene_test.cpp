@@ -64,8 +64,8 @@ TEST(SpecKeys, MistakesAreNamedWhereTheyStand) {
 }
 
 TEST(SpecKeys, RigidArmsAndRollersLeftOutNeedNoOtherFile) {
-  const scene::Scene scene = parseScene(goodScene(), "scene.toml",
-                                        {"spec.arm.suspension=rigid", "spec.roller.x=[]", "spec.roller.z=[]"});
+  const scene::Scene scene =
+      parseScene(goodScene(), "scene.toml", {"spec.arm.suspension=rigid", "spec.roller.x=[]", "spec.roller.z=[]"});
   const vehicle::VehicleSpec spec = vehicleSetup(scene).spec;
   EXPECT_EQ(spec.arm.suspension, vehicle::Suspension::rigid);
   EXPECT_TRUE(spec.roller.x.empty());
@@ -78,18 +78,16 @@ TEST(ReadyVehicles, FitTheirMeshes) {
   for (const char* name : {"light_tracked", "m113_like", "robot"}) {
     const scene::Scene scene =
         parseScene(goodScene(), "scene.toml",
-                          {std::string("vehicle.spec=vehicles/") + name + ".toml", "vehicle.sphere_radius=0.005"});
+                   {std::string("vehicle.spec=vehicles/") + name + ".toml", "vehicle.sphere_radius=0.005"});
     EXPECT_NO_THROW(checkParts(scene)) << name;
   }
-  const scene::Scene wide = parseScene(goodScene(), "scene.toml",
-                                       {"vehicle.spec=vehicles/m113_like.toml", "spec.shoe.pad_half_width=0.18"});
+  const scene::Scene wide =
+      parseScene(goodScene(), "scene.toml", {"vehicle.spec=vehicles/m113_like.toml", "spec.shoe.pad_half_width=0.18"});
   EXPECT_THROW(checkParts(wide), base::InputError) << "the mesh does not follow";
 }
 
 TEST(DriverByTorque, TablesAndConstantsReachTheDriver) {
-  const auto driver = [](const std::string& text) {
-    return vehicleSetup(parseScene(text, "scene.toml")).driver;
-  };
+  const auto driver = [](const std::string& text) { return vehicleSetup(parseScene(text, "scene.toml")).driver; };
   const auto constant = driver(withDriver("drive = \"torque\"\nleft_torque = 100\nright_torque = -50"));
   EXPECT_EQ(constant.drive, vehicle::SprocketDrive::torque);
   EXPECT_EQ(constant.torques.left, std::vector<double>{100});
