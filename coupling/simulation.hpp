@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/simulation_setup.hpp"
-#include "coupling/settled_beds.hpp"
 #include "coupling/energy_guard.hpp"
 #include "coupling/ground.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/mechanism.hpp"
 #include "coupling/pressed_grain.hpp"
+#include "coupling/settled_beds.hpp"
+#include "coupling/simulation_setup.hpp"
 #include "coupling/simulation_state.hpp"
 #include "coupling/step_observer.hpp"
 #include "coupling/steps_ahead.hpp"

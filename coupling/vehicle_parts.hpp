@@ -3,8 +3,8 @@
 
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
-#include "coupling/vehicle_setup.hpp"
 #include "coupling/sphere_sets.hpp"
+#include "coupling/vehicle_setup.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <cstddef>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vehicle on rigid ground: its weight, the tension of its track, the grade that it holds, its resistance to turning.
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,12 +2,12 @@
 // What ends a run of a vehicle before its time: a distance, the edge of the ground, immobility.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

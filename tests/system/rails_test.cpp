@@ -2,12 +2,12 @@
 // A hull on rails, over both tracks and over a single one, on rigid ground.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,12 +2,12 @@
 // A vehicle on rigid ground that pulls: by forces, a sled, and a carriage that imposes its slip.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the benches print and write.
 #include "runs/validation/bench/bench.hpp"
-#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
