@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The rules of the house that tests/rooms checks. Each takes a House and yields faults as 'place: what is wrong'."""
+import fnmatch
 import re
 import tomllib
 from functools import cached_property
@@ -459,12 +460,22 @@ def headings(text):
 
 
 def mutants(house):
-    """What tests/mutate changes stands in its file, just once: else no test is asked about that fault any more."""
+    """What tests/mutate changes stands in its file, just once, and the tests that should see it are there: else no test
+    is asked about that fault any more."""
+    tests = {}  # {room of tests: names as GoogleTest has them}
+    for path in house.code:
+        if path.startswith('tests/'):
+            named = re.findall(r'\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)', house.plain[path])
+            tests.setdefault(room_of(path).split('/')[-1], []).extend('.'.join(name) for name in named)
     for path in (path for path in house.files if re.fullmatch(r'tests/mutation/.+\.toml', path)):
         for number, fault in enumerate(tomllib.loads((house.root / path).read_text()).get('fault', []), 1):
             count = house.text.get(fault['file'], '').count(fault['old'])
             if count != 1:
                 yield f'{path}: fault {number} stands {count} times in {fault["file"]}: {fault["old"]}'
+            for room, filters in (test.split(':', 1) for test in fault.get('tests', [])):
+                for wanted in filters.split('-')[0].split(':'):
+                    if not fnmatch.filter(tests.get(room, []), wanted.split('/')[-1]):  # Laws/Scale.* are Scale's
+                        yield f'{path}: fault {number}: there is no test {wanted} in {room}'
 
 
 RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links, mutants]

@@ -467,6 +467,17 @@ class Mutants(unittest.TestCase):
         self.assertIn('stands 0 times in base/b.cpp', faults(rules.mutants, {
             'base/a.cpp': 'x += 1;\n', 'tests/mutation/base.toml': table.replace('base/a', 'base/b')})[0])
 
+    def test_the_tests_that_should_see_a_fault_are_there(self):
+        house = {'base/a.cpp': 'x += 1;\n', 'tests/runs/campaigns/sweeps/a_test.cpp': 'TEST(Sum, Grows) {}\n',
+                 'tests/system/b_test.cpp': 'TEST_F(Bed, Rests) {}\nTEST_P(Laws, Hold) {}\n'}
+        table = '[[fault]]\nfile = "base/a.cpp"\nold = "x += 1;"\nnew = "x -= 1;"\nuser = "counts down"\ntests = [{}]\n'
+        for good in ('"sweeps:Sum.*"', '"sweeps:*Grow*"', '"sweeps:Sum.*", "system:Bed.Rests:All/Laws.*"', '"system:*"'):
+            self.assertEqual(faults(rules.mutants, {**house, 'tests/mutation/a.toml': table.format(good)}), [], good)
+        for bad in ('"system:Sum.*"', '"sweeps:Bed.*"', '"simulation:Bed.*"', '"system:Bed.*:Beds.*"', '"sweeps:sum.*"'):
+            told = faults(rules.mutants, {**house, 'tests/mutation/a.toml': table.format(bad)})
+            self.assertEqual(len(told), 1, bad)
+            self.assertIn('there is no test', told[0])
+
 
 if __name__ == '__main__':
     unittest.main()
