@@ -299,8 +299,8 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
   text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
   for (const auto& [q, e] : reached.measured) {
     if (const std::string doubt = doubtOf(q, e); !doubt.empty()) {
-      text += fmt::format("\n# {} = {} {} is left out, since it is inconclusive: {}\n", symbolOf(q),
-                          jobs::valueText(e), unitOf(q), doubt);
+      text += fmt::format("\n# {} = {} {} is left out, since it is inconclusive: {}\n", symbolOf(q), jobs::valueText(e),
+                          unitOf(q), doubt);
       continue;
     }
     text +=

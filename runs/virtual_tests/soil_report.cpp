@@ -140,16 +140,14 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     text += atGivenNText(plan, r, i);
     text += fmt::format("origin {} mm below the mean surface, its line from {:.0f} % of the pressure on; n from the "
                         "first contact {}; ",
-                        jobs::valueText(r.bedding[i]), 100 * r.lineBegins[i].value,
-                        jobs::valueText(r.nFromContact[i]));
+                        jobs::valueText(r.bedding[i]), 100 * r.lineBegins[i].value, jobs::valueText(r.nFromContact[i]));
     text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded; ", jobs::valueText(r.unloading[i]),
                         jobs::valueText(r.unloadedFrom[i]), jobs::valueText(r.reloading[i])) +
             motionText(r.addedByMotion[i]);
   }
   if (r.wider)
-    text +=
-        fmt::format("  bin of twice the width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n", 100 * r.wider->value,
-                    100 * r.wider->halfWidth, jobs::verdictText(jobs::judge(*r.wider, 0.05)));
+    text += fmt::format("  bin of twice the width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n",
+                        100 * r.wider->value, 100 * r.wider->halfWidth, jobs::verdictText(jobs::judge(*r.wider, 0.05)));
   if (r.hasShear())
     text += fmt::format("  shear, {}, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
                         "misfit of 1 - exp(-j/K) {}\n",

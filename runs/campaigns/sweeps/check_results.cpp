@@ -168,8 +168,7 @@ private:
     if (axis == CheckAxis::step || axis == CheckAxis::skin) return;
     const std::vector<double> change = changes(0, c, std::nullopt);
     if (change.empty()) return;
-    const support::Estimate changed =
-        cases_.seeded ? jobs::interval95(change) : support::Estimate{change.front(), 0};
+    const support::Estimate changed = cases_.seeded ? jobs::interval95(change) : support::Estimate{change.front(), 0};
     add({axis,
          changed,
          std::nullopt,

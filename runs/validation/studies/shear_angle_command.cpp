@@ -136,8 +136,7 @@ ShearAngle shearAngle(const std::vector<std::vector<virtual_tests::ShearStrength
     peak.push_back(inDegrees(std::atan(through ? high.front() / sigma.front() : peaks.slope)));
     cohesion.push_back(through ? 0 : line.intercept);
   }
-  return {jobs::interval95(residual), jobs::interval95(peak), jobs::interval95(core),
-          jobs::interval95(cohesion)};
+  return {jobs::interval95(residual), jobs::interval95(peak), jobs::interval95(core), jobs::interval95(cohesion)};
 }
 
 void studyShearAngleCommand(const ShearAngleCommand& command) {
@@ -164,9 +163,8 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
     const ShearAngle a = shearAngle(runs);
     fmt::print("{}  atan of the line's slope: residual {} deg, peak {} deg; cohesion {} Pa; core {} deg\n"
                "  half width of the residual angle {} {:g} deg: {}\n",
-               text, jobs::plusMinus(a.angle, 2), jobs::plusMinus(a.peakAngle, 2),
-               jobs::plusMinus(a.cohesion, 0), jobs::plusMinus(a.mohrCoulomb, 2),
-               a.angle.halfWidth < kBar ? "below" : "not below", kBar,
+               text, jobs::plusMinus(a.angle, 2), jobs::plusMinus(a.peakAngle, 2), jobs::plusMinus(a.cohesion, 0),
+               jobs::plusMinus(a.mohrCoulomb, 2), a.angle.halfWidth < kBar ? "below" : "not below", kBar,
                a.angle.halfWidth < kBar ? "shown" : "not shown");
     angles += fmt::format("{:g},{},{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g}\n", rolling, runs.size(),
                           a.angle.value, a.angle.halfWidth, a.peakAngle.value, a.peakAngle.halfWidth,
