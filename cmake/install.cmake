@@ -39,7 +39,7 @@ add_custom_target(grouser_manual ALL DEPENDS ${manual}/man/man1/grouser.1)
 install(DIRECTORY ${manual}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
 install(DIRECTORY ${manual}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 
-# The libraries: `find_package(grouser)` and the target grouser::grouser; all rooms up to the output of runs.
+# The libraries: `find_package(grouser)` and the target grouser::grouser; all rooms that a run needs.
 set(rooms base contact spheredecomp multibody terrain vehicle coupling)
 set(program_rooms support scene setup storage output render session)
 set(targets grouser_flags)

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "multibody/readings.hpp"
-#include "multibody/solver.hpp"
-#include "coupling/simulation_setup.hpp"
 #include "coupling/ledger.hpp"
+#include "coupling/simulation_setup.hpp"
 #include "coupling/swing_growth.hpp"
 #include "coupling/towing.hpp"
 #include "coupling/vehicle_contacts.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "coupling/vehicle_state.hpp"
+#include "multibody/readings.hpp"
+#include "multibody/solver.hpp"
 #include "vehicle/assembly.hpp"
 #include "vehicle/driver.hpp"
 #include "vehicle/observers.hpp"

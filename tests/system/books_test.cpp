@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The books of runs whose losses, works and momenta are known in closed form, or balance whatever happens.
 #include "coupling/vehicle_rig.hpp"
-#include "tests/system/ledger_fixture.hpp"
-
 #include "runs/scene/scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "tests/system/ledger_fixture.hpp"
+
 #include <gtest/gtest.h>
 
 namespace grouser::coupling::ledgers {

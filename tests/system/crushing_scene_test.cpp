@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One grain that a mesh crushes on a plane: its force, its ledger, its end, and one answer for all of it.
 #include "ledger_fixture.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

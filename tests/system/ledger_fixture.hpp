@@ -4,9 +4,9 @@
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/setup/simulation_setup.hpp"
 #include <fmt/format.h>
 
 #include <cmath>

@@ -3,9 +3,9 @@
 // stop on the way. tests/gpu compares the same scenes on CPU and GPU, tests/ranks their parts on several ranks.
 #include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <ostream>

@@ -2,12 +2,12 @@
 // Scenes with periodic boundaries, and beds made of copies of a settled tile.
 #include "base/error.hpp"
 #include "coupling/ground.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/sources.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/ground_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

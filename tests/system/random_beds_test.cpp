@@ -4,10 +4,10 @@
 #include "base/math.hpp"
 #include "coupling/settling.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

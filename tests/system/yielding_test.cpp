@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elastic-plastic contacts in scenes: what they give back, what they lose, and what the ledger says of it.
 #include "base/error.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/system/ledger_fixture.hpp"
 
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <string>

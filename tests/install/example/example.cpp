@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/setup/simulation_setup.hpp"
-
-#include "runs/scene/scene.hpp"
 #include <grouser/base/error.hpp>
+#include <grouser/coupling/simulation.hpp>
+#include <grouser/runs/scene/scene.hpp>
 #include <grouser/runs/setup/load_scene.hpp>
-#include <grouser/runs/simulation/simulation.hpp>
+#include <grouser/runs/setup/simulation_setup.hpp>
 
 #include <cstdio>
 

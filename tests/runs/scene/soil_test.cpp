@@ -245,12 +245,12 @@ TEST_F(Soils, AreCalibratedAtTheirSizeAndWithTheirValuesAlone) {
   }
   EXPECT_NE(of(0.06).second.find("not of 60 mm, 6 times its own"), std::string::npos) << of(0.06).second;
   EXPECT_NE(of(0.06).second.find("grouser soil loam --grain-radius 0.06"), std::string::npos);
-  const SoilUse changed = of(0.02, {"material.loam.friction=0.6"}).first;
+  const support::SoilUse changed = of(0.02, {"material.loam.friction=0.6"}).first;
   EXPECT_FALSE(changed.calibrated);
 }
 
 TEST_F(Soils, UsesNameFileHashAndScaledValues) {
-  const std::vector<SoilUse> uses = soilUses(parse(grainOf("g", 0.02, "[material.g]\nsoil = \"loam\"\n")));
+  const std::vector<support::SoilUse> uses = soilUses(parse(grainOf("g", 0.02, "[material.g]\nsoil = \"loam\"\n")));
   ASSERT_EQ(uses.size(), 1u);
   EXPECT_EQ(uses[0].material, "g");
   EXPECT_EQ(uses[0].soil, "loam");

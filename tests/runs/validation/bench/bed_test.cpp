@@ -38,16 +38,16 @@ TEST(StageTimer, ComputesTheSameBitsAsTheLoop) {
   const auto quiet = [](double, double) {};
   coupling::Simulation timed(setup::simulationSetup(scene), base::cpuExec(1), quiet),
       plain(setup::simulationSetup(scene), base::cpuExec(1), quiet);
-  coupling::StageTimer bench(timed, base::cpuExec(1));
-  for (int i = 0; i < 150; ++i) bench.step(), plain.step();
+  coupling::StageTimer timer(timed, base::cpuExec(1));
+  for (int i = 0; i < 150; ++i) timer.step(), plain.step();
   EXPECT_EQ(timed.stateHash(), plain.stateHash());
   EXPECT_EQ(timed.steps(), plain.steps());
-  EXPECT_EQ(bench.steps(), 150);
+  EXPECT_EQ(timer.steps(), 150);
   EXPECT_EQ(timed.ground().grains->system().rebuilds, plain.ground().grains->system().rebuilds);
-  EXPECT_GE(bench.rebuilds(), 1) << "the pass must hold a rebuild";
-  for (const coupling::StageTimer::Part& part : bench.parts()) EXPECT_GT(part.microseconds, 0) << part.name;
-  EXPECT_GT(bench.part(coupling::Stage::grainStep).microseconds,
-            bench.part(coupling::Stage::grainStepEnded).microseconds);
+  EXPECT_GE(timer.rebuilds(), 1) << "the pass must hold a rebuild";
+  for (const coupling::StageTimer::Part& part : timer.parts()) EXPECT_GT(part.microseconds, 0) << part.name;
+  EXPECT_GT(timer.part(coupling::Stage::grainStep).microseconds,
+            timer.part(coupling::Stage::grainStepEnded).microseconds);
 }
 
 TEST(StageTimer, ComputesTheSameBitsForAMechanism) {
@@ -56,11 +56,11 @@ TEST(StageTimer, ComputesTheSameBitsForAMechanism) {
   coupling::Simulation timed(setup::simulationSetup(scene), base::cpuExec(1), quiet),
       plain(setup::simulationSetup(scene), base::cpuExec(1), quiet);
   const std::string atRest = plain.stateHash();
-  coupling::StageTimer bench(timed, base::cpuExec(1));
-  for (int i = 0; i < 150; ++i) bench.step(), plain.step();
+  coupling::StageTimer timer(timed, base::cpuExec(1));
+  for (int i = 0; i < 150; ++i) timer.step(), plain.step();
   EXPECT_NE(plain.stateHash(), atRest);
   EXPECT_EQ(timed.stateHash(), plain.stateHash());
-  EXPECT_GT(bench.part(coupling::Stage::multibody).microseconds, 0);
+  EXPECT_GT(timer.part(coupling::Stage::multibody).microseconds, 0);
 }
 
 TEST(BenchBed, SettlesAndCountsWhatItSays) {

@@ -2,10 +2,10 @@
 // Random vehicles: drawn alike from one seed, of all kinds, most of them valid; a few of them run.
 #include "base/error.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/storage/sphere_cache.hpp"
 #include "runs/validation/studies/random_vehicles.hpp"
 #include "tests/runs/program_fixture.hpp"
 
-#include "runs/storage/sphere_cache.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -96,24 +96,24 @@ TEST(StudyBed, RestIsThatOfThreeLooksOrTheTimeIsUp) {
 TEST(StudyEstimate, IntervalsAreStudents) {
   // Mean 3, standard deviation sqrt(2.5), five values: half width 2.776 sqrt(2.5 / 5).
   const std::vector<double> five{1, 2, 3, 4, 5};
-  EXPECT_NEAR(support::interval95(five).halfWidth, 2.776 * std::sqrt(0.5), 1e-12);
-  EXPECT_TRUE(std::isinf(support::interval95(std::vector<double>{7}).halfWidth));
+  EXPECT_NEAR(jobs::interval95(five).halfWidth, 2.776 * std::sqrt(0.5), 1e-12);
+  EXPECT_TRUE(std::isinf(jobs::interval95(std::vector<double>{7}).halfWidth));
   // Equal variances and sizes: Welch's freedom is 2 (n - 1) = 8, of which the quantile is 2.306.
   const std::vector<double> more{2, 3, 4, 5, 6};
-  const support::Estimate difference = support::relativeDifference(five, more);
+  const support::Estimate difference = jobs::relativeDifference(five, more);
   EXPECT_NEAR(difference.value, 1.0 / 3, 1e-12);
   EXPECT_NEAR(difference.halfWidth, 2.306 * std::sqrt(1.0) / 3, 1e-12);
   // One of them without scatter: the freedom is the other's, 4.
   const std::vector<double> same{3, 3, 3, 3, 3};
-  EXPECT_NEAR(support::relativeDifference(same, five).halfWidth, 2.776 * std::sqrt(0.5) / 3, 1e-12);
+  EXPECT_NEAR(jobs::relativeDifference(same, five).halfWidth, 2.776 * std::sqrt(0.5) / 3, 1e-12);
 }
 
 TEST(StudyEstimate, AWideIntervalIsNeverAgreement) {
-  EXPECT_EQ(support::judge({0.01, 0.03}, 0.05), support::Verdict::equal);
-  EXPECT_EQ(support::judge({0.00, 0.06}, 0.05), support::Verdict::notShown);
-  EXPECT_EQ(support::judge({0.04, 0.02}, 0.05), support::Verdict::notShown);
-  EXPECT_EQ(support::judge({-0.10, 0.04}, 0.05), support::Verdict::differs);
-  EXPECT_EQ(support::judge(support::interval95(std::vector<double>{0.0}), 0.05), support::Verdict::notShown)
+  EXPECT_EQ(jobs::judge({0.01, 0.03}, 0.05), jobs::Verdict::equal);
+  EXPECT_EQ(jobs::judge({0.00, 0.06}, 0.05), jobs::Verdict::notShown);
+  EXPECT_EQ(jobs::judge({0.04, 0.02}, 0.05), jobs::Verdict::notShown);
+  EXPECT_EQ(jobs::judge({-0.10, 0.04}, 0.05), jobs::Verdict::differs);
+  EXPECT_EQ(jobs::judge(jobs::interval95(std::vector<double>{0.0}), 0.05), jobs::Verdict::notShown)
       << "one seed tells nothing";
 }
 
