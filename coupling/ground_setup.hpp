@@ -58,7 +58,7 @@ struct BedSetup {
   std::optional<PreparationSetup> preparation;
   std::optional<double> densest; ///< solid fraction [-] above which the bed has crystallised; empty: not asked
   bool cache{};                  ///< keep the settled bed for later runs, and take it from one
-  std::string origin;            ///< all that makes the bits of the settled bed, as text; see bedOrigin()
+  std::string origin;            ///< all that makes the bits of the settled bed, as text
   std::optional<TileSetup> tile;
   /// The ground in which it settles, where more is put on it afterwards: without that, as if the scene ended with the
   /// bed. Null: it settles in the scene as it is.

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "base/math.hpp"
-#include "multibody/solver.hpp"
-#include "multibody/state.hpp"
-#include "coupling/mechanism_setup.hpp"
 #include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
+#include "coupling/mechanism_setup.hpp"
 #include "coupling/mechanism_state.hpp"
 #include "coupling/step_controller.hpp"
 #include "coupling/swing_growth.hpp"
+#include "multibody/solver.hpp"
+#include "multibody/state.hpp"
 
 #include <cstdint>
 #include <memory>

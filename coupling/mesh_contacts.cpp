@@ -22,8 +22,7 @@ PartCut meshCut(const SurfaceSetup& surface, double contactSize) {
   return cut;
 }
 
-MeshContacts::MeshContacts(const GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains,
-                           SphereSets* kept)
+MeshContacts::MeshContacts(const GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains, SphereSets* kept)
     : exec_(exec), comm_(grains.system().comm), room_(0.5 * grains.system().constants.smallestRadius) {
   std::vector<contact::GrainPart> parts;
   std::vector<PartCut> cuts;

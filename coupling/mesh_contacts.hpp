@@ -20,7 +20,7 @@ PartCut meshCut(const SurfaceSetup& surface, double contactSize);
 class MeshContacts {
 public:
   /// Registers with the grains' migration, so that history follows them to other ranks; must outlive their steps.
-  /// `kept`: where sphere sets are kept; null: all are cut.
+  /// `kept`: where sphere sets come from; null: all are cut.
   MeshContacts(const GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;

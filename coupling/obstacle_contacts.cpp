@@ -17,8 +17,7 @@ using terrain::SurfaceContacts;
 std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const vehicle::Assembly& assembly, const VehicleParts& parts,
                                                          const std::vector<Obstacle>& obstacles,
                                                          const terrain::HeightField* hullOn, const base::Exec& exec,
-                                                         const Model& model, const base::Comm& comm,
-                                                         SphereSets* kept) {
+                                                         const Model& model, const base::Comm& comm, SphereSets* kept) {
   if (obstacles.empty() && !hullOn) return nullptr;
   std::unique_ptr<ObstacleContacts> made(new ObstacleContacts);
   std::vector<PartCut> cuts;

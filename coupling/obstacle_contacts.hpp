@@ -23,7 +23,7 @@ public:
     double timeStep{};
     double margin{}; ///< [m] how far before touching a sample is listed
   };
-  /// `kept`: where sphere sets of meshes are kept; null: they are cut. `hullOn`: rigid ground for the hull; may be
+  /// `kept`: where sphere sets of meshes come from; null: they are cut. `hullOn`: rigid ground for the hull; may be
   /// null. Null where there is nothing to meet.
   static std::unique_ptr<ObstacleContacts> make(const vehicle::Assembly& assembly, const VehicleParts& parts,
                                                 const std::vector<Obstacle>& obstacles,

@@ -41,8 +41,7 @@ std::vector<Row> rowsOf(const terrain::Grains& bed) {
 }
 
 /// Whether a ball reaches into [low, high] along x or y, or one of its images beyond periodic boundaries does.
-bool isOver(int axis, double place, double radius, const SurfaceBounds& b,
-            const terrain::PeriodicBoundaries& sides) {
+bool isOver(int axis, double place, double radius, const SurfaceBounds& b, const terrain::PeriodicBoundaries& sides) {
   const auto reaches = [&](double x) { return x + radius > b.low[axis] && x - radius < b.high[axis]; };
   const auto& periodic = sides[static_cast<std::size_t>(axis)];
   if (!periodic) return reaches(place);
@@ -285,8 +284,7 @@ void takeIntoScene(Ground& ground, const GroundSetup& scene, const base::Exec& e
   ground.grains->restore(rows);
 }
 
-Ground groundAt(const GroundSetup& scene, const GrainState& rows, const base::Exec& exec,
-                const base::Comm& comm) {
+Ground groundAt(const GroundSetup& scene, const GrainState& rows, const base::Exec& exec, const base::Comm& comm) {
   Ground ground;
   ground.surface = scene.surface, ground.rigid = scene.rigid;
   ground.walls = scene.grains->bed->walls;

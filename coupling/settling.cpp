@@ -107,8 +107,8 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
       wanted.forceRatio ? " and settle_force_ratio" : ""));
 }
 
-void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double friction,
-                        const SettleProgress& progress, SettleReport& report) {
+void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double friction, const SettleProgress& progress,
+                        SettleReport& report) {
   const terrain::GrainModel own = grains.model();
   terrain::GrainModel prepared = own;
   // What sticks while it falls lies as loosely as no soil that machines have passed over.

@@ -42,8 +42,8 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
 
 /// Lets a loose bed come to rest with `friction` [-] between its grains, under gravity of its strength straight down,
 /// and then with their own friction and gravity.
-void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double friction,
-                        const SettleProgress& progress, SettleReport& report);
+void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double friction, const SettleProgress& progress,
+                        SettleReport& report);
 
 /// Prepares the bed, where the scene asks for a porosity, and lets it come to rest under gravity. Throws
 /// SimulationError when the scene's time limit passes first, or when the grains meet a fault: the message says that it

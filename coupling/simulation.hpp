@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/simulation_setup.hpp"
-#include "coupling/settled_beds.hpp"
 #include "coupling/energy_guard.hpp"
 #include "coupling/ground.hpp"
 #include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/mechanism.hpp"
 #include "coupling/pressed_grain.hpp"
+#include "coupling/settled_beds.hpp"
+#include "coupling/simulation_setup.hpp"
 #include "coupling/simulation_state.hpp"
 #include "coupling/step_observer.hpp"
 #include "coupling/steps_ahead.hpp"
@@ -31,13 +31,13 @@ namespace grouser::coupling {
 /// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
 class Simulation {
 public:
-  /// `beds`, `spheres`: where settled beds and sphere sets are kept; null: settles, or cuts, by itself.
-  Simulation(SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
-             const base::Comm& comm = {}, SettledBeds* beds = nullptr, SphereSets* spheres = nullptr);
+  /// `beds`, `spheres`: where settled beds and sphere sets come from; null: settles, or cuts, by itself.
+  Simulation(SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {},
+             SettledBeds* beds = nullptr, SphereSets* spheres = nullptr);
   /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
   /// InputError when the state is of another scene.
-  Simulation(SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
-             const base::Comm& comm = {}, SphereSets* spheres = nullptr);
+  Simulation(SimulationSetup setup, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {},
+             SphereSets* spheres = nullptr);
   Simulation(const Simulation&) = delete; // its parts refer to setup_ and to each other
   Simulation& operator=(const Simulation&) = delete;
   SimulationState save() const;
@@ -119,9 +119,7 @@ private:
   /// Whether the bed settles alone, and what the scene has beyond it comes afterwards.
   bool isPutOnBed() const { return hasBed() && setup_.ground.grains->bed->alone; }
   /// In which the bed settles.
-  const GroundSetup& bedGround() const {
-    return isPutOnBed() ? *setup_.ground.grains->bed->alone : setup_.ground;
-  }
+  const GroundSetup& bedGround() const { return isPutOnBed() ? *setup_.ground.grains->bed->alone : setup_.ground; }
 
   SimulationSetup setup_; ///< changes no more once things stand on the settled bed
   base::Exec exec_;

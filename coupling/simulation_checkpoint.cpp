@@ -50,8 +50,7 @@ bool isMadeOfState(const GroundSetup& setup) {
   return setup.grains && setup.grains->bed && (setup.grains->bed->alone || setup.grains->bed->tile);
 }
 
-Ground groundOf(GroundSetup& setup, const SimulationState& state, const base::Exec& exec,
-                const base::Comm& comm) {
+Ground groundOf(GroundSetup& setup, const SimulationState& state, const base::Exec& exec, const base::Comm& comm) {
   if (!isMadeOfState(setup) || !state.grains) return buildGround(setup, exec, comm);
   if (setup.grains->bed->alone) lift(setup, state.lifts);
   return groundAt(setup, *state.grains, exec, comm);

@@ -30,17 +30,17 @@ private:
   Simulation& simulation_;
   base::Exec exec_;
   std::array<Part, kStages> parts_{{{"place surfaces"},
-                                                {"neighbours"},
-                                                {"lists of parts"},
-                                                {"walls and floor"},
-                                                {"poses to device"},
-                                                {"track contacts"},
-                                                {"ground contacts"},
-                                                {"loads to host"},
-                                                {"grain kernel"},
-                                                {"multibody"},
-                                                {"flags to host"},
-                                                {"alarm"}}};
+                                    {"neighbours"},
+                                    {"lists of parts"},
+                                    {"walls and floor"},
+                                    {"poses to device"},
+                                    {"track contacts"},
+                                    {"ground contacts"},
+                                    {"loads to host"},
+                                    {"grain kernel"},
+                                    {"multibody"},
+                                    {"flags to host"},
+                                    {"alarm"}}};
   std::int64_t steps_ = 0, rebuilds_ = 0;
   std::int64_t last_ = 0; ///< end of the stage before [ns]
 };

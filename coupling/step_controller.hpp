@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/mechanism_setup.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
-#include "coupling/mechanism_setup.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -21,9 +21,9 @@ constexpr double kAhead = 0.0005;      // [m] that parts may move in a step laun
 
 } // namespace
 
-VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts,
-                                 const GroundSetup& setup, const base::Exec& exec, double timeStep,
-                                 const Ground& ground, bool shoesAlone, SphereSets* kept)
+VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts, const GroundSetup& setup,
+                                 const base::Exec& exec, double timeStep, const Ground& ground, bool shoesAlone,
+                                 SphereSets* kept)
     : assembly_(assembly), parts_(parts), exec_(exec), side_(exec, true), graph_(exec),
       replicated_(ground.grains.get()), timeStep_(timeStep) {
   if (ground.grains) comm_ = ground.grains->system().comm;

@@ -3,8 +3,8 @@
 
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
-#include "coupling/vehicle_setup.hpp"
 #include "coupling/sphere_sets.hpp"
+#include "coupling/vehicle_setup.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <cstddef>
@@ -17,11 +17,11 @@ namespace grouser::coupling {
 /// that touch something are the contact parts: all but the hull, and that behind them where it is asked for.
 class VehicleParts {
 public:
-  /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets are kept; null: all are cut.
+  /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets come from; null: all are cut.
   /// `smallestGrain`: radius of the smallest grain that touches them [m]; infinity without. Throws InputError where a
   /// mesh is of no use.
-  VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup& setup, const base::Comm& comm,
-               SphereSets* kept, double smallestGrain);
+  VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup& setup, const base::Comm& comm, SphereSets* kept,
+               double smallestGrain);
 
   /// Smallest feature at which a vehicle's parts, ground and obstacles meet each other [m]: a quarter of a pitch.
   static double contactSize(const vehicle::VehicleSpec& spec) { return 0.25 * spec.shoe.pitch; }
@@ -54,8 +54,8 @@ public:
 private:
   void addContactPart(std::size_t part);
   /// `hull`: its mesh, of which contacts need the surface only.
-  void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const VehicleSetup& setup,
-           double contactSize, SphereSets* kept, const base::Comm& comm);
+  void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const VehicleSetup& setup, double contactSize,
+           SphereSets* kept, const base::Comm& comm);
 
   std::vector<base::TriangleMesh> meshes_;
   std::vector<std::size_t> meshOfPart_;

@@ -18,8 +18,8 @@ using base::Vec3d;
 namespace {
 
 /// Set down along the ground, `lift` [m] higher than its surface asks for.
-vehicle::Assembly assembled(const VehicleSetup& setup,
-                            const std::function<double(double, double)>& surfaceHeight, double lift) {
+vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<double(double, double)>& surfaceHeight,
+                            double lift) {
   const Placement& place = setup.place;
   vehicle::AssemblyOptions options;
   options.fixChassis = setup.fixChassis;

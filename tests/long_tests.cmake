@@ -1,34 +1,48 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Read by ctest once the tests of grouser_tests are known. It starts the longest ones first (COST: about what they take
-# [s], until it has measured them itself), so that none is left alone at the end, and gives two cores to those of
-# several ranks or threads: where other tests take their cores they wait for each other many times as long.
-foreach(test
-    "GranularBed.ShoesSinkWhileTheyCarryAndArePickedUp 60"
-    "OneAnswer.OfATowingVehicle 20"
-    "SoilCommandTest.PartsMayBeginTogether 40"
-    "SoilCommandTest.MeasuresInSlicesAndWritesItsTables 40"
-    "LedgerOfAVehicle.OnItsBedBalancesInMomenta 35"
-    "GranularBed.CarriesTheWholeWeightAtRest 35"
-    "BedPreparation.PorosityWantedIsReachedWithTheSameFrictionForEverySeed 30"
-    "OneAnswer.OnObstacles 25"
-    "MechanismRun.NoShippedMechanismIsWarnedOf 25"
-    "Documents.ScenesCanBePlanned 23"
+# Read by ctest once the tests of all programs are known.
+
+# The long ones, which tests/run leaves to tests/run --long: about what each takes [s], and tests of the same claim that
+# are not long. Beside these, ranks.8_all (ranks.1 to ranks.8).
+foreach(row
+    "OneAnswerBed.TwentyThousandGrainsOverTenThousandSteps 60 OneAnswerScenes.HashIsThatOfEveryMachineAndNumberOfThreads"
+    "SoilSample.ALayerThatSticksIsShearedItself 70 SoilSample.OneThatSticksIsShearedMoreWhereTeethArePressedIn"
+    "GranularBed.ShoesSinkWhileTheyCarryAndArePickedUp 60 GranularBed.CarriesTheWholeWeightAtRest RigidGround.ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega"
+    "BedPreparation.PorosityWantedIsReachedWithTheSameFrictionForEverySeed 37 BedPreparation.LooserBedsNeedMoreFrictionAndEverySeedTheSame RandomBeds.TilesKeepTheirPorosity"
+    "BenchStep.SaysHowTheVehicleMovesAtEachTime 18 BenchStep.TimesADrivingVehicleUnlessATimeIsGiven BenchStep.WaitsForAStartThatOnlyTheRunKnows BenchCommands.PrintFiguresAndWriteThemAsJson"
+    "OneAnswer.CoupledSceneOnTwoThreadsWithOtherRebuilds 13 OneAnswer.CoupledSceneInBatchesOfSteps RandomBeds.AreTheSameOnAllThreadsWithAllSkinsAndResumed"
+    "OneAnswer.OfATowingVehicle 10 OneAnswer.OfAVehicleThatTowsASled"
+    "RandomBeds.OfTilesArePreparedLevelToo 8 RandomBeds.ArePreparedLevelAndLeanWithTheFrictionOfTheirGrains RandomBeds.TilesKeepTheirPorosity"
+    "RandomVehiclesDrawn.OnABedEndSoundOrWithACause 8 RandomVehiclesDrawn.OverABumpEndSoundOrWithACause RandomVehicle.OfABedIsJudgedByItsBooksAndItsCause")
+  string(REPLACE " " ";" row "${row}")
+  list(GET row 0 test)
+  list(GET row 1 seconds)
+  set_tests_properties(${test} PROPERTIES LABELS long COST ${seconds})
+endforeach()
+
+# The longest of the others start first (COST: about what they take [s], until ctest has measured them itself), so that
+# none is left alone at the end.
+foreach(row
+    "SoilCommandTest.MeasuresInSlicesAndWritesItsTables 25"
+    "SoilSample.OneThatSticksIsShearedMoreWhereTeethArePressedIn 23"
     "BedPreparation.GrainsStickOnlyOnceTheyLie 22"
-    "FullDisk.LimitToTheSizeOfAnyFileLosesNothing 20"
-    "BenchCommands.StepSaysWhetherTheVehicleDrivesAndWaitsForIt 20"
-    "RigidGround.ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega 15"
-    "OneAnswer.CoupledSceneOnOneThread 15"
-    "OneAnswer.CoupledSceneOnTwoThreadsWithOtherRebuilds 15"
-    "OneAnswer.AnotherSeedIsAnotherState 15"
-    "OnRanks.PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRank 15"
-    "OnRanks.VehicleDrivesAcrossBordersWithTheBitsOfOneRank 15"
-    "Towing.ASledPullsWithItsFriction 15"
-    "AtRest.TheGradeThatItHoldsIsItsFriction 15")
-  string(REPLACE " " ";" test "${test}")
-  list(GET test 0 name)
-  list(GET test 1 seconds)
-  set_tests_properties(${name} PROPERTIES COST ${seconds})
-  if(name MATCHES "^OnRanks|^OneAnswer.On|^OneAnswer.OfA")
-    set_tests_properties(${name} PROPERTIES PROCESSORS 2)
-  endif()
+    "GranularBed.CarriesTheWholeWeightAtRest 20"
+    "SoilCommandTest.ACalibrationKeepsItsTrials 20"
+    "SoilCommandTest.PartsMayBeginTogether 20"
+    "Towing.ASledPullsWithItsFriction 18"
+    "SoilCommandTest.WhatEndsUnsoundlyIsDoneAgainWithShorterSteps 17"
+    "RigidGround.ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega 17"
+    "AtRest.TheGradeThatItHoldsIsItsFriction 16"
+    "OneAnswer.CoupledSceneOnOneThread 16")
+  string(REPLACE " " ";" row "${row}")
+  list(GET row 0 test)
+  list(GET row 1 seconds)
+  set_tests_properties(${test} PROPERTIES COST ${seconds})
+endforeach()
+
+# Of several ranks or threads: where other tests take their cores they wait for each other many times as long.
+foreach(test
+    OneAnswer.OnObstacles OneAnswer.OfATowingVehicle OneAnswer.OfAVehicleThatTowsASled
+    OnRanks.PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRank
+    OnRanks.VehicleDrivesAcrossBordersWithTheBitsOfOneRank)
+  set_tests_properties(${test} PROPERTIES PROCESSORS 2 COST 20)
 endforeach()

@@ -266,7 +266,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   setup::checkGround(scene, step);
   if (!scene.mechanism.empty()) text += output::mechanismSize(coupling::Mechanism(setup::mechanismSetup(scene), step));
   text += bedHeightText(scene);
-  for (const scene::SoilUse& use : scene::soilUses(scene))
+  for (const support::SoilUse& use : scene::soilUses(scene))
     text += fmt::format("  {:<24} {}\n", "soil", scene::soilLine(use));
   text += pairsText(scene);
   text += "\ntime\n";

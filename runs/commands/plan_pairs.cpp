@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/meeting_pairs.hpp"
 #include "vehicle/spec_file.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -14,6 +14,7 @@
 #include "runs/commands/run_warnings.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/scene/soil.hpp"
 #include "runs/session/failed_run.hpp"
 #include "runs/session/preparation.hpp"
 #include "runs/session/run_session.hpp"
@@ -89,7 +90,7 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
                static_cast<double>(grains->system().deviceBytes()) /
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
-  for (const scene::SoilUse& use : provenance.soils) fmt::print("soil      {}\n", scene::soilLine(use));
+  for (const support::SoilUse& use : provenance.soils) fmt::print("soil      {}\n", scene::soilLine(use));
   fmt::print("{}", bedText(simulation));
   describePlaced(simulation);
   if (kept.beds && !kept.beds->summary().empty()) fmt::print("bed       {}\n", kept.beds->summary());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/output/output.hpp"
+#include "runs/output/records.hpp"
 #include "runs/render/image.hpp"
 #include "runs/render/render.hpp"
 

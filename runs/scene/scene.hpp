@@ -7,7 +7,6 @@
 #include "runs/scene/surface_structs.hpp"
 #include "vehicle/spec_source.hpp"
 
-#include "runs/setup/obstacles.hpp"
 #include <array>
 #include <cstdint>
 #include <filesystem>

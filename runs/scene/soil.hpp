@@ -3,6 +3,7 @@
 
 #include "base/enum_words.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/support/soil_use.hpp"
 
 #include <array>
 #include <filesystem>
@@ -92,19 +93,10 @@ std::map<std::string, std::filesystem::path> knownSoils(const std::filesystem::p
 /// "did you mean \"lete_sand\"? (soils: ...)", for a name that is none of them.
 std::string soilHint(const std::string& word, const std::filesystem::path& scene);
 
-/// What a scene's material has of a soil: for results and messages.
-struct SoilUse {
-  std::string material;
-  std::string soil, file, hash;
-  bool calibrated = false;
-  double grainRadius = 0;                 ///< [m] that it is scaled to
-  double scale = 1;                       ///< [-] over the radius of the soil's file
-  std::map<std::string, double> scaled{}; ///< what goes with the radius, by key and unit: "cohesion [J/m2]"
-};
-/// One for each material that is a soil, in the order of the materials.
-std::vector<SoilUse> soilUses(const Scene& scene);
+/// What a scene has of soils: one for each material that is a soil, in the order of the materials.
+std::vector<support::SoilUse> soilUses(const Scene& scene);
 /// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times its own, cohesion [J/m2] 3; uncalibrated".
-std::string soilLine(const SoilUse& use);
+std::string soilLine(const support::SoilUse& use);
 
 /// What users of the scene's soils should know, a line each.
 std::vector<std::string> soilNotes(const Scene& scene);

@@ -86,12 +86,12 @@ bool isCalibratedSize(const std::array<double, 2>& calibratedRadii, double radiu
          radius <= (1 + kCalibratedWithin) * calibratedRadii[1];
 }
 
-std::vector<SoilUse> soilUses(const Scene& scene) {
-  std::vector<SoilUse> uses;
+std::vector<support::SoilUse> soilUses(const Scene& scene) {
+  std::vector<support::SoilUse> uses;
   for (const Material& m : scene.materials) {
     if (m.soil.empty()) continue;
     const Soil& soil = *scene.soils.at(m.name);
-    SoilUse use{m.name, soil.name, m.soil, m.soilHash, isCalibrated(m, soil), *m.grainRadius, 1, {}};
+    support::SoilUse use{m.name, soil.name, m.soil, m.soilHash, isCalibrated(m, soil), *m.grainRadius, 1, {}};
     use.scale = use.grainRadius / soil.grains.radius;
     detail::forEachScaled(m, [&](const char* key, const char* unit, const auto& value, int) {
       if (detail::isGiven(value)) use.scaled[fmt::format("{} [{}]", key, unit)] = detail::numberOf(value);
@@ -101,7 +101,7 @@ std::vector<SoilUse> soilUses(const Scene& scene) {
   return uses;
 }
 
-std::string soilLine(const SoilUse& use) {
+std::string soilLine(const support::SoilUse& use) {
   std::string values;
   for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);
   return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} times its own{}; {}", use.material,

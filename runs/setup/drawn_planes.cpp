@@ -2,6 +2,7 @@
 #include "runs/setup/drawn_planes.hpp"
 
 #include "runs/scene/scene.hpp"
+
 #include <algorithm>
 #include <tuple>
 #include <utility>

@@ -2,9 +2,9 @@
 // Many grains from one section: lattices, random fills, files.
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_kinds.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <unordered_map>

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
+#include "runs/scene/soil.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/vehicle_setup.hpp"

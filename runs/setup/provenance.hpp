@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/scene/soil.hpp"
+#include "runs/support/soil_use.hpp"
 
 #include <filesystem>
 #include <string>
@@ -19,7 +19,7 @@ struct Provenance {
   std::vector<std::string> overrides;
   std::string resolved; ///< the scene with every default filled in, as TOML
   std::string inputs;   ///< see inputsOf()
-  std::vector<scene::SoilUse> soils{};
+  std::vector<support::SoilUse> soils{};
 };
 Provenance provenanceOf(const scene::Scene& scene);
 

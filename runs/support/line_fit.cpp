@@ -2,6 +2,7 @@
 #include "runs/support/line_fit.hpp"
 
 #include "base/math.hpp"
+
 #include <Eigen/Dense>
 
 #include <fmt/format.h>

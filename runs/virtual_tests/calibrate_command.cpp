@@ -3,9 +3,9 @@
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/jobs/estimate.hpp"
 #include "runs/output/output.hpp"
 #include "runs/support/build_info.hpp"
-#include "runs/support/estimate.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/calibration_record.hpp"
@@ -138,8 +138,8 @@ private:
                      foundCohesion = r.measured.at(Quantity::cohesion);
       fmt::print("          friction {:.4g}, rolling friction {:.4g}, {} {:.4g}: phi {} deg, c {} kPa; K {} mm\n",
                  soil_.friction, numberOf(soil_, "rolling_friction", 0), pullKey(), search.at().pull,
-                 support::valueText(foundAngle), support::valueText(foundCohesion),
-                 support::valueText(r.measured.at(Quantity::shearModulus)));
+                 jobs::valueText(foundAngle), jobs::valueText(foundCohesion),
+                 jobs::valueText(r.measured.at(Quantity::shearModulus)));
       goesOn = search.tried(foundAngle.value, foundCohesion.value);
     }
     setStrength(search.nearest(), mu);
@@ -189,7 +189,7 @@ private:
       trials.push_back({base::log(stiffness), base::log(pressure.value)});
       stiffnesses[trials.back().x] = stiffness;
       fmt::print("          {} {:.4g}: {} kPa where {:g} are wanted\n", springKey(), stiffness,
-                 support::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
+                 jobs::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
       const std::optional<double> next = nextTrial(trials, wanted, std::log1p(targets_.stiffnessTolerance),
                                                    base::log(least), base::log(kStiffer * start), kStiffnessSlope);
       if (!next) break;
@@ -221,7 +221,7 @@ private:
         if (std::fabs(curve.sinkage[i] - at) <= window) sum += curve.pressure[i], ++count;
       pressures.push_back(std::max(1.0, sum / std::max(1.0, count)));
     }
-    return support::interval95(pressures);
+    return jobs::interval95(pressures);
   }
 
   std::vector<TargetOutcome> outcomes(const SoilResults& r, const Estimate& small, const Estimate& large) const {
@@ -299,8 +299,8 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
   text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
   for (const auto& [q, e] : reached.measured) {
     if (const std::string doubt = doubtOf(q, e); !doubt.empty()) {
-      text += fmt::format("\n# {} = {} {} is left out, since it is inconclusive: {}\n", symbolOf(q),
-                          support::valueText(e), unitOf(q), doubt);
+      text += fmt::format("\n# {} = {} {} is left out, since it is inconclusive: {}\n", symbolOf(q), jobs::valueText(e),
+                          unitOf(q), doubt);
       continue;
     }
     text +=

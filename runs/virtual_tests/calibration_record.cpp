@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/virtual_tests/calibration_record.hpp"
 
+#include "runs/jobs/estimate.hpp"
 #include "runs/support/build_info.hpp"
-#include "runs/support/estimate.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/soil_report.hpp"
@@ -49,7 +49,7 @@ bool TargetOutcome::isReached() const { return tolerance && std::fabs(reached.va
 std::string outcomesText(const std::vector<TargetOutcome>& outcomes, bool coarse) {
   std::string text = fmt::format("\n{}targets and what is reached\n", coarse ? "coarse: " : "");
   for (const TargetOutcome& o : outcomes) {
-    text += fmt::format("  {:<22} {:>20} {:<11} wanted {:g}", o.what, support::valueText(o.reached), o.unit, o.wanted);
+    text += fmt::format("  {:<22} {:>20} {:<11} wanted {:g}", o.what, jobs::valueText(o.reached), o.unit, o.wanted);
     text += o.isSought() ? fmt::format(" +- {:g}: {}\n", *o.tolerance,
                                        o.isReached() ? "reached" : "not reached, this is the nearest")
                          : std::string(": not sought, it follows\n");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/virtual_tests/constant_doubts.hpp"
 
-#include "runs/support/estimate.hpp"
+#include "runs/jobs/estimate.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ std::string doubtsText(const SoilResults& results, const TestPlan& plan) {
   bool ofPlates = false;
   for (const auto& [quantity, why] : doubtsOf(results)) {
     text += fmt::format("{}{} = {} {} ({})", text.empty() ? "inconclusive: " : ", ", symbolOf(quantity),
-                        support::valueText(results.measured.at(quantity)), unitOf(quantity), why);
+                        jobs::valueText(results.measured.at(quantity)), unitOf(quantity), why);
     ofPlates = ofPlates || quantity == Quantity::exponent || quantity == Quantity::frictionModulus ||
                quantity == Quantity::cohesionModulus;
   }

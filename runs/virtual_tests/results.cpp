@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/virtual_tests/results.hpp"
 
-#include "runs/support/estimate.hpp"
+#include "runs/jobs/estimate.hpp"
 #include "runs/virtual_tests/resampling.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ TestCosts costsOf(const std::string& name, const std::vector<jobs::Table>& runs)
   TestCosts c;
   c.name = name, c.tests = static_cast<int>(runs.size());
   const bool isPlate = !runs.empty() && runs.front().names == kSinkageColumns;
-  const Estimate porosity = support::interval95(firstOf(runs, "porosity [-]"));
+  const Estimate porosity = jobs::interval95(firstOf(runs, "porosity [-]"));
   c.porosity = porosity.value, c.porosityHalfWidth = porosity.halfWidth;
   if (!isPlate) return c;
   c.grains = meanValue(firstOf(runs, "grains"));
@@ -52,7 +52,7 @@ void addBedding(SoilResults& r, const TestPlan& plan, std::size_t i, const std::
     origins.push_back(1e3 * bedded.origin), begins.push_back(bedded.begins);
     asMeasured.curves.push_back(fromFirstContact(loadingCurve(run)));
   }
-  r.bedding[i] = support::interval95(origins), r.lineBegins[i] = support::interval95(begins);
+  r.bedding[i] = jobs::interval95(origins), r.lineBegins[i] = jobs::interval95(begins);
   const auto statistic = [&](const TestCounts& counts) {
     return std::vector<double>{fitOnePlate(asMeasured, counts[0]).n};
   };
@@ -68,7 +68,7 @@ void addUnloading(SoilResults& r, std::size_t i, const std::vector<jobs::Table>&
     from.push_back(1e-3 * u.from), added.push_back(addedByMotion(run));
   }
   const auto over = [](const std::vector<double>& values) {
-    return values.empty() ? kUnmeasured : support::interval95(values);
+    return values.empty() ? kUnmeasured : jobs::interval95(values);
   };
   r.unloading[i] = over(stiffness), r.reloading[i] = over(reloading), r.unloadedFrom[i] = over(from);
   r.addedByMotion[i] = over(added);
@@ -91,7 +91,7 @@ std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide
   std::vector<double> a, b;
   for (const SinkageCurve& c : small.curves) a.push_back(pressureBetween(c, kCompareFrom * common, common));
   for (const SinkageCurve& c : wide.curves) b.push_back(pressureBetween(c, kCompareFrom * common, common));
-  return support::relativeDifference(a, b);
+  return jobs::relativeDifference(a, b);
 }
 
 void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vector<jobs::Table>, 2>& runs) {
@@ -167,7 +167,7 @@ void addRepose(SoilResults& r, const TestPlan& plan, const std::vector<jobs::Tab
   }
   r.reposeTests = static_cast<int>(repose.size());
   if (starts.empty() || repose.empty()) return; // it holds at any tilt
-  r.stability = support::interval95(starts), r.measured[Quantity::repose] = support::interval95(repose);
+  r.stability = jobs::interval95(starts), r.measured[Quantity::repose] = jobs::interval95(repose);
 }
 
 /// What a table of soils is good for: a share of the value, or so much of it.

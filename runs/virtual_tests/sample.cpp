@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/virtual_tests/sample.hpp"
-#include "base/sphere.hpp"
-#include "runs/setup/load_scene.hpp"
 
+#include "base/sphere.hpp"
 #include "runs/jobs/study_place.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 
 #include <fmt/format.h>

@@ -2,10 +2,10 @@
 #include "runs/virtual_tests/soil_report.hpp"
 
 #include "base/counted.hpp"
+#include "runs/jobs/estimate.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/csv_cell.hpp"
-#include "runs/support/estimate.hpp"
 #include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/constant_doubts.hpp"
@@ -47,12 +47,12 @@ nlohmann::ordered_json publishedJson(const TestedSoil& soil, Quantity quantity) 
 std::string atGivenNText(const TestPlan& plan, const SoilResults& r, std::size_t i) {
   if (!r.givenN) return {};
   const std::optional<PublishedSpan> span = publishedModulus(plan.soil, plan.breadth(kBreadths[i]));
-  return fmt::format("k {} with n = {:g}{}; ", support::valueText(r.kAtGivenN[i]), *r.givenN,
+  return fmt::format("k {} with n = {:g}{}; ", jobs::valueText(r.kAtGivenN[i]), *r.givenN,
                      span ? fmt::format(" ({}: {})", spanText(*span), verdictOf(r.kAtGivenN[i], *span)) : "");
 }
 
 std::string row(const std::string& name, const Estimate& e, const std::string& unit, const std::string& rest) {
-  return fmt::format("  {:<8} {:>20} {:<11} {}\n", name, support::valueText(e), unit, rest);
+  return fmt::format("  {:<8} {:>20} {:<11} {}\n", name, jobs::valueText(e), unit, rest);
 }
 
 bool isPlate(TestKind kind) { return kind != TestKind::shear && kind != TestKind::repose; }
@@ -71,7 +71,7 @@ std::string slipText(const SoilResults& r) {
 /// A plate that falls off much when it is held has measured waves and impacts besides the soil.
 std::string motionText(const Estimate& added) {
   constexpr double kMuch = 0.1;
-  return fmt::format("held, it carries {} % less{}\n", support::valueText({100 * added.value, 100 * added.halfWidth}),
+  return fmt::format("held, it carries {} % less{}\n", jobs::valueText({100 * added.value, 100 * added.halfWidth}),
                      added.value > kMuch ? ": what is measured is in part its motion; take less of --plate-waves" : "");
 }
 
@@ -135,33 +135,31 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     if (r.plates[i] == 0) continue;
     const double b = plan.breadth(kBreadths[i]);
     text += fmt::format("  plate {:.3g} m, {}: ", b, base::counted(r.plates[i], "seed"));
-    text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", support::valueText(r.k[i]),
-                        support::valueText(r.ownN[i]), support::valueText(r.goodness[i]));
+    text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", jobs::valueText(r.k[i]),
+                        jobs::valueText(r.ownN[i]), jobs::valueText(r.goodness[i]));
     text += atGivenNText(plan, r, i);
     text += fmt::format("origin {} mm below the mean surface, its line from {:.0f} % of the pressure on; n from the "
                         "first contact {}; ",
-                        support::valueText(r.bedding[i]), 100 * r.lineBegins[i].value,
-                        support::valueText(r.nFromContact[i]));
-    text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded; ", support::valueText(r.unloading[i]),
-                        support::valueText(r.unloadedFrom[i]), support::valueText(r.reloading[i])) +
+                        jobs::valueText(r.bedding[i]), 100 * r.lineBegins[i].value, jobs::valueText(r.nFromContact[i]));
+    text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded; ", jobs::valueText(r.unloading[i]),
+                        jobs::valueText(r.unloadedFrom[i]), jobs::valueText(r.reloading[i])) +
             motionText(r.addedByMotion[i]);
   }
   if (r.wider)
-    text +=
-        fmt::format("  bin of twice the width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n", 100 * r.wider->value,
-                    100 * r.wider->halfWidth, support::verdictText(support::judge(*r.wider, 0.05)));
+    text += fmt::format("  bin of twice the width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n",
+                        100 * r.wider->value, 100 * r.wider->halfWidth, jobs::verdictText(jobs::judge(*r.wider, 0.05)));
   if (r.hasShear())
     text += fmt::format("  shear, {}, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
                         "misfit of 1 - exp(-j/K) {}\n",
-                        base::counted(r.shearTests, "seed"), plan.cell.depth * d, support::valueText(r.peakAngle),
-                        support::valueText(r.peakCohesion), support::valueText(r.hump), support::valueText(r.misfit)) +
+                        base::counted(r.shearTests, "seed"), plan.cell.depth * d, jobs::valueText(r.peakAngle),
+                        jobs::valueText(r.peakCohesion), jobs::valueText(r.hump), jobs::valueText(r.misfit)) +
             slipText(r);
   if (r.reposeTests > 0)
     text += fmt::format("  repose, {}: a bed that is tilted begins to flow at {} deg\n",
-                        base::counted(r.reposeTests, "seed"), support::valueText(r.stability));
+                        base::counted(r.reposeTests, "seed"), jobs::valueText(r.stability));
   for (const TestCosts& c : r.costs) {
     text += fmt::format("  {:<6} {:>9}, porosity {}", c.name, base::counted(c.tests, "test"),
-                        support::plusMinus({c.porosity, c.porosityHalfWidth}, 4));
+                        jobs::plusMinus({c.porosity, c.porosityHalfWidth}, 4));
     text += c.grains > 0 ? fmt::format(", {:.0f} grains, {:.0f} steps, {:.0f} s each\n", c.grains, c.steps, c.seconds)
                          : std::string("\n");
   }

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The rules of the house that tests/rooms checks. Each takes a House and yields faults as 'place: what is wrong'."""
+import fnmatch
 import re
 import tomllib
-from collections import deque
 from functools import cached_property
 from pathlib import Path
 
 from cpp_outline import comments, outline, without_comments
+from include_graph import chains_from, circles_of
 
 # A room, and the rooms beside itself that it may include.
 LIBRARIES = {
@@ -16,18 +17,22 @@ LIBRARIES = {
     'multibody': {'base'},
     'terrain': {'base', 'contact'},
     'vehicle': {'base', 'contact', 'spheredecomp', 'multibody'},
+    'coupling': {'base', 'contact', 'spheredecomp', 'multibody', 'terrain', 'vehicle'},
     'assets': {'base'},
 }
 # The rooms of the program stand on the libraries and on the rooms before them, but not on those of the same line.
-PROGRAM = [['support'], ['scene'], ['setup'], ['simulation'], ['output'], ['render', 'studies', 'bench'],
-           ['bevameter', 'forecast', 'sweeps'], ['events'], ['commands']]
+PROGRAM = [['support'], ['scene'], ['setup'], ['storage'], ['output'], ['render', 'jobs', 'validation/bench'],
+           ['session', 'virtual_tests', 'campaigns/sweeps'], ['validation/studies', 'campaigns/forecast'],
+           ['campaigns/events'], ['commands']]
 # What only keeps or draws needs no physics.
 NARROW = {
     'runs/support': {'base'},
     'runs/render': {'base', 'runs/support', 'runs/output'},
 }
-# Behind setup stands one SimulationSetup in a scene's place.
-BLIND = ['coupling', 'runs/output', 'runs/render']
+# Behind setup stand coupling::SimulationSetup and setup::RecordSetup in a scene's place.
+BLIND = ['coupling', 'runs/storage', 'runs/output', 'runs/render', 'runs/session']
+# Folders of tests that mirror no room: whole scenes, and what several ranks run.
+TEST_ROOMS = {'tests/system', 'tests/ranks'}
 GENERATED = {'grouser_commit.hpp'}  # written by the build
 
 MAX_FILE_LINES = 500
@@ -45,7 +50,7 @@ STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp'
 UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')
 
 # Rooms that have a part in what a state becomes: elementary functions there are those of base/math.hpp.
-STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'coupling']
+STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'runs/storage']
 LIBM = ('sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p pow '
         'cbrt hypot erf erfc tgamma lgamma fma sincos exp10 sinpi cospi rsqrt').split()
 # Who may speak to MPI: the ranks, and the file that HDF5 writes from all of them.
@@ -66,7 +71,8 @@ def allowed_rooms():
 
 
 def room_of(path):
-    """'terrain' of terrain/detail/x.hpp, 'runs/setup' of runs/setup/x.hpp, 'tests/runs/setup' of its tests."""
+    """'terrain' of terrain/detail/x.hpp, 'runs/campaigns/sweeps' of runs/campaigns/sweeps/x.hpp,
+    'tests/runs/campaigns/sweeps' of its tests."""
     parts = Path(path).parts[:-1]
     if 'detail' in parts:
         parts = parts[:parts.index('detail')]
@@ -154,6 +160,11 @@ def places(house):
                 yield f'{path}: a file of code ends in .hpp, .cpp, .cu or .cuh; others stand in tests/house/rules.py'
         elif suffix in SUFFIXES | SCRIPTS | STRANGE_CODE:
             yield f'{path}: lies in no room; the rooms stand in tests/house/rules.py'
+        # Tests are found by their folders: one beside them would never be compiled.
+        room = room_of(path)
+        if re.fullmatch(r'tests/.+_test\.(cpp|cu)', path) and room not in TEST_ROOMS:
+            if room.removeprefix('tests/') not in allowed_rooms():
+                yield f'{path}: mirrors no room; the rooms of tests stand in tests/house/rules.py'
 
 
 def order(house):
@@ -175,8 +186,30 @@ def order(house):
                 yield f'{path}:{line}: {room} may not include {other} ({name})'
 
 
+def chains(house):
+    """What a room may not include no header brings along: neither a library nor what lies behind setup reaches a scene
+    through any chain of includes."""
+    may = allowed_rooms()
+    rooms = {path: room_of(path) for path in house.code}
+    files = {path: sorted({target for _, _, target in includes if target})
+             for path, includes in house.includes.items()}
+    reached = {}  # {file: {room that its own may not include: the shortest chain of files to it}}
+    for path in house.code:
+        if rooms[path] in may:
+            reached[path] = {}
+            for chain in chains_from(path, files):
+                other = rooms[chain[-1]]
+                if other != rooms[path] and other not in may[rooms[path]]:
+                    reached[path].setdefault(other, chain)
+    for path, others in reached.items():
+        for other, chain in others.items():
+            # One include is a fault of order(); where the next file is at fault itself, this one is none besides.
+            if len(chain) > 2 and other not in reached.get(chain[1], {}):
+                yield f'{path}: {rooms[path]} may not reach {other}: {" -> ".join(chain)}'
+
+
 def scenes(house):
-    """What lies behind setup knows one SimulationSetup and no scene, not even one that another header brought along."""
+    """What lies behind setup names no scene: plain values stand in its place."""
     for path in house.code:
         if room_of(path) in BLIND:
             for match in re.finditer(r'\bscene\s*::', house.plain[path]):
@@ -217,67 +250,6 @@ def circles(house):
 
 def unit_of(path):
     return str(Path(path).with_suffix(''))
-
-
-def circles_of(graph):
-    """For every strongly connected component of {node: nodes} one of its shortest circles, its first node repeated."""
-    for component in components(graph):
-        if len(component) > 1 or component[0] in graph.get(component[0], ()):
-            inside = set(component)
-            yield min((shortest_circle(graph, node, inside) for node in sorted(component)), key=len)
-
-
-def components(graph):
-    """Tarjan's strongly connected components, without recursion."""
-    number, low, on_stack, stack, found = {}, {}, set(), [], []
-    for root in graph:
-        if root in number:
-            continue
-        work = [(root, iter(sorted(graph[root])))]
-        number[root] = low[root] = len(number)
-        stack.append(root)
-        on_stack.add(root)
-        while work:
-            node, targets = work[-1]
-            for target in targets:
-                if target not in graph:
-                    continue
-                if target not in number:
-                    number[target] = low[target] = len(number)
-                    stack.append(target)
-                    on_stack.add(target)
-                    work.append((target, iter(sorted(graph[target]))))
-                    break
-                if target in on_stack:
-                    low[node] = min(low[node], number[target])
-            else:
-                work.pop()
-                if work:
-                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
-                if low[node] == number[node]:
-                    at = stack.index(node)
-                    found.append(stack[at:])
-                    on_stack.difference_update(stack[at:])
-                    del stack[at:]
-    return found
-
-
-def shortest_circle(graph, start, inside):
-    """From start back to it, within a component: breadth first."""
-    came = {}
-    queue = deque([start])
-    while queue:
-        node = queue.popleft()
-        for target in sorted(graph.get(node, ())):
-            if target == start:
-                way = [start, node]
-                while way[-1] != start:
-                    way.append(came[way[-1]])
-                return way[::-1] if len(way) > 2 else [start, start]
-            if target in inside and target not in came:
-                came[target] = node
-                queue.append(target)
-    return [start]
 
 
 def thrust(house):
@@ -488,12 +460,22 @@ def headings(text):
 
 
 def mutants(house):
-    """What tests/mutate changes stands in its file, just once: else no test is asked about that fault any more."""
+    """What tests/mutate changes stands in its file, just once, and the tests that should see it are there: else no test
+    is asked about that fault any more."""
+    tests = {}  # {room of tests: names as GoogleTest has them}
+    for path in house.code:
+        if path.startswith('tests/'):
+            named = re.findall(r'\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)', house.plain[path])
+            tests.setdefault(room_of(path).split('/')[-1], []).extend('.'.join(name) for name in named)
     for path in (path for path in house.files if re.fullmatch(r'tests/mutation/.+\.toml', path)):
         for number, fault in enumerate(tomllib.loads((house.root / path).read_text()).get('fault', []), 1):
             count = house.text.get(fault['file'], '').count(fault['old'])
             if count != 1:
                 yield f'{path}: fault {number} stands {count} times in {fault["file"]}: {fault["old"]}'
+            for room, filters in (test.split(':', 1) for test in fault.get('tests', [])):
+                for wanted in filters.split('-')[0].split(':'):
+                    if not fnmatch.filter(tests.get(room, []), wanted.split('/')[-1]):  # Laws/Scale.* are Scale's
+                        yield f'{path}: fault {number}: there is no test {wanted} in {room}'
 
 
-RULES = [places, order, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links, mutants]
+RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links, mutants]

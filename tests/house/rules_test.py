@@ -52,6 +52,17 @@ class Places(unittest.TestCase):
         self.assertEqual(len(faults(rules.order, files)), 1)
 
 
+    def test_a_test_mirrors_a_room(self):
+        for bad in ('tests/runs/x_test.cpp', 'tests/runs/validation/x_test.cpp', 'tests/simulation/x_test.cpp',
+                    'tests/runs/sweeps/x_test.cu'):
+            told = faults(rules.places, {bad: ''})
+            self.assertEqual(told, [f'{bad}: mirrors no room; the rooms of tests stand in tests/house/rules.py'], bad)
+        for good in ('tests/coupling/x_test.cpp', 'tests/runs/validation/studies/x_test.cpp', 'tests/base/x_test.cu',
+                     'tests/system/x_test.cpp', 'tests/ranks/x_test.cpp', 'tests/runs/x_fixture.hpp',
+                     'tests/terrain/detail/x_test.cpp', 'tests/python/x_test.py'):
+            self.assertEqual(faults(rules.places, {good: ''}), [], good)
+
+
 class Order(unittest.TestCase):
     def test_a_library_does_not_include_one_above_it(self):
         files = {'base/a.hpp': '#include "contact/b.hpp"\n', 'contact/b.hpp': ''}
@@ -64,16 +75,41 @@ class Order(unittest.TestCase):
         files = {'terrain/a.hpp': '#include "vehicle/b.hpp"\n', 'vehicle/b.hpp': '#include "terrain/a.hpp"\n'}
         self.assertEqual(len(faults(rules.order, files)), 2)
 
+    def test_the_coupling_stands_on_all_physics_and_below_runs(self):
+        for room in ('base', 'contact', 'spheredecomp', 'multibody', 'terrain', 'vehicle', 'runs/support'):
+            files = {'coupling/x.hpp': f'#include "{room}/a.hpp"\n', f'{room}/a.hpp': ''}
+            self.assertEqual(len(faults(rules.order, files)), room == 'runs/support', room)
+            if room != 'runs/support':
+                files = {f'{room}/a.hpp': '#include "coupling/x.hpp"\n', 'coupling/x.hpp': ''}
+                self.assertEqual(len(faults(rules.order, files)), 1, room)
+
     def test_no_arrow_points_back_up_inside_runs(self):
         rooms = [name for line in rules.PROGRAM for name in line]
-        files = {f'runs/{name}/{name}.hpp': '' for name in rooms}
+        files = {f'runs/{name}/x.hpp': '' for name in rooms}
         for line, below in enumerate(rules.PROGRAM):
             for above in (name for later in rules.PROGRAM[line + 1:] for name in later):
-                with self.subTest(below=below, above=above):
-                    wrong = {f'runs/{below[0]}/x.cpp': f'#include "runs/{above}/{above}.hpp"\n'}
-                    self.assertEqual(len(faults(rules.order, {**files, **wrong})), 1)
-                    right = {f'runs/commands/x.cpp': f'#include "runs/{above}/{above}.hpp"\n'}
-                    self.assertEqual(faults(rules.order, {**files, **right}), [])
+                for room in below:
+                    with self.subTest(below=room, above=above):
+                        wrong = {f'runs/{room}/x.cpp': f'#include "runs/{above}/x.hpp"\n'}
+                        self.assertEqual(len(faults(rules.order, {**files, **wrong})), 1)
+                        right = {f'runs/commands/x.cpp': f'#include "runs/{above}/x.hpp"\n'}
+                        self.assertEqual(faults(rules.order, {**files, **right}), [])
+
+    def test_rooms_of_one_line_do_not_see_each_other(self):
+        pairs = [(one, other) for line in rules.PROGRAM for one in line for other in line if one != other]
+        self.assertIn(('validation/studies', 'campaigns/forecast'), pairs)
+        for one, other in pairs:
+            files = {f'runs/{one}/a.hpp': f'#include "runs/{other}/b.hpp"\n', f'runs/{other}/b.hpp': ''}
+            self.assertEqual(len(faults(rules.order, files)), 1, (one, other))
+
+    def test_a_room_may_lie_in_a_folder_of_rooms(self):
+        self.assertEqual(rules.room_of('runs/validation/studies/x.hpp'), 'runs/validation/studies')
+        self.assertEqual(rules.room_of('tests/runs/campaigns/sweeps/x_test.cpp'), 'tests/runs/campaigns/sweeps')
+        files = {'runs/campaigns/events/a.hpp': '#include "runs/campaigns/sweeps/b.hpp"\n',
+                 'runs/campaigns/sweeps/b.hpp': ''}
+        self.assertEqual(faults(rules.order, files), [])
+        files = {'runs/campaigns/a.hpp': '#include "base/b.hpp"\n', 'base/b.hpp': ''}
+        self.assertIn('runs/campaigns is no room', faults(rules.order, files)[0])
 
     def test_every_way_to_write_an_include(self):
         for line in ('#include <terrain/a.hpp>', '#  include\t<terrain/a.hpp>', '#include_next <terrain/a.hpp>',
@@ -92,13 +128,12 @@ class Order(unittest.TestCase):
 
     def test_no_scene_behind_setup(self):
         scene = {'runs/scene/scene.hpp': ''}
-        for room in ('simulation', 'output', 'render'):
-            direct = {f'runs/{room}/x.cpp': '#include "runs/scene/scene.hpp"\n', **scene}
+        for room in ('coupling', 'runs/storage', 'runs/output', 'runs/render', 'runs/session'):
+            direct = {f'{room}/x.cpp': '#include "runs/scene/scene.hpp"\n', **scene}
             self.assertEqual(len(faults(rules.order, direct)), 1, room)
-            brought_along = {f'runs/{room}/x.cpp': 'double of(const scene::Scene& s);\n'}
-            self.assertEqual(faults(rules.scenes, brought_along),
-                             [f'runs/{room}/x.cpp:2: runs/{room} may not see a scene'])
-        for room in ('setup', 'studies', 'bench', 'commands'):
+            brought_along = {f'{room}/x.cpp': 'double of(const scene::Scene& s);\n'}
+            self.assertEqual(faults(rules.scenes, brought_along), [f'{room}/x.cpp:2: {room} may not see a scene'])
+        for room in ('setup', 'virtual_tests', 'validation/studies', 'campaigns/sweeps', 'commands'):
             files = {f'runs/{room}/x.cpp': '#include "runs/scene/scene.hpp"\nscene::Scene s;\n', **scene}
             self.assertEqual(faults(rules.order, files) + faults(rules.scenes, files), [], room)
         self.assertEqual(faults(rules.scenes, {'coupling/x.cpp': '// scene::Scene\nmy_scene::A a;\n'}), [])
@@ -111,15 +146,6 @@ class Order(unittest.TestCase):
             files = {'runs/render/x.cpp': f'#include "{other}/y.hpp"\n', f'{other}/y.hpp': ''}
             self.assertEqual(faults(rules.order, files), [], other)
 
-    def test_render_studies_and_bench_do_not_see_each_other(self):
-        side = rules.PROGRAM[5]
-        self.assertEqual(side, ['render', 'studies', 'bench'])
-        for one in side:
-            for other in side:
-                if one != other:
-                    files = {f'runs/{one}/a.hpp': f'#include "runs/{other}/b.hpp"\n', f'runs/{other}/b.hpp': ''}
-                    self.assertEqual(len(faults(rules.order, files)), 1, (one, other))
-
     def test_a_file_that_is_not_there_and_a_room_that_is_not_planned(self):
         self.assertIn('no file base/gone.hpp', faults(rules.order, {'base/a.hpp': '#include "base/gone.hpp"\n'})[0])
         files = {'runs/kitchen/a.hpp': '#include "base/b.hpp"\n', 'base/b.hpp': ''}
@@ -128,6 +154,59 @@ class Order(unittest.TestCase):
     def test_what_is_commented_out_is_not_included(self):
         files = {'base/a.hpp': '/*\n#include "contact/b.hpp"\n*/\n// #include "contact/b.hpp"\n', 'contact/b.hpp': ''}
         self.assertEqual(faults(rules.order, files), [])
+
+
+class Chains(unittest.TestCase):
+    """The same rooms, where others stand between."""
+    SETUP = {'runs/scene/scene.hpp': '', 'runs/setup/a.hpp': '#include "runs/scene/scene.hpp"\n'}
+
+    def test_no_header_brings_a_scene_along(self):
+        for room in ('runs/storage', 'runs/output', 'runs/session'):
+            files = {**self.SETUP, f'{room}/x.hpp': '#include "runs/setup/a.hpp"\n'}
+            self.assertEqual(faults(rules.order, files), [], room)
+            self.assertEqual(faults(rules.chains, files), [
+                f'{room}/x.hpp: {room} may not reach runs/scene: {room}/x.hpp -> runs/setup/a.hpp -> '
+                'runs/scene/scene.hpp'], room)
+
+    def test_nor_any_other_header_of_that_room(self):
+        files = {'runs/session/x.cpp': '#include "runs/setup/a.hpp"\n',
+                 'runs/setup/a.hpp': '#include "runs/setup/b.hpp"\n',
+                 'runs/setup/b.hpp': '#include "runs/scene/soil.hpp"\n', 'runs/scene/soil.hpp': ''}
+        self.assertEqual(len(faults(rules.chains, files)), 1)
+
+    def test_a_library_reaches_nothing_of_the_program(self):
+        files = {**self.SETUP, 'coupling/x.hpp': '#include "runs/setup/a.hpp"\n',
+                 'terrain/x.hpp': '#include "contact/y.hpp"\n', 'contact/y.hpp': '#include "vehicle/z.hpp"\n',
+                 'vehicle/z.hpp': ''}
+        told = faults(rules.chains, files)
+        self.assertEqual(told, ['coupling/x.hpp: coupling may not reach runs/scene: coupling/x.hpp -> runs/setup/a.hpp '
+                                '-> runs/scene/scene.hpp'])  # terrain's is contact's
+        self.assertEqual(len(faults(rules.order, files)), 2)
+
+    def test_render_reaches_what_it_may_include(self):
+        files = {'runs/render/x.hpp': '#include "runs/output/y.hpp"\n',
+                 'runs/output/y.hpp': '#include "terrain/z.hpp"\n', 'terrain/z.hpp': ''}
+        self.assertEqual(faults(rules.order, files), [])
+        self.assertEqual(faults(rules.chains, files),
+                         ['runs/render/x.hpp: runs/render may not reach terrain: runs/render/x.hpp -> '
+                          'runs/output/y.hpp -> terrain/z.hpp'])
+
+    def test_only_the_first_file_at_fault_is_named(self):
+        files = {**self.SETUP, 'runs/storage/x.hpp': '#include "runs/setup/a.hpp"\n',
+                 'runs/storage/x.cpp': '#include "runs/storage/x.hpp"\n',
+                 'runs/output/y.hpp': '#include "runs/storage/x.hpp"\n'}
+        self.assertEqual(len(faults(rules.chains, files)), 1)
+
+    def test_the_name_of_a_scene_is_enough(self):
+        declared = 'namespace grouser::scene {\nstruct Scene;\n}\n'
+        files = {**self.SETUP, 'runs/setup/a.hpp': declared, 'runs/setup/a.cpp': '#include "runs/scene/scene.hpp"\n',
+                 'runs/session/x.cpp': '#include "runs/setup/a.hpp"\n'}
+        self.assertEqual(faults(rules.chains, files), [])
+
+    def test_what_may_see_a_scene_may_reach_it(self):
+        for room in ('runs/setup', 'runs/commands', 'runs/virtual_tests', 'tests/runs/session', 'tests/system'):
+            files = {**self.SETUP, f'{room}/x.cpp': '#include "runs/setup/a.hpp"\n'}
+            self.assertEqual(faults(rules.chains, files), [], room)
 
 
 class Privacy(unittest.TestCase):
@@ -387,6 +466,17 @@ class Mutants(unittest.TestCase):
             self.assertEqual(len(told), 0 if count == 1 else 1, code)
         self.assertIn('stands 0 times in base/b.cpp', faults(rules.mutants, {
             'base/a.cpp': 'x += 1;\n', 'tests/mutation/base.toml': table.replace('base/a', 'base/b')})[0])
+
+    def test_the_tests_that_should_see_a_fault_are_there(self):
+        house = {'base/a.cpp': 'x += 1;\n', 'tests/runs/campaigns/sweeps/a_test.cpp': 'TEST(Sum, Grows) {}\n',
+                 'tests/system/b_test.cpp': 'TEST_F(Bed, Rests) {}\nTEST_P(Laws, Hold) {}\n'}
+        table = '[[fault]]\nfile = "base/a.cpp"\nold = "x += 1;"\nnew = "x -= 1;"\nuser = "counts down"\ntests = [{}]\n'
+        for good in ('"sweeps:Sum.*"', '"sweeps:*Grow*"', '"sweeps:Sum.*", "system:Bed.Rests:All/Laws.*"', '"system:*"'):
+            self.assertEqual(faults(rules.mutants, {**house, 'tests/mutation/a.toml': table.format(good)}), [], good)
+        for bad in ('"system:Sum.*"', '"sweeps:Bed.*"', '"simulation:Bed.*"', '"system:Bed.*:Beds.*"', '"sweeps:sum.*"'):
+            told = faults(rules.mutants, {**house, 'tests/mutation/a.toml': table.format(bad)})
+            self.assertEqual(len(told), 1, bad)
+            self.assertIn('there is no test', told[0])
 
 
 if __name__ == '__main__':

@@ -12,14 +12,12 @@
 namespace grouser::multibody::test {
 namespace {
 
-const Mat3d kInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
-
 class Couplings : public ::testing::TestWithParam<Integrator> {};
 
 TEST_P(Couplings, GearedWheelsTurnInTheirRatioAndShareTheTorque) {
   // A torque on wheel 1 with ratio -2: reduced inertia I1 + 4 I2; force on axis 2 = I2 alpha2.
   Mechanism m;
-  m.model.addBody(makeBody("one", 1, kInertia, {}));
+  m.model.addBody(makeBody("one", 1, kWheelInertia, {}));
   m.model.addBody(makeBody("two", 1, Mat3d::diagonal({0.1, 0.1, 0.1}), {{1, 0, 0}, {}}));
   m.model.addJointAt("hub 1", JointType::kRevolute, kWorld, 0, {});
   m.model.addJointAt("hub 2", JointType::kRevolute, kWorld, 1, {{1, 0, 0}, {}});
@@ -43,7 +41,7 @@ TEST_P(Couplings, GearedWheelsTurnInTheirRatioAndShareTheTorque) {
 
 TEST_P(Couplings, ADrivesTorqueIsPartOfItsJointsACouplingsForceStandsBesideThem) {
   Mechanism m;
-  m.model.addBody(makeBody("one", 1, kInertia, {}));
+  m.model.addBody(makeBody("one", 1, kWheelInertia, {}));
   m.model.addBody(makeBody("two", 1, Mat3d::diagonal({0.1, 0.1, 0.1}), {{1, 0, 0}, {}}));
   m.model.addJointAt("hub 1", JointType::kRevolute, kWorld, 0, {});
   m.model.addJointAt("hub 2", JointType::kRevolute, kWorld, 1, {{1, 0, 0}, {}});
@@ -75,7 +73,7 @@ Model wheels(const std::vector<Mesh>& meshes) {
   Model model;
   for (int i = 0; i < 3; ++i) {
     const Pose place{{1.0 * i, 0, 0}, {}};
-    model.addBody(makeBody("wheel " + std::to_string(i), 1, kInertia, place));
+    model.addBody(makeBody("wheel " + std::to_string(i), 1, kWheelInertia, place));
     model.addJointAt("hub " + std::to_string(i), JointType::kRevolute, kWorld, i, place);
   }
   for (const Mesh& m : meshes) {
@@ -139,7 +137,7 @@ TEST_P(Couplings, ScrewTurnsAngleIntoSlide) {
   // A nut on a cylindrical joint, slide = pitch / (2 pi) angle, falls: a = g / (1 + I / (m p^2)).
   const double p = 0.02;
   Mechanism m;
-  m.model.addBody(makeBody("nut", 2, kInertia, {}));
+  m.model.addBody(makeBody("nut", 2, kWheelInertia, {}));
   m.model.addJoint({"bar", JointType::kCylindrical, kWorld, 0, {}, {}});
   Coupling screw;
   screw.name = "thread", screw.ratio = p, screw.axis1 = JointAxis::kAngle, screw.axis2 = JointAxis::kSlide;
@@ -161,7 +159,7 @@ TEST(CouplingForce, IsThatOfTheMotionAlsoOnATurningArm) {
   // w^2 r).
   const double p = 0.3, w = 2, r0 = 0.5, mass = 2, I = 0.25;
   Mechanism m;
-  m.model.addBody(makeBody("arm", 1, kInertia, {}, {}, {0, 0, w}));
+  m.model.addBody(makeBody("arm", 1, kWheelInertia, {}, {}, {0, 0, w}));
   m.model.addBody(makeBody("nut", mass, Mat3d::diagonal({I, I, I}), {{r0, 0, 0}, {}}, {0, w * r0, 0}, {0, 0, w}));
   m.model.addJointAt("hub", JointType::kRevolute, kWorld, 0, {});
   m.model.addJointAt("thread", JointType::kCylindrical, 0, 1, frameWithZ({r0, 0, 0}, {1, 0, 0}));
@@ -189,7 +187,7 @@ TEST_P(Couplings, FourBodiesFeelNoNetForceOrTorque) {
   // cancel.
   Mechanism m;
   for (int i = 0; i < 4; ++i)
-    m.model.addBody(makeBody("body " + std::to_string(i), 1 + i, kInertia, {{1.0 * i, 0, 0}, {}}));
+    m.model.addBody(makeBody("body " + std::to_string(i), 1 + i, kWheelInertia, {{1.0 * i, 0, 0}, {}}));
   m.model.addJointAt("pin 1", JointType::kRevolute, 0, 1, {{0.5, 0, 0}, {}});
   m.model.addJointAt("pin 2", JointType::kRevolute, 2, 3, frameWithZ({2.5, 0, 0}, {0, 1, 1}));
   Coupling belt;

@@ -9,8 +9,6 @@
 namespace grouser::multibody::test {
 namespace {
 
-const Mat3d kInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
-
 /// The scheme's own recurrence for one degree of freedom: inertia, stiffness, damping, force at x = 0.
 struct Recurrence {
   double inertia, stiffness, damping, load;
@@ -24,7 +22,7 @@ struct Recurrence {
 TEST(MultibodySprings, TorsionSpringWithPreloadFollowsItsRecurrenceAndFrequency) {
   const double k = 50, c = 0.02, preload = 4, inertia = 0.2, dt = 1e-4;
   Mechanism p;
-  p.model.addBody(makeBody("wheel", 2, kInertia, {{1, 2, 3}, {}}));
+  p.model.addBody(makeBody("wheel", 2, kWheelInertia, {{1, 2, 3}, {}}));
   p.model.addJointAt("axle", JointType::kRevolute, kWorld, 0, frameWithZ({1, 2, 3}, kY));
   AxisSpring spring{"torsion", 0, k, c, 0.1, preload};
   p.model.addAxisSpring(spring);
@@ -52,7 +50,7 @@ TEST(MultibodySprings, TorsionSpringWithPreloadFollowsItsRecurrenceAndFrequency)
 TEST(MultibodySprings, SliderOnSpringSettlesAtPreloadAndWeight) {
   const double m = 28, k = 3e5, c = 4000, preload = 9200, dt = 5e-5;
   Mechanism p;
-  p.model.addBody(makeBody("carrier", m, kInertia, {}));
+  p.model.addBody(makeBody("carrier", m, kWheelInertia, {}));
   p.model.addJointAt("slide", JointType::kPrismatic, kWorld, 0, frameWithZ({}, {0, 0, 1}));
   AxisSpring spring;
   spring.name = "tensioner", spring.joint = 0, spring.stiffness = k, spring.damping = c, spring.preload = preload;
@@ -75,7 +73,7 @@ TEST(MultibodySprings, SliderOnSpringSettlesAtPreloadAndWeight) {
 
 TEST(MultibodySprings, RampedPreloadFollowsTheLoadFactor) {
   Mechanism p;
-  p.model.addBody(makeBody("carrier", 10, kInertia, {}));
+  p.model.addBody(makeBody("carrier", 10, kWheelInertia, {}));
   p.model.addJointAt("slide", JointType::kPrismatic, kWorld, 0, frameWithZ({}, {1, 0, 0}));
   AxisSpring spring;
   spring.name = "tensioner", spring.joint = 0, spring.stiffness = 1e4, spring.damping = 2000, spring.preload = 500;
@@ -95,7 +93,7 @@ TEST(MultibodySprings, RampedPreloadFollowsTheLoadFactor) {
 TEST(MultibodySprings, EndStopsHoldALoadWithTheirOwnStiffness) {
   const double load = 2000, stop = 5e6, dt = 5e-5;
   Mechanism p;
-  p.model.addBody(makeBody("carrier", 28, kInertia, {}));
+  p.model.addBody(makeBody("carrier", 28, kWheelInertia, {}));
   p.model.addJointAt("slide", JointType::kPrismatic, kWorld, 0, frameWithZ({}, {1, 0, 0}));
   AxisSpring spring;
   spring.name = "tensioner", spring.joint = 0;
@@ -121,8 +119,8 @@ TEST(MultibodySprings, PointSpringOscillatesAtItsFrequency) {
   // Two free masses, a spring between them: omega^2 = k (1/m1 + 1/m2); momentum stays zero.
   const double k = 2000, m1 = 2, m2 = 3, l0 = 0.5, dt = 1e-5;
   Mechanism p;
-  p.model.addBody(makeBody("one", m1, kInertia, {{0, 0, 0}, {}}));
-  p.model.addBody(makeBody("two", m2, kInertia, {{0.6, 0, 0}, {}}));
+  p.model.addBody(makeBody("one", m1, kWheelInertia, {{0, 0, 0}, {}}));
+  p.model.addBody(makeBody("two", m2, kWheelInertia, {{0.6, 0, 0}, {}}));
   PointSpring spring;
   spring.name = "spring", spring.bodyA = 0, spring.bodyB = 1, spring.stiffness = k, spring.restLength = l0;
   p.model.addPointSpring(spring);
@@ -162,7 +160,7 @@ TEST(MultibodySprings, ClosingTheJointsDoesNotMoveSoftRows) {
   // must go on as the damping alone says: w = w0 exp(-c t / I), angle = w0 I / c (1 - exp(-c t / I)).
   const double c = 0.8, l = 0.5, m = 2, inertia = 0.2 + m * l * l, w0 = 12, dt = 1e-5;
   Mechanism p;
-  p.model.addBody(makeBody("rod", m, kInertia, {{l, 0, 0}, {}}, cross(w0 * kY, Vec3d{l, 0, 0}), w0 * kY));
+  p.model.addBody(makeBody("rod", m, kWheelInertia, {{l, 0, 0}, {}}, cross(w0 * kY, Vec3d{l, 0, 0}), w0 * kY));
   p.model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY), c);
   p.start();
   p.loads.gravity = {};

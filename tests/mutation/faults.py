@@ -6,6 +6,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+TESTS = Path(__file__).resolve().parent.parent
+
 
 @dataclass(frozen=True)
 class Fault:
@@ -18,13 +20,16 @@ class Fault:
     tests: tuple  # 'ROOM:GTEST FILTER' of the tests that should see it
 
     def room(self):
-        parts = self.file.split('/')
-        return parts[1] if parts[0] == 'runs' else parts[0]
+        """'sweeps' of runs/campaigns/sweeps/x.cpp: its test program is named so."""
+        folders = self.file.split('/')[:-1]
+        return folders[-2 if folders[-1] == 'detail' else -1]
 
     def stages(self):
-        """Programs and filters to ask, in this order, before the whole suite."""
+        """Programs and filters to ask, in this order, before the whole suite. A room without tests of its own has those
+        of whole scenes."""
         own = [tuple(t.split(':', 1)) for t in self.tests]
-        return own + [(self.room(), '*')]
+        has_tests = any(path.parent.name == self.room() for path in TESTS.rglob('*_test.c*'))
+        return own + [(self.room() if has_tests else 'system', '*')]
 
     def key(self):
         return hashlib.sha256('\0'.join([self.file, self.old, self.new]).encode()).hexdigest()[:16]

@@ -84,16 +84,16 @@ class Workshop:
                 path.write_text(sound)
             self.built.clear()
 
-    @staticmethod
-    def program_name(program):
-        return 'grouser_tests' if program == 'all' else 'grouser_tests_' + program
+    def rooms(self):
+        """Rooms that have tests, each with a program of its own."""
+        return sorted({file.parent.name for file in (self.tree / 'tests').rglob('*_test.c[pu]*')} - {'ranks'})
 
     def build(self, program):
-        """Builds a room's test program, or all of them in one with the command line. Throws BuildError."""
+        """Builds a room's test program, or all of them. Throws BuildError."""
         if program in self.built:
             return
-        targets = [self.program_name(program)] + (['grouser'] if program == 'all' else [])
-        done = subprocess.run(['cmake', '--build', str(self.build_folder), '-j', str(self.jobs), '--target', *targets],
+        target = 'grouser_tests' if program == 'all' else 'grouser_tests_' + program
+        done = subprocess.run(['cmake', '--build', str(self.build_folder), '-j', str(self.jobs), '--target', target],
                               capture_output=True, text=True)
         if done.returncode:
             errors = [line for line in done.stdout.splitlines() if ' error: ' in line]
@@ -114,13 +114,18 @@ class Workshop:
         return [t for t in self.call(program, ':'.join(tests), [], False) if t in tests]
 
     def call(self, program, pattern, but, first):
-        path = self.build_folder / 'bin' / self.program_name(program)
-        words = [str(path), f'--gtest_filter={pattern}-{":".join(but)}' if but else f'--gtest_filter={pattern}']
-        if first:
-            words.append('--gtest_fail_fast')
-        shards = self.jobs if program == 'all' else 1
-        running = [self.start(words, k, shards) for k in range(shards)]
-        return [test for process, said in running for test in self.red_of(process, said)]
+        red = []
+        for room in self.rooms() if program == 'all' else [program]:
+            words = [str(self.build_folder / 'bin' / f'grouser_tests_{room}'),
+                     f'--gtest_filter={pattern}-{":".join(but)}' if but else f'--gtest_filter={pattern}']
+            if first:
+                words.append('--gtest_fail_fast')
+            shards = self.jobs if program == 'all' else 1
+            running = [self.start(words, k, shards) for k in range(shards)]
+            red += [test for process, said in running for test in self.red_of(process, said)]
+            if first and red:
+                break
+        return red
 
     @staticmethod
     def start(words, shard, shards):

@@ -58,6 +58,15 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
     }
 }
 
+/// By itself, because eight ranks on two cores take a minute for all of them.
+TEST(GrainsOnRanks, EqualBitsWhereEveryAxisIsDivided) {
+  if (test::comm().size() != 8) GTEST_SKIP() << "asks for 2 x 2 x 2 ranks";
+  const GrainModel m = gravel();
+  Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({2, 2, 2}));
+  advance(grains, kSteps);
+  EXPECT_EQ(allWords(grains), expected());
+}
+
 /// Noise as fine and nearly as high as the grains: most touch the floor in several places.
 Boundaries roughBox(const GrainModel& m) {
   Boundaries sides = box(m);

@@ -19,12 +19,6 @@ namespace {
 using base::SetSphere;
 using base::Vec3d;
 
-SphereSet cut(const TriangleMesh& mesh, double radius) {
-  DecompositionOptions options;
-  options.radius = radius;
-  return decompose(mesh, "part", options);
-}
-
 const Vec3d kHalf{0.1, 0.08, 0.06};
 TriangleMesh testBox() { return shapes::box(-kHalf, kHalf); }
 
@@ -35,7 +29,7 @@ double areaOf(const SphereSet& set) {
 }
 
 TEST(Decompose, Box_NormalsAndPlanesAreExact) {
-  const SphereSet set = cut(testBox(), 0.01);
+  const SphereSet set = shapes::cut(testBox(), 0.01);
   ASSERT_GT(set.surfaceCount, 0u);
   for (std::size_t i = 0; i < set.surfaceCount; ++i) {
     const SetSphere& s = set.spheres[i];
@@ -51,7 +45,7 @@ TEST(Decompose, Box_NormalsAndPlanesAreExact) {
 
 TEST(Decompose, Box_DiscsStayInsideAndEdgesHaveNone) {
   const double r = 0.01;
-  const SphereSet set = cut(testBox(), r);
+  const SphereSet set = shapes::cut(testBox(), r);
   std::size_t edge = 0, face = 0;
   for (std::size_t i = 0; i < set.surfaceCount; ++i) {
     const SetSphere& s = set.spheres[i];
@@ -75,7 +69,7 @@ TEST(Decompose, Box_DiscsStayInsideAndEdgesHaveNone) {
 
 TEST(Decompose, Box_SurfaceAboveAFaceIsThePlaneWithoutBumps) {
   const double r = 0.01;
-  const SphereSet set = cut(testBox(), r);
+  const SphereSet set = shapes::cut(testBox(), r);
   // A probe slides over the top face, farther than 2 r from its edges: the nearest rounded disc is the plane.
   for (double x = -0.08; x <= 0.08; x += 0.0013)
     for (double y = -0.06; y <= 0.06; y += 0.0017) {
@@ -88,7 +82,7 @@ TEST(Decompose, Box_SurfaceAboveAFaceIsThePlaneWithoutBumps) {
 
 TEST(Decompose, AreasAddUpToTheMeshArea) {
   for (const TriangleMesh& mesh : {testBox(), shapes::ball(0.1, 64), shapes::cylinder(0.1, 0.1, 64)}) {
-    const SphereSet set = cut(mesh, 0.012);
+    const SphereSet set = shapes::cut(mesh, 0.012);
     // Round-off of a sum of 1e5 terms.
     EXPECT_NEAR(areaOf(set), area(mesh), 1e-12);
     EXPECT_NEAR(set.meshArea, area(mesh), 1e-12);
@@ -101,7 +95,7 @@ TEST(Decompose, Count_GrowsAsVolumeOverSpacingCubed) {
   for (const double r : {0.016, 0.008}) {
     const double lattice = signedVolume(mesh) / (r * r * r);
     // The shell is one layer instead of 1.5, and holes are closed: within a share of it that falls with r.
-    EXPECT_NEAR(static_cast<double>(cut(mesh, r).spheres.size()) / lattice, 1, 3 * r / 0.1) << r;
+    EXPECT_NEAR(static_cast<double>(shapes::cut(mesh, r).spheres.size()) / lattice, 1, 3 * r / 0.1) << r;
   }
 }
 
@@ -118,7 +112,7 @@ TEST(Decompose, HausdorffDistance_ShrinksWithTheSpacing) {
   // diagonal.
   double before = 1;
   for (const double r : {0.02, 0.01, 0.005}) {
-    const Quality q = measure(testBox(), cut(testBox(), r));
+    const Quality q = measure(testBox(), shapes::cut(testBox(), r));
     EXPECT_LT(q.discs.hausdorff(), (std::sqrt(3.0) - 1 + 0.03) * r);
     EXPECT_LT(q.discs.hausdorff(), 0.6 * before);
     EXPECT_LT(q.discs.protrusion, 0.01 * r);
@@ -145,7 +139,7 @@ TEST(Decompose, RoundParts_AreSmoothToTheDipAsked) {
 
 TEST(Decompose, ThinPlate_GetsSpheresOfHalfItsThickness) {
   const TriangleMesh mesh = shapes::box({0, 0, 0}, {0.2, 0.2, 0.012});
-  const SphereSet set = cut(mesh, 0.01);
+  const SphereSet set = shapes::cut(mesh, 0.01);
   for (const SetSphere& s : set.spheres) {
     EXPECT_LE(s.radius, 0.00605);
     EXPECT_GE(s.radius, 0.0055);
@@ -157,7 +151,7 @@ TEST(Decompose, ThinPlate_GetsSpheresOfHalfItsThickness) {
 TEST(Decompose, OverlappingShells_HaveNoSurfaceInsideTheUnion) {
   TriangleMesh mesh = shapes::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
   mesh = shapes::box({-0.03, -0.03, 0.05}, {0.03, 0.03, 0.2}, mesh); // a post that stands in the block
-  const SphereSet set = cut(mesh, 0.01);
+  const SphereSet set = shapes::cut(mesh, 0.01);
   for (std::size_t i = 0; i < set.surfaceCount; ++i) {
     const Vec3d p = set.spheres[i].centre;
     const bool deep = p.z < 0.08 && p.z > -0.08 && std::abs(p.x) < 0.08 && std::abs(p.y) < 0.08;
@@ -172,9 +166,9 @@ TEST(Decompose, AnyNumberOfThreads_GivesTheSameBits) {
   const TriangleMesh mesh = shapes::cylinder(0.1, 0.1, 48);
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  const SphereSet a = cut(mesh, 0.01);
+  const SphereSet a = shapes::cut(mesh, 0.01);
   omp_set_num_threads(3);
-  const SphereSet b = cut(mesh, 0.01);
+  const SphereSet b = shapes::cut(mesh, 0.01);
   omp_set_num_threads(threads);
   ASSERT_EQ(a.spheres.size(), b.spheres.size());
   EXPECT_EQ(std::memcmp(a.spheres.data(), b.spheres.data(), a.spheres.size() * sizeof(SetSphere)), 0);

@@ -14,17 +14,11 @@ namespace {
 
 using base::Vec3d;
 
-SphereSet cut(const TriangleMesh& mesh, double radius) {
-  DecompositionOptions options;
-  options.radius = radius;
-  return decompose(mesh, "part", options);
-}
-
 TEST(Quality, DistancesAreLengthsAndRatiosHaveNone) {
   const TriangleMesh small = shapes::cylinder(0.03, 0.04, 48);
   TriangleMesh large = small;
   for (Vec3d& v : large.vertices) v *= 2;
-  const Quality a = measure(small, cut(small, 0.006)), b = measure(large, cut(large, 0.012));
+  const Quality a = measure(small, shapes::cut(small, 0.006)), b = measure(large, shapes::cut(large, 0.012));
   ASSERT_EQ(a.surfaceCount, b.surfaceCount);
   // Doubling is exact in binary, but not in the angles and roots between: round-off.
   for (const auto& [one, two] : {std::pair{a.spheres, b.spheres}, {a.discs, b.discs}}) {
@@ -40,7 +34,7 @@ TEST(Quality, DistancesAreLengthsAndRatiosHaveNone) {
 
 TEST(Quality, EachFaceOfABoxHasItsOwnArea) {
   const Vec3d size{0.2, 0.12, 0.08};
-  const SphereSet set = cut(shapes::box({0, 0, 0}, size), 0.01);
+  const SphereSet set = shapes::cut(shapes::box({0, 0, 0}, size), 0.01);
   const double faces[3] = {size.y * size.z, size.x * size.z, size.x * size.y};
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {1.0, -1.0}) {

@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "base/sphere_set.hpp"
+#include "spheredecomp/decompose.hpp"
 
 namespace grouser::spheredecomp::shapes {
 
@@ -54,6 +55,13 @@ inline TriangleMesh ball(double radius, std::uint32_t facets) {
 
 inline TriangleMesh cylinder(double radius, double height, std::uint32_t facets) {
   return turned({{0, 0}, {radius, 0}, {radius, height}, {0, height}}, facets);
+}
+
+/// Cut into spheres of that radius [m], with all else by default.
+inline base::SphereSet cut(const TriangleMesh& mesh, double radius) {
+  DecompositionOptions options;
+  options.radius = radius;
+  return decompose(mesh, "part", options);
 }
 
 } // namespace grouser::spheredecomp::shapes

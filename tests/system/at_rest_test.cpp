@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vehicle on rigid ground: its weight, the tension of its track, the grade that it holds, its resistance to turning.
-#include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "tests/device_under_test.hpp"
-#include "tests/runs/shared_cache.hpp"
+#include "tests/system/driven_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,16 +30,6 @@ scene::Scene standing(double x, double y) {
           "rest_time_limit = 100\n",
           kGravity * x, kGravity * y, kGravity * z),
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
-}
-
-Simulation begin(const scene::Scene& scene) {
-  return Simulation(
-      setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
-}
-
-void advance(Simulation& simulation, double until) {
-  const auto to = std::llround(until / simulation.timeStep());
-  while (simulation.steps() < to) simulation.step();
 }
 
 /// sin of a slope of tangent t.

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One grain that a mesh crushes on a plane: its force, its ledger, its end, and one answer for all of it.
 #include "ledger_fixture.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // pieces of scenes
 
 constexpr double kStiffness = 1e5, kYield = 1e-3, kCap = kStiffness * kYield; // 100 N at an overlap of 1 mm
 constexpr double kSpeed = 0.05;                                               // of the plate [m/s]
@@ -175,4 +173,4 @@ TEST(CrushedBed, HasOneAnswerForThreadsSkinsKernelsAndResumedRuns) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

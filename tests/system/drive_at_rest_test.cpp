@@ -3,9 +3,9 @@
 #include "coupling/simulation.hpp"
 #include "coupling/vehicle_rig.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 namespace grouser::coupling {

@@ -2,12 +2,12 @@
 // Courses, engines and torques in a whole run: the same bits on any number of threads and resumed.
 #include "coupling/simulation.hpp"
 #include "coupling/vehicle_rig.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,12 +2,12 @@
 // The guard stops what gains or loses energy by its steps, at fixed steps, and nothing else.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/setup/load_scene.hpp"
-#include "runs/setup/step_limit.hpp"
-
 #include "runs/scene/scene.hpp"
 #include "runs/setup/ground_setup.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "runs/setup/step_limit.hpp"
+
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // fixtures
 
 /// Rebound over impact speed of a ball that comes down at 1 m/s on `ground`, which lies below z = 0.
 double reboundOn(const std::string& ground, const std::string& law, const std::string& run) {
@@ -57,4 +55,4 @@ TEST(FixedGrainOfAScene, TakesADampingThatIsGivenAsItIs) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

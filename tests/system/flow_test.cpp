@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What ends a run of a vehicle before its time: a distance, the edge of the ground, immobility.
 #include "base/error.hpp"
-#include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "tests/device_under_test.hpp"
-#include "tests/runs/shared_cache.hpp"
+#include "tests/system/driven_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,11 +25,6 @@ scene::Scene sceneWith(const std::string& more, const std::string& vehicle = {},
                                "drive_start = 0.15\ndrive_ramp = 0.05\n" +
                                more,
                            GROUSER_SOURCE_DIR "/tests/scenes/flow.toml", overrides);
-}
-
-Simulation begin(const scene::Scene& scene) {
-  return Simulation(
-      setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
 
 /// What has ended it within so many steps.

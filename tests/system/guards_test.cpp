@@ -3,14 +3,14 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/placement.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "tests/runs/shared_cache.hpp"
 #include "vehicle/spec_file.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -4,11 +4,11 @@
 #include "coupling/pressed_grain.hpp"
 #include "coupling/simulation.hpp"
 #include "coupling/swing_growth.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/system/guard_scenes.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

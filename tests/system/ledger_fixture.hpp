@@ -4,9 +4,9 @@
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/setup/simulation_setup.hpp"
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <string>
 
 /// Scenes of which a test knows where the energy must go.
-namespace grouser::coupling::test {
+namespace grouser::coupling::ledgers {
 
 constexpr double kRadius = 0.01, kDensity = 2500, kGravity = 9.81;
 
@@ -57,4 +57,4 @@ inline Ledger after(const std::string& things, double duration, double step, con
   return simulation->ledger();
 }
 
-} // namespace grouser::coupling::test
+} // namespace grouser::coupling::ledgers

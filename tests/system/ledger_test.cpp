@@ -9,10 +9,8 @@
 #include <cstdio>
 #include <vector>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // fixtures
 
 /// 250 grains that fall into a box.
 std::string boxOfGrains() {
@@ -160,4 +158,4 @@ TEST(LedgerOfGrains, LiftThatCarriesAGrainPutsInItsWeight) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

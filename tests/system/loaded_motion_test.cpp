@@ -6,8 +6,8 @@
 #include "coupling/simulation.hpp"
 #include "coupling/surfaces.hpp"
 #include "runs/setup/load_scene.hpp"
-
 #include "runs/setup/simulation_setup.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

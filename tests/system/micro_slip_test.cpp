@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // fixtures
 
 std::string hertzBall(double friction, double young, const std::string& more = {}) {
   return fmt::format("[material.soil]\nlaw = \"hertz\"\ndensity = {}\nyoung = {}\npoisson = 0.3\nrestitution = 1\n"
@@ -64,4 +62,4 @@ TEST(MicroSlip, BallShakenUnderAVaryingLoadGivesNoWork) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

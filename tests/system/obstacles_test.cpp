@@ -2,13 +2,9 @@
 // A vehicle on rigid surfaces: it rests on a box as on ground, on a log with its hull, climbs a step, and has one
 // answer.
 #include "base/error.hpp"
-#include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "tests/device_under_test.hpp"
-#include "tests/runs/shared_cache.hpp"
+#include "tests/system/driven_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,12 +28,7 @@ scene::Scene sceneWith(const std::string& more, double ground = 0, const std::st
       GROUSER_SOURCE_DIR "/tests/scenes/obstacles.toml");
 }
 
-Simulation begin(const scene::Scene& scene, int threads = 1) {
-  return Simulation(
-      setup::simulationSetup(scene), testExec(threads), [](double, double) {}, {}, nullptr, sharedSpheres());
-}
-
-void advance(Simulation& simulation, std::int64_t to) {
+void stepTo(Simulation& simulation, std::int64_t to) {
   while (simulation.steps() < to) simulation.step();
 }
 
@@ -45,9 +36,9 @@ const char* const kPlatform = "[[box]]\nposition = [4, 0, 0.1]\nsize = [8, 3, 0.
 
 TEST(OnABox, RestsAsOnGroundOfThatHeight) {
   Simulation box = begin(sceneWith(kPlatform)), ground = begin(sceneWith("", 0.2));
-  advance(box, 8000), advance(ground, 8000);
+  stepTo(box, 8000), stepTo(ground, 8000);
   box.restartMeans(), ground.restartMeans();
-  advance(box, 10000), advance(ground, 10000);
+  stepTo(box, 10000), stepTo(ground, 10000);
   const double weight = box.vehicle()->assembly().mass * 9.81;
   const Vec3d force = box.vehicle()->meanGroundForce();
   std::printf("on a box: ground force / weight = %.6f, on ground %.6f\n", force.z / weight,
@@ -63,7 +54,7 @@ TEST(OnABox, RestsAsOnGroundOfThatHeight) {
 
 TEST(OnABox, SinkageIsMeasuredFromItsTop) {
   Simulation box = begin(sceneWith(kPlatform));
-  advance(box, 6000);
+  stepTo(box, 6000);
   int shoes = 0;
   const vehicle::Observation seen = box.vehicle()->observe();
   for (const double sinkage : seen.tracks[0].sinkage) {
@@ -83,9 +74,9 @@ std::string log(double x) {
 
 TEST(OnALog, TheHullCarriesTheVehicle) {
   Simulation simulation = begin(sceneWith(log(2.43)));
-  advance(simulation, 15000);
+  stepTo(simulation, 15000);
   simulation.restartMeans();
-  advance(simulation, 20000);
+  stepTo(simulation, 20000);
   const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
   const double weight = assembly.mass * 9.81;
   const Vec3d all = simulation.vehicle()->meanGroundForce(), log = simulation.vehicle()->meanForceOn(0);
@@ -103,7 +94,7 @@ TEST(OnALog, AHullThatTouchesNothingPassesThroughIt) {
   Simulation simulation = begin(sceneWith("[[box]]\nposition = [2.43, 0, 0.16]\nsize = [0.3, 1.4, 0.32]\n"
                                           "material = \"steel\"\n",
                                           0, "sprocket_speed = 0", "hull_touches = false"));
-  advance(simulation, 6000);
+  stepTo(simulation, 6000);
   EXPECT_EQ(simulation.vehicle()->meanForceOn(0), Vec3d{});
 }
 
@@ -115,13 +106,13 @@ constexpr std::int64_t kObstaclesSteps = 7000;
 TEST(OneAnswer, OnObstacles) {
   const scene::Scene scene = setup::loadScene(testScene("obstacles.toml"));
   Simulation one = begin(scene, 1), two = begin(scene, 2);
-  advance(one, 4001), advance(two, 4001);
+  stepTo(one, 4001), stepTo(two, 4001);
   EXPECT_EQ(two.stateHash(), one.stateHash()) << "threads";
   Simulation resumed(setup::simulationSetup(scene), testExec(2), two.save(), {}, sharedSpheres());
   EXPECT_EQ(resumed.stateHash(), one.stateHash());
-  advance(one, 6000);
+  stepTo(one, 6000);
   one.restartMeans();
-  advance(one, kObstaclesSteps), advance(resumed, kObstaclesSteps);
+  stepTo(one, kObstaclesSteps), stepTo(resumed, kObstaclesSteps);
   EXPECT_LT(one.vehicle()->meanForceOn(1).z, -1000) << "the hull slides on the log";
   const Ledger l = one.ledger();
   EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
@@ -135,7 +126,7 @@ TEST(OneAnswer, AnObstacleOutOfReachChangesNoBit) {
   const std::string far = "[[box]]\nposition = [7.8, 1, 0.1]\nsize = [0.2, 0.2, 0.2]\nmaterial = \"steel\"\n";
   Simulation with = begin(sceneWith(far)), without = begin(sceneWith(""));
   Simulation bare = begin(sceneWith("", 0, "sprocket_speed = 0", "hull_touches = false"));
-  for (Simulation* s : {&with, &without, &bare}) advance(*s, 2000);
+  for (Simulation* s : {&with, &without, &bare}) stepTo(*s, 2000);
   EXPECT_EQ(with.stateHash(), without.stateHash());
   EXPECT_EQ(bare.stateHash(), without.stateHash()) << "a hull that touches nothing";
 }

@@ -3,12 +3,11 @@
 // stop on the way. tests/gpu compares the same scenes on CPU and GPU, tests/ranks their parts on several ranks.
 #include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <ostream>
 
 namespace grouser::coupling {
@@ -56,7 +55,6 @@ TEST_P(OneAnswerScenes, HashIsThatOfAResumedRun) {
 }
 
 TEST(OneAnswerBed, TwentyThousandGrainsOverTenThousandSteps) {
-  if (!std::getenv("GROUSER_LONG_TESTS")) GTEST_SKIP() << "a minute; tests/run --all asks for it";
   const Golden bed{"bed", 10000, "e53922e7928dfcc5", {}};
   Simulation simulation = begin(bed, 2);
   advance(simulation, bed.steps);

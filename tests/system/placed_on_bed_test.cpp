@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -41,10 +40,10 @@ std::string plate(const std::string& keys) {
 }
 const std::string kFree = "free = \"z\"\nmass = 4\nload = -30\nload_ramp = 0.02\n";
 
-scene::Scene sceneOf(const std::string& more, const std::vector<std::string>& overrides = {}) {
+scene::Scene sceneWithBed(const std::string& more, const std::vector<std::string>& overrides = {}) {
   return setup::parseScene(bedScene(more), "placed.toml", overrides);
 }
-std::unique_ptr<Simulation> made(const scene::Scene& scene, int threads = 1, BedCache* beds = nullptr,
+std::unique_ptr<Simulation> made(const scene::Scene& scene, int threads = 1, storage::BedCache* beds = nullptr,
                                  bool* settles = nullptr) {
   return std::make_unique<Simulation>(
       setup::simulationSetup(scene), base::cpuExec(threads),
@@ -74,11 +73,11 @@ double highestUnder(const terrain::GrainSnapshot& all, std::size_t count, double
 }
 
 TEST(PutOnBed, BedHasTheBitsOfOneAloneWhateverIsPutOnIt) {
-  const terrain::GrainState alone = made(sceneOf(""))->ground().grains->state();
+  const terrain::GrainState alone = made(sceneWithBed(""))->ground().grains->state();
   const std::string rigs =
       plate(kFree + "above_bed = 0.01\n") +
       "[[grain]]\nposition = [0.1, 0.2, 0]\nabove_bed = 0.005\nradius = 0.02\nmaterial = \"steel\"\n";
-  const auto with = made(sceneOf(rigs));
+  const auto with = made(sceneWithBed(rigs));
   const terrain::GrainState rig = with->ground().grains->state();
   const std::size_t n = alone.rows();
   ASSERT_EQ(rig.rows(), n + 1);
@@ -106,8 +105,8 @@ TEST(PutOnBed, SpringsOnWhatStoodInTheBedStayItsOwn) {
   for (const char* interpolation : {"smooth", "monotone"}) {
     const std::vector<std::string> ground{std::string("terrain.interpolation=") + interpolation};
     const terrain::GrainState
-        alone = made(sceneOf(sill, ground))->ground().grains->state(),
-        rig = made(sceneOf(plate(kFree + "above_bed = 0.01\n") + sill, ground))->ground().grains->state();
+        alone = made(sceneWithBed(sill, ground))->ground().grains->state(),
+        rig = made(sceneWithBed(plate(kFree + "above_bed = 0.01\n") + sill, ground))->ground().grains->state();
     const auto before = static_cast<std::size_t>(alone.layout.boundaries), after = before + 1;
     ASSERT_EQ(static_cast<std::size_t>(rig.layout.boundaries), after);
     EXPECT_EQ(rig.floorNormal, alone.floorNormal);
@@ -125,11 +124,11 @@ TEST(PutOnBed, SpringsOnWhatStoodInTheBedStayItsOwn) {
 }
 
 TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
-  const auto bed = made(sceneOf(""))->ground().grains->snapshot();
+  const auto bed = made(sceneWithBed(""))->ground().grains->snapshot();
   const auto s =
-      made(sceneOf(plate("velocity = [0, 0, -0.1]\nabove_bed = 0.002\nspin = [0, 0, 1]\npivot = [0, 0, 4]\n") +
-                   "[[grains]]\nlow = [0.0, -0.3, 1]\nhigh = [0.1, -0.2, 1.1]\nradius = 0.01\n"
-                   "material = \"soil\"\nabove_bed = 0.001\n"));
+      made(sceneWithBed(plate("velocity = [0, 0, -0.1]\nabove_bed = 0.002\nspin = [0, 0, 1]\npivot = [0, 0, 4]\n") +
+                        "[[grains]]\nlow = [0.0, -0.3, 1]\nhigh = [0.1, -0.2, 1.1]\nradius = 0.01\n"
+                        "material = \"soil\"\nabove_bed = 0.001\n"));
   EXPECT_NEAR(s->surfaces()->pose(0, 0).position.z - 0.02,
               highestUnder(bed, bed.position.size(), 0.2, 0.4, -0.1, 0.1) + 0.002, 1e-12);
   const SurfaceMotion& motion = s->surfaces()->surface(0).motion;
@@ -145,35 +144,36 @@ TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
 }
 
 TEST(PutOnBed, OverlapIsRefusedWithNumbersAndRemedy) {
-  const std::string deep = refusal(sceneOf(plate("velocity = [0, 0, -0.1]\n"), {"box.plate.position.2=0.0"}));
+  const std::string deep = refusal(sceneWithBed(plate("velocity = [0, 0, -0.1]\n"), {"box.plate.position.2=0.0"}));
   for (const char* part : {"placed.toml:", "plate would stand", "m deep in grain", "above_bed", "placed = \"before\""})
     EXPECT_NE(deep.find(part), std::string::npos) << part << "\n" << deep;
   const std::string grain =
-      refusal(sceneOf("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.05\nmaterial = \"steel\"\n"));
+      refusal(sceneWithBed("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.05\nmaterial = \"steel\"\n"));
   for (const char* part : {"placed.toml:", "m deep in grain", "above_bed"})
     EXPECT_NE(grain.find(part), std::string::npos) << part << "\n" << grain;
-  EXPECT_NE(
-      refusal(sceneOf(plate(kFree + "above_bed = 0.01\n"), {"box.plate.position.0=7"})).find("no grain of the bed"),
-      std::string::npos);
-  EXPECT_THROW(sceneOf(plate("above_bed = 0.1\nplaced = \"before\"\n")), base::InputError);
-  EXPECT_THROW(sceneOf("[[plane]]\nmaterial = \"steel\"\nabove_bed = 0.1\n"), base::InputError) << "no lowest point";
+  EXPECT_NE(refusal(sceneWithBed(plate(kFree + "above_bed = 0.01\n"), {"box.plate.position.0=7"}))
+                .find("no grain of the bed"),
+            std::string::npos);
+  EXPECT_THROW(sceneWithBed(plate("above_bed = 0.1\nplaced = \"before\"\n")), base::InputError);
+  EXPECT_THROW(sceneWithBed("[[plane]]\nmaterial = \"steel\"\nabove_bed = 0.1\n"), base::InputError)
+      << "no lowest point";
   // Two grains over one place, which no bed tells apart.
   const std::string stone =
       "[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.02\nmaterial = \"steel\"\nabove_bed = 0.01\n";
-  EXPECT_NE(refusal(sceneOf(stone + stone)).find("m deep in grain"), std::string::npos);
+  EXPECT_NE(refusal(sceneWithBed(stone + stone)).find("m deep in grain"), std::string::npos);
 }
 
 TEST(PutOnBed, WhatRestsStandsInTheBedAndWhatMovesComesLater) {
   const auto count = [](const std::string& keys) {
-    return made(sceneOf(plate(keys), {"box.plate.position.2=0.0"}))->ground().grains->count();
+    return made(sceneWithBed(plate(keys), {"box.plate.position.2=0.0"}))->ground().grains->count();
   };
-  const std::size_t all = made(sceneOf(""))->ground().grains->count();
+  const std::size_t all = made(sceneWithBed(""))->ground().grains->count();
   EXPECT_LT(count(""), all) << "laid around";
   EXPECT_EQ(count("velocity = [0, 0, 0.1]\nplaced = \"before\"\n"), count(""));
-  EXPECT_FALSE(setup::isPutOnBed(sceneOf(plate(""))));
-  EXPECT_TRUE(setup::isPutOnBed(sceneOf(plate("velocity = [0, 0, 0.1]\n"))));
-  EXPECT_TRUE(setup::isPutOnBed(sceneOf(plate("placed = \"after_settling\"\n"))));
-  EXPECT_FALSE(setup::isPutOnBed(sceneOf(plate("velocity = [0, 0, 0.1]\n"), {"terrain.settle_time_limit=0"})));
+  EXPECT_FALSE(setup::isPutOnBed(sceneWithBed(plate(""))));
+  EXPECT_TRUE(setup::isPutOnBed(sceneWithBed(plate("velocity = [0, 0, 0.1]\n"))));
+  EXPECT_TRUE(setup::isPutOnBed(sceneWithBed(plate("placed = \"after_settling\"\n"))));
+  EXPECT_FALSE(setup::isPutOnBed(sceneWithBed(plate("velocity = [0, 0, 0.1]\n"), {"terrain.settle_time_limit=0"})));
 }
 
 std::string manyRigs() {
@@ -187,7 +187,7 @@ std::string manyRigs() {
 
 /// tests/scenes/rigs.toml; its hash for threads, lists and a stop stands in one_answer_scenes_test.cpp.
 TEST(PutOnBed, ResumedAtItsStartAlsoHasTheBitsOfAStraightRun) {
-  const scene::Scene scene = sceneOf(manyRigs());
+  const scene::Scene scene = sceneWithBed(manyRigs());
   const auto straight = made(scene);
   Simulation second(setup::simulationSetup(scene), base::cpuExec(1), straight->save());
   EXPECT_EQ(second.stateHash(), straight->stateHash());
@@ -201,10 +201,10 @@ TEST(PutOnBed, LargerStonesLeaveTheBedToItself) {
   // A stone of three radii coarsens the units of places by two bits: springs and overlaps stay, and what is left of the
   // bed's motion goes on as without it, until rounding of 1e-9 m and of damping by each contact's own mass tells.
   const std::vector<std::string> steps{"run.time_step=1e-4"};
-  const auto alone = made(sceneOf("", steps)),
-             s = made(sceneOf("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.09\nmaterial = \"steel\"\n"
-                              "above_bed = 0.05\n",
-                              steps));
+  const auto alone = made(sceneWithBed("", steps)),
+             s = made(sceneWithBed("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.09\nmaterial = \"steel\"\n"
+                                   "above_bed = 0.05\n",
+                                   steps));
   EXPECT_NE(s->ground().grains->scale().unit, alone->ground().grains->scale().unit);
   const double from = s->ground().grains->snapshot().position.back().z;
   while (s->steps() < 300) s->step(), alone->step();
@@ -217,28 +217,22 @@ TEST(PutOnBed, LargerStonesLeaveTheBedToItself) {
 class KeptForRigs : public FolderTest {};
 
 TEST_F(KeptForRigs, OneBedServesAllRigs) {
-  BedCache beds(folder_);
+  storage::BedCache beds(folder_);
   bool settles = false;
-  made(sceneOf(""), 1, &beds, &settles);
+  made(sceneWithBed(""), 1, &beds, &settles);
   EXPECT_TRUE(settles);
   const SettleReport kept = [&] {
-    const scene::Scene bed = sceneOf("");
+    const scene::Scene bed = sceneWithBed("");
     return beds.find(setup::bedOrigin(bed, setup::chooseTimeStep(bed))).value();
   }();
   EXPECT_GT(kept.highest, kept.meanHeight);
   for (const std::string& rigs :
        {plate(kFree + "above_bed = 0.1\n"), plate("velocity = [0, 0, -0.01]\n"), manyRigs()}) {
     settles = false;
-    const auto s = made(sceneOf(rigs), 1, &beds, &settles);
+    const auto s = made(sceneWithBed(rigs), 1, &beds, &settles);
     EXPECT_FALSE(settles);
     EXPECT_EQ(s->settled().highest, kept.highest);
   }
-}
-
-TEST(PutOnBed, PlanSaysWhatComesLater) {
-  const std::string with = commands::planText(sceneOf(manyRigs())), without = commands::planText(sceneOf(plate("")));
-  EXPECT_NE(with.find("plate, mesh0, 1 grain"), std::string::npos) << with;
-  EXPECT_NE(without.find("off  put on the settled bed"), std::string::npos) << without;
 }
 
 } // namespace

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A hull on rails, over both tracks and over a single one, on rigid ground.
 #include "base/error.hpp"
-#include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "tests/device_under_test.hpp"
-#include "tests/runs/shared_cache.hpp"
+#include "tests/system/driven_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,20 +24,10 @@ scene::Scene onRails(const std::string& vehicle, const std::string& more = {}) {
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
 }
 
-Simulation beginOnRails(const scene::Scene& scene) {
-  return Simulation(
-      setup::simulationSetup(scene), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
-}
-
-void advance(Simulation& simulation, double until) {
-  const auto to = std::llround(until / simulation.timeStep());
-  while (simulation.steps() < to) simulation.step();
-}
-
 const char* const kHalf = "[spec.chassis]\nmass = 1850.0\ninertia = [1025.0, 2000.0, 2110.0]\n";
 
 TEST(OnRails, ASingleTrackDrivesStraightUnderItsLoad) {
-  Simulation simulation = beginOnRails(onRails("tracks = \"single\"\nchassis = \"guided\"", kHalf));
+  Simulation simulation = begin(onRails("tracks = \"single\"\nchassis = \"guided\"", kHalf));
   const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
   ASSERT_EQ(assembly.tracks.size(), 1u);
   EXPECT_EQ(assembly.tracks[0].y, 0);
@@ -72,8 +58,8 @@ TEST(OnRails, ALevelHullDoesNotPitchAsItPulls) {
   double pitch[2];
   for (const int level : {0, 1}) {
     Simulation simulation =
-        beginOnRails(onRails(fmt::format("tracks = \"single\"\nchassis = \"{}\"", level ? "level" : "guided"),
-                             std::string("[hitch]\nkind = \"speed\"\nslip = 0.4\n") + kHalf));
+        begin(onRails(fmt::format("tracks = \"single\"\nchassis = \"{}\"", level ? "level" : "guided"),
+                      std::string("[hitch]\nkind = \"speed\"\nslip = 0.4\n") + kHalf));
     advance(simulation, 1.2);
     pitch[level] = simulation.vehicle()->observe().pitchAngle;
   }
@@ -86,7 +72,7 @@ TEST(OnRails, ALevelHullDoesNotPitchAsItPulls) {
 TEST(OnRails, AHullDoesNotYawThoughItsTracksWantTo) {
   scene::Scene scene = onRails("chassis = \"guided\"");
   scene.driver.sprocketSpeed.reset(), scene.driver.left = 1, scene.driver.right = 3;
-  Simulation simulation = beginOnRails(scene);
+  Simulation simulation = begin(scene);
   advance(simulation, 1.5);
   EXPECT_NEAR(simulation.vehicle()->observe().heading, 20 * std::atan(1.0) / 45, 1e-8);
   EXPECT_GT(norm(simulation.vehicle()->observe().velocity), 0.2);

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // fixtures
 
 /// Moduli go with the radius, stiffnesses and energies of a surface with its square.
 std::string lawOf(const std::string& name, double radius) {
@@ -84,4 +82,4 @@ TEST_P(Scale, MotionInRadiiIsTheSameFromAMicrometreToTenMetres) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

@@ -2,11 +2,11 @@
 // A vehicle set down on a bed whose stones stand above its smooth surface touches none of them.
 #include "coupling/grains_under_shoes.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

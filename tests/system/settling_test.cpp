@@ -2,11 +2,11 @@
 // When a bed counts as settled.
 #include "base/error.hpp"
 #include "coupling/ground.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "terrain/grain_forces.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/ground_setup.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -2,14 +2,14 @@
 // Sound scenes at 50, 75 and 100 % of their limit step: no alarm, and one answer for all output intervals.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/time_scales.hpp"
 #include "tests/system/guard_scenes.hpp"
 #include "tests/vehicle/spec_variant.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

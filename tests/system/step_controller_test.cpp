@@ -2,11 +2,11 @@
 // Steps of mechanisms that follow an error: the error at the end goes with the tolerance.
 #include "base/math.hpp"
 #include "coupling/mechanism.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/step_limit.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/mechanism_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 // Boxes, cylinders and meshes have no images beyond periodic boundaries: what would need one is refused.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/setup/load_scene.hpp"
-
 #include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

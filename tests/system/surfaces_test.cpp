@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/output/surface_mesh.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
@@ -306,16 +305,7 @@ TEST(Mill, EnergyOfTheGrainsIsTheWorkOfItsSurfaces) {
   EXPECT_LT(worst[1], 0.04);
 }
 
-TEST(Surfaces, PlanSaysWhichThereAre) {
-  const std::string with = commands::planText(sceneOf(kMill)),
-                    without = commands::planText(sceneOf(grainAt("[0, 0, 0]")));
-  EXPECT_NE(with.find("plane0, box0, drum, cylinder1; 3 moved, 1 free, 1 of these pulled or turned besides"),
-            std::string::npos)
-      << with;
-  EXPECT_NE(with.find("moving surfaces"), std::string::npos);
-  EXPECT_NE(without.find("off  surfaces"), std::string::npos) << without;
-  EXPECT_EQ(made(sceneOf(grainAt("[0, 0, 0]")), 1)->surfaces(), nullptr);
-}
+TEST(Surfaces, AreNotBuiltWhereThereAreNone) { EXPECT_EQ(made(sceneOf(grainAt("[0, 0, 0]")), 1)->surfaces(), nullptr); }
 
 TEST(Surfaces, ResolvedCopyLoadsToTheSameScene) {
   const scene::Scene first = sceneOf(kMill + "[[box]]\nname = \"ramp\"\nposition = [1, 0, 0]\nsize = [1, 1, 0.1]\n"

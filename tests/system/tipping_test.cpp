@@ -2,12 +2,12 @@
 // A vehicle on a side slope whose grip lets it tip rather than slide: the slope on which it does is that of its
 // geometry.
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

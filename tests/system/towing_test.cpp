@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vehicle on rigid ground that pulls: by forces, a sled, and a carriage that imposes its slip.
 #include "base/error.hpp"
-#include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "tests/device_under_test.hpp"
-#include "tests/runs/shared_cache.hpp"
+#include "tests/system/driven_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,16 +26,6 @@ scene::Scene sceneWith(const std::string& hitch, double speed = 2, double step =
                   "position = [10, 0]\n[driver]\nsprocket_speed = {2}\n{0}",
                   hitch.empty() ? "" : "[hitch]\n" + hitch, step, speed),
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
-}
-
-Simulation begin(const scene::Scene& scene, int threads = 1) {
-  return Simulation(
-      setup::simulationSetup(scene), testExec(threads), [](double, double) {}, {}, nullptr, sharedSpheres());
-}
-
-void advance(Simulation& simulation, double until) {
-  const auto to = std::llround(until / simulation.timeStep());
-  while (simulation.steps() < to) simulation.step();
 }
 
 /// Of the hitch from `from` to `to` [s].
@@ -140,25 +126,28 @@ TEST(Towing, ARampStopsTheVehicleAtItsFriction) {
 }
 
 /// The same bits for threads, and resumed while the rope swings.
+void expectOneAnswer(const std::string& hitch) {
+  scene::Scene scene = sceneWith(hitch);
+  scene.driver.tensionRamp = 0.02, scene.driver.weightRamp = 0.1, scene.driver.driveStart = 0.15;
+  scene.driver.driveRamp = 0.05;
+  Simulation one = begin(scene, 1), two = begin(scene, 2);
+  for (Simulation* s : {&one, &two}) advance(*s, 0.3);
+  EXPECT_EQ(two.stateHash(), one.stateHash()) << "threads: " << hitch;
+  EXPECT_NE(two.vehicle()->towing()->observe().pull, 0) << "there is something to carry over: " << hitch;
+  Simulation resumed(setup::simulationSetup(scene), testExec(2), two.save(), {}, sharedSpheres());
+  EXPECT_EQ(resumed.stateHash(), one.stateHash());
+  for (Simulation* s : {&one, &resumed}) advance(*s, 0.45);
+  EXPECT_EQ(resumed.stateHash(), one.stateHash()) << "resumed, on two threads: " << hitch;
+  const HitchObservation o = one.vehicle()->towing()->observe(), r = resumed.vehicle()->towing()->observe();
+  EXPECT_EQ(o.work, r.work);
+  EXPECT_EQ(o.pull, r.pull);
+  EXPECT_NE(o.work, 0);
+}
+
+TEST(OneAnswer, OfAVehicleThatTowsASled) { expectOneAnswer("kind = \"sled\"\nmass = 1500\nfriction = 0.5\n"); }
+
 TEST(OneAnswer, OfATowingVehicle) {
-  for (const char* hitch : {"kind = \"sled\"\nmass = 1500\nfriction = 0.5\n", "kind = \"speed\"\nslip = 0.3\n",
-                            "kind = \"ramp\"\nrate = 4000\n"}) {
-    scene::Scene scene = sceneWith(hitch);
-    scene.driver.tensionRamp = 0.02, scene.driver.weightRamp = 0.1, scene.driver.driveStart = 0.15;
-    scene.driver.driveRamp = 0.05;
-    Simulation one = begin(scene, 1), two = begin(scene, 2);
-    for (Simulation* s : {&one, &two}) advance(*s, 0.3);
-    EXPECT_EQ(two.stateHash(), one.stateHash()) << "threads: " << hitch;
-    EXPECT_NE(two.vehicle()->towing()->observe().pull, 0) << "there is something to carry over: " << hitch;
-    Simulation resumed(setup::simulationSetup(scene), testExec(2), two.save(), {}, sharedSpheres());
-    EXPECT_EQ(resumed.stateHash(), one.stateHash());
-    for (Simulation* s : {&one, &resumed}) advance(*s, 0.45);
-    EXPECT_EQ(resumed.stateHash(), one.stateHash()) << "resumed, on two threads: " << hitch;
-    const HitchObservation o = one.vehicle()->towing()->observe(), r = resumed.vehicle()->towing()->observe();
-    EXPECT_EQ(o.work, r.work);
-    EXPECT_EQ(o.pull, r.pull);
-    EXPECT_NE(o.work, 0);
-  }
+  for (const char* hitch : {"kind = \"speed\"\nslip = 0.3\n", "kind = \"ramp\"\nrate = 4000\n"}) expectOneAnswer(hitch);
 }
 
 /// Drives, hitch and what contacts and joints hold and lose.

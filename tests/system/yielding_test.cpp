@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elastic-plastic contacts in scenes: what they give back, what they lose, and what the ledger says of it.
 #include "base/error.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/system/ledger_fixture.hpp"
 
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-namespace grouser::coupling {
+namespace grouser::coupling::ledgers {
 namespace {
-
-using namespace test; // fixtures
 
 const std::string kStill = "gravity = [0, 0, 0]\nprecision = \"double\"";
 
@@ -133,4 +131,4 @@ TEST(Yielding, MaterialsThatMeetAreBothHertzianOrBothLinear) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::ledgers

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/random.hpp"
+#include "tests/rounding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace {
 using namespace grouser::terrain;
 namespace base = grouser::base;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
+using grouser::test::kEps;
 constexpr double kRadius = 0.03;
 constexpr Rectangle kArea{0, 3, -1, 1};
 constexpr std::uint64_t kTest = base::purpose("terrain.bed-surface-test");

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/random.hpp"
+#include "tests/rounding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,30 +19,30 @@ using grouser::base::norm;
 using grouser::base::uniform;
 namespace base = grouser::base;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr std::uint64_t kTest = base::purpose("terrain.height-field-test");
-constexpr Rectangle kArea{0, 4, -1, 1};
+using grouser::test::kEps;
+constexpr std::uint64_t kFieldTest = base::purpose("terrain.height-field-test");
+constexpr Rectangle kFieldArea{0, 4, -1, 1};
 
-double random(int i, int k, double from, double to) { return from + (to - from) * uniform(5, kTest, i, k); }
+double randomIn(int i, int k, double from, double to) { return from + (to - from) * uniform(5, kFieldTest, i, k); }
 
 /// Waves of 1 m and 0.8 m, 3 cm high: smallest radius of curvature of the hollows about 0.3 m.
 double waves(double x, double y) {
   return 0.03 * base::sin(2 * base::kPi * x) * base::cos(2 * base::kPi * y / 0.8) + 0.05 * x;
 }
-HeightField waveField(int n) { return HeightField::sample(kArea, 2 * n + 1, n + 1, waves); }
+HeightField waveField(int n) { return HeightField::sample(kFieldArea, 2 * n + 1, n + 1, waves); }
 
 /// Ground as rough as pictures allow: independent heights, slopes of about 10.
 HeightField noiseField() {
   int i = 0;
-  return HeightField::sample(kArea, 41, 21, [&](double, double) { return random(i++, 9, 0, 1); });
+  return HeightField::sample(kFieldArea, 41, 21, [&](double, double) { return randomIn(i++, 9, 0, 1); });
 }
 
 TEST(HeightField, Plane_HasExactHeightSlopeAndDistance) {
-  const HeightField plane = HeightField::plane(kArea, 0.3, 0.25, -0.125);
+  const HeightField plane = HeightField::plane(kFieldArea, 0.3, 0.25, -0.125);
   const Vec3d n = base::normalized(Vec3d{-0.25, 0.125, 1.0});
   for (int i = 0; i < 200; ++i) {
     // Inside and up to twice the size outside.
-    const Vec3d p{random(i, 0, -8, 12), random(i, 1, -4, 4), random(i, 2, -2, 2)};
+    const Vec3d p{randomIn(i, 0, -8, 12), randomIn(i, 1, -4, 4), randomIn(i, 2, -2, 2)};
     const double h = 0.3 + 0.25 * p.x - 0.125 * p.y;
     const SurfaceJet jet = plane.view().jet(p.x, p.y);
     const FootPoint foot = plane.closestPoint(p);
@@ -57,10 +58,10 @@ TEST(HeightField, Plane_HasExactHeightSlopeAndDistance) {
 }
 
 TEST(HeightField, FinePlane_IsAsExactAsACoarseOne) {
-  const HeightField plane = HeightField::sample(kArea, 201, 101, [](double x, double y) { return 0.5 * x + y; });
+  const HeightField plane = HeightField::sample(kFieldArea, 201, 101, [](double x, double y) { return 0.5 * x + y; });
   const double spacing = 0.02;
   for (int i = 0; i < 200; ++i) {
-    const double x = random(i, 0, -1, 5), y = random(i, 1, -2, 2);
+    const double x = randomIn(i, 0, -1, 5), y = randomIn(i, 1, -2, 2);
     const SurfaceJet jet = plane.view().jet(x, y);
     // Round-off of the heights (up to 3 m), over the spacing for a slope, times the cells it is carried on outside.
     const double outX = std::max({0.0, -x, x - 4}) / spacing, outY = std::max(0.0, std::fabs(y) - 1) / spacing;
@@ -75,7 +76,7 @@ TEST(HeightField, PassesThroughItsNodes) {
   const HeightField field = noiseField();
   for (int j = 0; j < field.rows(); ++j)
     for (int i = 0; i < field.columns(); ++i) {
-      const double x = kArea.xMin + 4.0 * i / 40, y = kArea.yMin + 2.0 * j / 20;
+      const double x = kFieldArea.xMin + 4.0 * i / 40, y = kFieldArea.yMin + 2.0 * j / 20;
       // The node's coordinate is off by round-off; the slope is at most bounds().slope.
       EXPECT_NEAR(field.height(x, y), field.heights()[j * 41 + i], (2 + field.bounds().slope) * 4 * kEps * 4);
     }
@@ -87,7 +88,7 @@ TEST(HeightField, SlopeIsContinuousAcrossCellsAndTheBorder) {
   const double step = 1e-9, curvature = 1e4; // |second derivatives| of this noise are below 1e4 / m
   for (int i = 0; i <= 40; ++i)
     for (int s = 0; s < 20; ++s) {
-      const double x = 0.1 * i, y = random(s, i, -1.2, 1.2);
+      const double x = 0.1 * i, y = randomIn(s, i, -1.2, 1.2);
       const SurfaceJet a = view.jet(x - step, y), b = view.jet(x + step, y);
       EXPECT_NEAR(a.h, b.h, 2 * step * 100);
       EXPECT_NEAR(a.hx, b.hx, 2 * step * curvature);
@@ -99,7 +100,7 @@ TEST(HeightField, SlopeIsContinuousAcrossCellsAndTheBorder) {
 void expectDerivativesOfTheHeight(const HeightFieldView& view) {
   for (int i = 0; i < 300; ++i) {
     // Away from the cells' sides, where the second derivative jumps.
-    const double x = 0.1 * (i % 40) + random(i, 0, 0.01, 0.09), y = -1 + 0.1 * (i % 20) + random(i, 1, 0.01, 0.09);
+    const double x = 0.1 * (i % 40) + randomIn(i, 0, 0.01, 0.09), y = -1 + 0.1 * (i % 20) + randomIn(i, 1, 0.01, 0.09);
     const double d = 1e-5; // truncation d^2 h''' / 6 with h''' < 1e5, round-off eps / d
     const SurfaceJet s = view.jet(x, y), e = view.jet(x + d, y), w = view.jet(x - d, y), n = view.jet(x, y + d),
                      b = view.jet(x, y - d);
@@ -123,7 +124,7 @@ TEST(HeightField, ConvergesToASmoothSurfaceWithThirdOrder) {
     double worst = 0;
     // Away from the border, where the linear continuation costs one order.
     for (int i = 0; i < 2000; ++i) {
-      const double x = random(i, 0, 0.5, 3.5), y = random(i, 1, -0.6, 0.6);
+      const double x = randomIn(i, 0, 0.5, 3.5), y = randomIn(i, 1, -0.6, 0.6);
       worst = std::max(worst, std::fabs(field.height(x, y) - waves(x, y)));
     }
     return worst;
@@ -139,8 +140,8 @@ TEST(ClosestPoint, AlongANormal_GivesBackFootDistanceAndNormal) {
   const double hollow = 1 / field.bounds().valleyCurvature;
   ASSERT_GT(hollow, 0.2);
   for (int i = 0; i < 1000; ++i) {
-    const double x = random(i, 0, 0.2, 3.8), y = random(i, 1, -0.8, 0.8);
-    const double d = random(i, 2, -0.5, 0.5) * hollow; // within half the radius of curvature, either side
+    const double x = randomIn(i, 0, 0.2, 3.8), y = randomIn(i, 1, -0.8, 0.8);
+    const double d = randomIn(i, 2, -0.5, 0.5) * hollow; // within half the radius of curvature, either side
     const SurfaceJet s = view.jet(x, y);
     const Vec3d n = base::normalized(Vec3d{-s.hx, -s.hy, 1.0});
     const FootPoint foot = view.closestPoint(Vec3d{x, y, s.h} + d * n);
@@ -157,7 +158,7 @@ TEST(ClosestPoint, OfWaves_IsTheGlobalMinimumOfADenseSearch) {
   const HeightField field = waveField(40);
   const HeightFieldView view = field.view();
   for (int i = 0; i < 40; ++i) {
-    const Vec3d p{random(i, 0, 0.5, 3.5), random(i, 1, -0.5, 0.5), random(i, 2, 0.0, 0.3)};
+    const Vec3d p{randomIn(i, 0, 0.5, 3.5), randomIn(i, 1, -0.5, 0.5), randomIn(i, 2, 0.0, 0.3)};
     double x = p.x, y = p.y, best = 1e9;
     // Nested grids of 41 x 41 points, each a tenth of the one before: final spacing 0.2 m / 20 / 1e5 = 1e-7 m.
     double reach = 0.3;
@@ -200,7 +201,7 @@ TEST(ClosestPoint, OnTheRoughestGround_IsFiniteAndNeverFartherThanThePointBelow)
   const HeightField field = noiseField();
   const HeightFieldView view = field.view();
   for (int i = 0; i < 5000; ++i) {
-    const Vec3d p{random(i, 0, -0.5, 4.5), random(i, 1, -1.5, 1.5), random(i, 2, -1, 2)};
+    const Vec3d p{randomIn(i, 0, -0.5, 4.5), randomIn(i, 1, -1.5, 1.5), randomIn(i, 2, -1, 2)};
     const FootPoint foot = view.closestPoint(p);
     ASSERT_TRUE(std::isfinite(foot.distance));
     EXPECT_NEAR(norm(foot.normal), 1, 4 * kEps);
@@ -218,7 +219,7 @@ TEST(ClearOf, IsNeverTrueForASphereThatTouches_AndMostlyTrueForOneThatDoesNot) {
   const double radius = 0.03;
   int clear = 0, apart = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Vec3d p{random(i, 0, -0.1, 4.1), random(i, 1, -1.1, 1.1), random(i, 2, -0.1, 0.5)};
+    const Vec3d p{randomIn(i, 0, -0.1, 4.1), randomIn(i, 1, -1.1, 1.1), randomIn(i, 2, -0.1, 0.5)};
     const double distance = view.closestPoint(p).distance;
     const bool inside = p.x > 0.03 && p.x < 3.97 && p.y > -0.97 && p.y < 0.97;
     EXPECT_FALSE(view.clearOf(p, radius) && distance <= radius) << i;
@@ -256,12 +257,13 @@ TEST(HeightFieldBounds, ContainTheSurface_AndAreOfItsSize) {
 
 TEST(HeightFieldBounds, OfASaddle_CountTheTwist) {
   // h = x y / 2 is straight along x and y, and a hollow of curvature 1/2 along the diagonal.
-  const HeightField saddle = HeightField::sample(kArea, 21, 11, [](double x, double y) { return 0.5 * x * y; });
+  const HeightField saddle = HeightField::sample(kFieldArea, 21, 11, [](double x, double y) { return 0.5 * x * y; });
   EXPECT_NEAR(saddle.bounds().valleyCurvature, 0.5, 100 * kEps / (0.2 * 0.2));
 }
 
 TEST(HeightFieldBounds, OverAPart_AreThoseOfThatPart) {
-  const HeightField field = HeightField::sample(kArea, 41, 21, [](double x, double) { return x < 2.01 ? 0.0 : x - 2; });
+  const HeightField field =
+      HeightField::sample(kFieldArea, 41, 21, [](double x, double) { return x < 2.01 ? 0.0 : x - 2; });
   const auto level = field.boundsOver({0.1, 1.5, -0.5, 0.5}), all = field.boundsOver({-9, 9, -9, 9});
   EXPECT_EQ(level.slope, 0.0);
   EXPECT_EQ(level.highest, 0.0);
@@ -272,7 +274,7 @@ TEST(HeightFieldBounds, OverAPart_AreThoseOfThatPart) {
 TEST(HeightField, Raised_IsTheSameSurfaceHigher) {
   const HeightField field = waveField(20), higher = field.raised(0.25);
   for (int i = 0; i < 50; ++i) {
-    const double x = random(i, 0, 0, 4), y = random(i, 1, -1, 1);
+    const double x = randomIn(i, 0, 0, 4), y = randomIn(i, 1, -1, 1);
     EXPECT_NEAR(higher.height(x, y), field.height(x, y) + 0.25, 10 * kEps);
   }
 }
@@ -280,9 +282,9 @@ TEST(HeightField, Raised_IsTheSameSurfaceHigher) {
 TEST(HeightField, BrokenInput_IsAnError) {
   using grouser::base::InputError;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(HeightField(kArea, 1, 2, {0, 0}), InputError);
-  EXPECT_THROW(HeightField(kArea, 2, 2, {0, 0, 0}), InputError);
-  EXPECT_THROW(HeightField(kArea, 2, 2, {0, 0, 0, nan}), InputError);
+  EXPECT_THROW(HeightField(kFieldArea, 1, 2, {0, 0}), InputError);
+  EXPECT_THROW(HeightField(kFieldArea, 2, 2, {0, 0, 0}), InputError);
+  EXPECT_THROW(HeightField(kFieldArea, 2, 2, {0, 0, 0, nan}), InputError);
   EXPECT_THROW(HeightField({0, 0, 0, 1}, 2, 2, {0, 0, 0, 0}), InputError);
   EXPECT_THROW(HeightField({0, nan, 0, 1}, 2, 2, {0, 0, 0, 0}), InputError);
 }
@@ -339,7 +341,7 @@ TEST(Interpolation, Monotone_HasContinuousNormalsAcrossCellsAndTheBorder) {
   const double step = 1e-9, curvature = 1e4; // |second derivatives| of this noise are below 1e4 / m
   for (int i = 0; i <= 40; ++i)
     for (int s = 0; s < 20; ++s) {
-      const double x = 0.1 * i, y = random(s, i, -1.2, 1.2);
+      const double x = 0.1 * i, y = randomIn(s, i, -1.2, 1.2);
       const SurfaceJet a = view.jet(x - step, y), b = view.jet(x + step, y);
       EXPECT_NEAR(a.h, b.h, 2 * step * 100);
       EXPECT_NEAR(a.hx, b.hx, 2 * step * curvature);
@@ -348,12 +350,13 @@ TEST(Interpolation, Monotone_HasContinuousNormalsAcrossCellsAndTheBorder) {
 }
 
 TEST(Interpolation, OfAPlane_IsTheFormerSurfaceBitForBit) {
-  const HeightField flat = HeightField::sample(kArea, 41, 21, [](double, double) { return 0.037; });
-  const HeightField leaning = HeightField::sample(kArea, 41, 21, [](double x, double y) { return 0.5 * x - 0.2 * y; });
+  const HeightField flat = HeightField::sample(kFieldArea, 41, 21, [](double, double) { return 0.037; });
+  const HeightField leaning =
+      HeightField::sample(kFieldArea, 41, 21, [](double x, double y) { return 0.5 * x - 0.2 * y; });
   for (const HeightField* plane : {&flat, &leaning})
     for (const Interpolation how : {Interpolation::monotone, Interpolation::bilinear})
       for (int i = 0; i < 100; ++i) {
-        const double x = random(i, 0, -1, 5), y = random(i, 1, -2, 2);
+        const double x = randomIn(i, 0, -1, 5), y = randomIn(i, 1, -2, 2);
         EXPECT_EQ(with(how, *plane).height(x, y), plane->height(x, y));
       }
 }
@@ -363,7 +366,7 @@ TEST(Interpolation, Monotone_ConvergesWithOrder2_4InTheMeanAnd1_6AtExtrema) {
     const HeightField field = with(Interpolation::monotone, waveField(n));
     double worst = 0, sum = 0;
     for (int i = 0; i < 4000; ++i) {
-      const double x = random(i, 0, 0.5, 3.5), y = random(i, 1, -0.6, 0.6);
+      const double x = randomIn(i, 0, 0.5, 3.5), y = randomIn(i, 1, -0.6, 0.6);
       const double error = std::fabs(field.height(x, y) - waves(x, y));
       worst = std::max(worst, error), sum += error / 4000;
     }

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/random.hpp"
+#include "tests/rounding.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,25 +19,25 @@ namespace {
 using namespace grouser::terrain;
 namespace base = grouser::base;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
+using grouser::test::kEps;
 constexpr double kRadius = 0.03;
-constexpr Rectangle kArea{0, 2, -0.5, 0.5};
+constexpr Rectangle kLayersArea{0, 2, -0.5, 0.5};
 
-HeightField level() { return HeightField::flat(kArea, 0.5); }
-HeightField steep() { return HeightField::plane(kArea, 0, 0.7, -0.4); }
+HeightField level() { return HeightField::flat(kLayersArea, 0.5); }
+HeightField steep() { return HeightField::plane(kLayersArea, 0, 0.7, -0.4); }
 HeightField hills() {
-  return HeightField::sample(kArea, 81, 41, [](double x, double y) {
+  return HeightField::sample(kLayersArea, 81, 41, [](double x, double y) {
     return 0.1 * base::sin(2 * base::kPi * x / 0.8) * base::cos(2 * base::kPi * y / 0.7);
   });
 }
 /// A wall half a metre high across the way, over one spacing of 5 cm.
 HeightField cliff() {
-  return HeightField::sample(kArea, 41, 21, [](double x, double) { return x < 1.01 ? 0.0 : 0.5; });
+  return HeightField::sample(kLayersArea, 41, 21, [](double x, double) { return x < 1.01 ? 0.0 : 0.5; });
 }
 /// Spikes closer than a grain's diameter, slopes of 10 and more.
 HeightField spikes() {
   std::uint64_t i = 0;
-  return HeightField::sample(kArea, 61, 31, [&](double, double) { return 0.3 * base::uniform(3, 1, i++); });
+  return HeightField::sample(kLayersArea, 61, 31, [&](double, double) { return 0.3 * base::uniform(3, 1, i++); });
 }
 
 LayerOptions options(FloorShape floor = FloorShape::follow) {

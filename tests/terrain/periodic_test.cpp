@@ -28,7 +28,7 @@ Boundaries periodic(const GrainModel& m, bool x = true, bool y = true) {
 }
 
 /// Layers thrown across the domain, shifted along x and y by whole units of position, around the ring.
-std::vector<GrainSpec> thrown(const base::Vec3l& shift, bool manyRadii = false) {
+std::vector<GrainSpec> thrownAcross(const base::Vec3l& shift, bool manyRadii = false) {
   const base::PositionScale scale = base::positionScale(0.01);
   const base::Period period = [&] {
     base::Period p;
@@ -72,7 +72,7 @@ std::int64_t crossed(const GrainState& s) {
 }
 
 GrainState end(const GrainModel& m, const base::Vec3l& shift, int threads = 1, bool manyRadii = false) {
-  Grains grains(base::cpuExec(threads), m, periodic(m), thrown(shift, manyRadii));
+  Grains grains(base::cpuExec(threads), m, periodic(m), thrownAcross(shift, manyRadii));
   advance(grains, 4000);
   return grains.state();
 }
@@ -165,13 +165,13 @@ TEST(PeriodicBoundaries, MomentumOfAGasIsKept) {
 
 TEST(PeriodicBoundaries, ResumedRunsGoOnToTheSameBits) {
   const GrainModel m = rubbing();
-  Grains straight(base::cpuExec(1), m, periodic(m), thrown({}));
+  Grains straight(base::cpuExec(1), m, periodic(m), thrownAcross({}));
   advance(straight, 4000);
   for (const int step : {1, 777, 2500}) {
-    Grains first(base::cpuExec(1), m, periodic(m), thrown({}));
+    Grains first(base::cpuExec(1), m, periodic(m), thrownAcross({}));
     advance(first, step);
     const GrainState saved = first.state();
-    Grains second(base::cpuExec(2), m, periodic(m), thrown({}));
+    Grains second(base::cpuExec(2), m, periodic(m), thrownAcross({}));
     second.restore(saved);
     EXPECT_EQ(second.state().words(), saved.words());
     EXPECT_EQ(second.state().travelled, saved.travelled);
@@ -186,7 +186,7 @@ TEST(PeriodicBoundaries, TooNearOrGrainsOutsideAreRefused) {
   const GrainModel m = rubbing();
   Boundaries near = periodic(m);
   near.periodic[1] = {0.0, 0.034};
-  EXPECT_THROW(Grains(base::cpuExec(1), m, near, thrown({})), base::InputError);
+  EXPECT_THROW(Grains(base::cpuExec(1), m, near, thrownAcross({})), base::InputError);
   EXPECT_THROW(Grains(base::cpuExec(1), m, periodic(m), {{{-0.001, 0, 0.01}, {}, {}}}), base::InputError);
   EXPECT_THROW(Grains(base::cpuExec(1), m, periodic(m), {{{0.001, kLengthY, 0.01}, {}, {}}}), base::InputError);
 }

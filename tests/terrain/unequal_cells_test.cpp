@@ -4,25 +4,26 @@
 
 #include "base/math.hpp"
 #include "base/random.hpp"
+#include "tests/rounding.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace grouser::terrain {
 namespace {
 
 using base::Vec3d;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr std::uint64_t kTest = base::purpose("terrain.unequal-cells-test");
+using grouser::test::kEps;
+constexpr std::uint64_t kCellsTest = base::purpose("terrain.unequal-cells-test");
 /// 16 columns of 0.25 m, 25 rows of 0.05 m; the corner is not the origin.
 constexpr Rectangle kCellsArea{-1.5, 2.25, 3, 4.2};
 constexpr int kColumns = 16, kRows = 25;
 
-double random(int i, int k, double from, double to) {
-  return from + (to - from) * base::uniform(5, kTest, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(k));
+double randomOf(int i, int k, double from, double to) {
+  return from +
+         (to - from) * base::uniform(5, kCellsTest, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(k));
 }
 
 double bowl(double x, double y) {
@@ -38,7 +39,7 @@ TEST(UnequalCells, AQuadraticHasItsOwnHeightsSlopesAndCurvatures) {
   EXPECT_NEAR(view.dy, 0.05, kEps);
   for (int i = 0; i < 500; ++i) {
     // A cell off the border, where the curve goes on along its tangent.
-    const double x = random(i, 0, -1.25, 2.0), y = random(i, 1, 3.05, 4.15), v = y - 3.6;
+    const double x = randomOf(i, 0, -1.25, 2.0), y = randomOf(i, 1, 3.05, 4.15), v = y - 3.6;
     const SurfaceJet s = view.jet(x, y);
     // Round-off of heights up to 3 m; over a cell for a slope, over two for a curvature.
     EXPECT_NEAR(s.h, bowl(x, y), 40 * kEps);
@@ -71,7 +72,8 @@ TEST(UnequalCells, ClosestPointIsTheFootOfTheNormal) {
   const HeightField field = bowlField();
   // Sharpest hollow: the larger principal curvature is below hxx + hyy = 2.2 / m.
   for (int i = 0; i < 500; ++i) {
-    const double x = random(i, 0, -1.0, 1.75), y = random(i, 1, 3.2, 4.0), v = y - 3.6, d = random(i, 2, -0.2, 0.2);
+    const double x = randomOf(i, 0, -1.0, 1.75), y = randomOf(i, 1, 3.2, 4.0), v = y - 3.6,
+                 d = randomOf(i, 2, -0.2, 0.2);
     const Vec3d n = base::normalized(Vec3d{-(0.1 + 0.8 * x - 0.25 * v), -(-0.3 - 0.25 * x + 1.4 * v), 1.0});
     const Vec3d foot{x, y, bowl(x, y)};
     const FootPoint is = field.closestPoint(foot + n * d);
@@ -86,7 +88,7 @@ TEST(UnequalCells, ClosestPointOnAPlaneIsExact) {
       HeightField::sample(kCellsArea, kColumns, kRows, [](double x, double y) { return 0.3 * x - 1.2 * y + 2; });
   const Vec3d n = base::normalized(Vec3d{-0.3, 1.2, 1.0});
   for (int i = 0; i < 200; ++i) {
-    const Vec3d p{random(i, 0, -1.5, 2.25), random(i, 1, 3, 4.2), random(i, 2, -4, 1)};
+    const Vec3d p{randomOf(i, 0, -1.5, 2.25), randomOf(i, 1, 3, 4.2), randomOf(i, 2, -4, 1)};
     const FootPoint foot = plane.closestPoint(p);
     EXPECT_NEAR(foot.distance, (p.z - (0.3 * p.x - 1.2 * p.y + 2)) * n.z, 1e-12);
     EXPECT_NEAR(norm(foot.normal - n), 0, 1e-12);

@@ -6,6 +6,8 @@
 
 namespace grouser::vehicle::testing {
 
+inline constexpr double kDegree = base::kPi / 180; // [rad]
+
 /// Rotation by `angle` [rad] about x, y or z: axis 0, 1 or 2.
 inline base::Quat about(int axis, double angle) {
   base::Quat q{base::cos(angle / 2), 0, 0, 0};

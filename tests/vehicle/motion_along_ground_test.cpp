@@ -21,7 +21,7 @@ using vehicle::testing::about;
 
 namespace {
 
-constexpr double kDegree = base::kPi / 180;
+using grouser::vehicle::testing::kDegree;
 
 class AlongGround : public ::testing::Test {
 protected:

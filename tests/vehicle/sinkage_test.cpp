@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sinkage by its definition: along the local normal, to the middle of the pad, both at the same place.
 #include "base/math.hpp"
+#include "tests/vehicle/attitude.hpp"
 #include "vehicle/observers.hpp"
 #include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
@@ -16,7 +17,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kDegree = base::kPi / 180;
+using grouser::vehicle::testing::kDegree;
 
 vehicle::VehicleSpec spec() {
   return vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");

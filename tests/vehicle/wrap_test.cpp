@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "tests/vehicle/attitude.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ using vehicle::Wrap;
 
 namespace {
 
-constexpr double kDegree = base::kPi / 180;
+using grouser::vehicle::testing::kDegree;
 const std::string kVehicle = GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml";
 
 std::string refusal(const VehicleSpec& spec) {

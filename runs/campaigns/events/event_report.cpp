@@ -3,8 +3,8 @@
 
 #include "base/counted.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/jobs/estimate.hpp"
 #include "runs/support/csv_cell.hpp"
-#include "runs/support/estimate.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -45,7 +45,7 @@ public:
     std::vector<FigureOverSeeds> all;
     for (const std::string& name : order_) {
       const std::vector<double>& v = values_.at(name);
-      all.push_back({name, static_cast<int>(v.size()), support::interval95(v)});
+      all.push_back({name, static_cast<int>(v.size()), jobs::interval95(v)});
     }
     return all;
   }
@@ -93,7 +93,7 @@ std::string limitText(const EventLimit& limit) {
 
 std::string EventRow::doubtOf(const FigureOverSeeds& figure) const {
   if (!doubt.empty() && isOfSteadyPart(figure.name)) return doubt;
-  return support::isInconclusive(figure.estimate) ? "interval wider than the value" : "";
+  return jobs::isInconclusive(figure.estimate) ? "interval wider than the value" : "";
 }
 
 std::string EventRow::why() const {
@@ -194,7 +194,7 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
           base::counted(row.pending, "of its runs is still to be done", "of its runs are still to be done"));
     for (const FigureOverSeeds& f : row.figures)
       text += fmt::format("{:<18}  {:<50} {}{}\n", "", f.name,
-                          f.runs > 1 ? support::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
+                          f.runs > 1 ? jobs::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
                           row.doubtOf(f).empty() ? "" : "  inconclusive");
   }
   for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);

@@ -55,10 +55,10 @@ StepError stepError(std::span<const double> values) {
 }
 
 ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<const double> coarse) {
-  ScatteredStepError error{support::interval95(fine), std::nullopt, 0};
+  ScatteredStepError error{jobs::interval95(fine), std::nullopt, 0};
   error.bar = 2 * (std::fabs(error.change.value) + error.change.halfWidth);
   if (coarse.size() != fine.size() || std::fabs(error.change.value) <= error.change.halfWidth) return error;
-  const support::Estimate before = support::interval95(coarse);
+  const support::Estimate before = jobs::interval95(coarse);
   if (std::fabs(before.value) <= before.halfWidth) return error;
   const double f = error.change.value, c = before.value;
   error.order = orderOf(c, f);
@@ -67,16 +67,16 @@ ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<co
   const double byFine = c * c / ((c - f) * (c - f)), byCoarse = -f * f / ((c - f) * (c - f));
   std::vector<double> linear;
   for (std::size_t i = 0; i < fine.size(); ++i) linear.push_back(byFine * fine[i] + byCoarse * coarse[i]);
-  error.change = {f * c / (c - f), support::interval95(linear).halfWidth};
+  error.change = {f * c / (c - f), jobs::interval95(linear).halfWidth};
   error.bar = std::fabs(error.change.value) + error.change.halfWidth;
   return error;
 }
 
-support::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds) {
+jobs::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds) {
   constexpr int kEnough = 8;
-  const support::Verdict verdict = support::judge(difference, bar);
+  const jobs::Verdict verdict = jobs::judge(difference, bar);
   const bool few = seeds < kEnough && difference.halfWidth > 0.5 * bar;
-  return few && verdict == support::Verdict::equal ? support::Verdict::notShown : verdict;
+  return few && verdict == jobs::Verdict::equal ? jobs::Verdict::notShown : verdict;
 }
 
 double totalBar(double seedsHalfWidth, std::span<const double> bars) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/support/estimate.hpp"
+#include "runs/jobs/estimate.hpp"
 
 #include <optional>
 #include <span>
@@ -38,7 +38,7 @@ struct ScatteredStepError {
 ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<const double> coarse);
 
 /// How a difference stands to a bar. With fewer than 8 seeds its half width must lie below half of the bar for *equal*.
-support::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds);
+jobs::Verdict judgeSeeds(const support::Estimate& difference, double bar, int seeds);
 
 /// Root of the sum of the squares of the seeds' half width and of the bars of all errors.
 double totalBar(double seedsHalfWidth, std::span<const double> bars);

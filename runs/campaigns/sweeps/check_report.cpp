@@ -46,7 +46,7 @@ Json errorJson(const AxisError& e, const CheckFigure& f) {
             {"half_width", numberOf(e.change.halfWidth)},
             {"share_of_value", numberOf(value != 0 ? e.change.value / std::fabs(value) : base::kNaN)},
             {"seeds", e.seeds},
-            {"verdict", support::verdictText(e.verdict)}};
+            {"verdict", jobs::verdictText(e.verdict)}};
   if (e.axis == CheckAxis::precision && f.value.halfWidth > 0)
     json["inside_the_seeds_interval"] = std::fabs(e.change.value) <= f.value.halfWidth;
   json["bar"] = numberOf(e.bar);
@@ -56,7 +56,7 @@ Json errorJson(const AxisError& e, const CheckFigure& f) {
 
 bool isInconclusive(const CheckResults& results, const CheckFigure& f) {
   const bool isNothing = f.value.value == 0 && f.bar == 0; // in all runs
-  return (!results.doubt.empty() && !isNothing) || support::isInconclusive({f.value.value, f.bar});
+  return (!results.doubt.empty() && !isNothing) || jobs::isInconclusive({f.value.value, f.bar});
 }
 
 Json figureJson(const CheckFigure& f, const CheckResults& results) {
@@ -103,7 +103,7 @@ Json caseJson(const CheckRecord& record, std::size_t c) {
 
 /// "-0.0004 +- 0.0031", with a sign.
 std::string changeText(const support::Estimate& change) {
-  return (change.value < 0 ? "" : "+") + support::valueText(change);
+  return (change.value < 0 ? "" : "+") + jobs::valueText(change);
 }
 
 /// "-0.5 +- 4.2 %"; empty where the value may as well be zero.
@@ -137,13 +137,13 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
 
 /// All axes of a figure that scatters.
 std::string linesOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
-  std::string text = fmt::format("{}  {}{}\n", f.name, support::valueText({f.value.value, f.bar}),
+  std::string text = fmt::format("{}  {}{}\n", f.name, jobs::valueText({f.value.value, f.bar}),
                                  isInconclusive(results, f) ? "  inconclusive" : "");
-  text += fmt::format("  {:<12} {:>26}  {:>18}  {}\n", "seeds", support::valueText(f.value),
+  text += fmt::format("  {:<12} {:>26}  {:>18}  {}\n", "seeds", jobs::valueText(f.value),
                       shareText(f, {0, f.value.halfWidth}), base::counted(f.seeds, "seed"));
   for (const AxisError& e : f.errors)
     text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", base::wordOf(e.axis), changeText(e.change),
-                        shareText(f, e.change), support::verdictText(e.verdict), remark(results, f, e));
+                        shareText(f, e.change), jobs::verdictText(e.verdict), remark(results, f, e));
   return text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
 }
 
@@ -154,7 +154,7 @@ std::string lineOf(const CheckRecord& record, const CheckResults& results, const
     if (e.axis == CheckAxis::step) order = remark(results, f, e);
   const Cheapest c = cheapest(record, results, f, kPercents[2]);
   const double share = f.value.value != 0 ? 100 * f.bar / std::fabs(f.value.value) : base::kNaN;
-  return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, support::valueText({f.value.value, f.bar}),
+  return fmt::format("{:<44} {:>28}  {:>9}  {:<13}  {}\n", f.name, jobs::valueText({f.value.value, f.bar}),
                      std::isfinite(share) ? fmt::format("{:.2g} %", share) : "", order,
                      isInconclusive(results, f) ? "inconclusive"
                      : c.name.empty()           ? ""

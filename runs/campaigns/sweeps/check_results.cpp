@@ -81,12 +81,12 @@ std::optional<std::size_t> stepCase(const CheckCases& cases, int refinement) {
 }
 
 /// The verdict on a change of a figure; none is shown of one whose mean may as well be zero, unless nothing changed.
-support::Verdict verdictOf(const CheckFigure& figure, const AxisError& error, double bar, bool seeded) {
+jobs::Verdict verdictOf(const CheckFigure& figure, const AxisError& error, double bar, bool seeded) {
   const double mean = std::fabs(figure.value.value);
-  if (error.change.value == 0 && error.change.halfWidth == 0) return support::Verdict::equal;
-  if (mean <= figure.value.halfWidth || mean == 0) return support::Verdict::notShown;
+  if (error.change.value == 0 && error.change.halfWidth == 0) return jobs::Verdict::equal;
+  if (mean <= figure.value.halfWidth || mean == 0) return jobs::Verdict::notShown;
   const support::Estimate share{error.change.value / mean, error.change.halfWidth / mean};
-  return seeded ? judgeSeeds(share, bar, error.seeds) : support::judge(share, bar);
+  return seeded ? judgeSeeds(share, bar, error.seeds) : jobs::judge(share, bar);
 }
 
 /// Makes one figure of the values of all cases.
@@ -99,7 +99,7 @@ public:
     figure_.name = name;
     const std::vector<double> base = values_.of(0);
     figure_.seeds = static_cast<int>(base.size());
-    figure_.value = cases_.seeded ? support::interval95(base) : support::Estimate{base.front(), 0};
+    figure_.value = cases_.seeded ? jobs::interval95(base) : support::Estimate{base.front(), 0};
     cases_.seeded ? addScatteredStep() : addStep();
     for (std::size_t c = 1; c < cases_.cases.size(); ++c) addOther(c);
     std::vector<double> parts;
@@ -168,8 +168,7 @@ private:
     if (axis == CheckAxis::step || axis == CheckAxis::skin) return;
     const std::vector<double> change = changes(0, c, std::nullopt);
     if (change.empty()) return;
-    const support::Estimate changed =
-        cases_.seeded ? support::interval95(change) : support::Estimate{change.front(), 0};
+    const support::Estimate changed = cases_.seeded ? jobs::interval95(change) : support::Estimate{change.front(), 0};
     add({axis,
          changed,
          std::nullopt,
@@ -193,7 +192,7 @@ private:
     // What lies between this case and the base is added to the base's error, or taken off.
     const std::vector<double> change = changes(c, 0, std::nullopt);
     if (change.empty()) return base::kNaN;
-    const support::Estimate apart = support::interval95(change);
+    const support::Estimate apart = jobs::interval95(change);
     if (!base.order) return (refinement > 0 ? 1 : 2) * (std::fabs(apart.value) + apart.halfWidth);
     return std::fabs(base.change.value + apart.value) + base.change.halfWidth + apart.halfWidth;
   }

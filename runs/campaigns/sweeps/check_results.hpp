@@ -49,7 +49,7 @@ struct AxisError {
   std::optional<double> order; ///< of the step, where one is seen
   int seeds = 0;               ///< pairs of runs behind it
   double bar = 0;              ///< what the figure may be wrong by: |change| + half width; of the step see check_errors
-  support::Verdict verdict = support::Verdict::notShown; ///< against the bar
+  jobs::Verdict verdict = jobs::Verdict::notShown; ///< against the bar
 };
 
 struct CheckFigure {

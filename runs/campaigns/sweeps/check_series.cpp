@@ -43,7 +43,7 @@ bool sameTimes(const RunSeries& a, const RunSeries& b) {
 /// Mean and half width; of runs that repeat the one value.
 support::Estimate estimateOf(const std::vector<double>& values, bool seeded) {
   if (values.empty()) return {base::kNaN, base::kNaN};
-  return seeded ? support::interval95(values) : support::Estimate{values.front(), 0};
+  return seeded ? jobs::interval95(values) : support::Estimate{values.front(), 0};
 }
 
 /// Numbers of one column in one row, by refinement and seed.

@@ -8,8 +8,8 @@
 #include "runs/campaigns/sweeps/check_report.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/runner.hpp"
+#include "runs/jobs/estimate.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/support/estimate.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/progress.hpp"
@@ -71,7 +71,7 @@ std::string barsText(const nlohmann::json& kept) {
     if (told > kMost) continue;
     if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
     text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
-                        support::valueText({f.at("value").get<double>(), numberOrInfinity(f, "bar")}));
+                        jobs::valueText({f.at("value").get<double>(), numberOrInfinity(f, "bar")}));
   }
   if (more > 0) text += fmt::format("  and {} more\n", more);
   return fmt::format("checked   error bars by {}, of the last check of this scene ({}, commit {})\n{}", parts,

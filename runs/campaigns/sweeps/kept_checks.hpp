@@ -2,8 +2,8 @@
 #pragma once
 
 #include "runs/scene/scene.hpp"
-
 #include "runs/setup/provenance.hpp"
+
 #include <filesystem>
 #include <string>
 

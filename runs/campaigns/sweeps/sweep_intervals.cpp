@@ -3,9 +3,8 @@
 
 #include "base/math.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
-
+#include "runs/jobs/estimate.hpp"
 #include "runs/support/csv_cell.hpp"
-#include "runs/support/estimate.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -61,8 +60,8 @@ void addDifference(const SweepFigures& figures, const std::vector<std::pair<std:
     if (std::isfinite(x) && std::isfinite(y)) first.push_back(x), second.push_back(y);
   }
   const support::Estimate none{base::kNaN, base::kNaN};
-  of.differences.push_back(first.empty() ? none : support::pairedDifference(first, second));
-  of.changes.push_back(first.empty() ? none : support::pairedChange(first, second));
+  of.differences.push_back(first.empty() ? none : jobs::pairedDifference(first, second));
+  of.changes.push_back(first.empty() ? none : jobs::pairedChange(first, second));
 }
 
 std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
@@ -77,7 +76,7 @@ std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
 std::string doubtOf(const SeedGroup& group, std::size_t column) {
   const support::Estimate& figure = group.figures[column];
   if (!std::isfinite(figure.value)) return {};
-  return !group.doubt.empty() ? group.doubt : support::isInconclusive(figure) ? "interval wider than the value" : "";
+  return !group.doubt.empty() ? group.doubt : jobs::isInconclusive(figure) ? "interval wider than the value" : "";
 }
 
 /// "+12.3 +- 0.4 %"; in the figure's unit where the first mean may as well be zero, of which shares say nothing.
@@ -85,7 +84,7 @@ std::string differenceText(const support::Estimate& first, const SeedGroup& grou
   const support::Estimate &share = group.differences[column], &change = group.changes[column];
   const bool zero = !(std::fabs(first.value) > first.halfWidth) && std::isfinite(first.halfWidth);
   const double value = zero ? change.value : share.value;
-  return fmt::format("{}{}", value < 0 ? "" : "+", zero ? support::valueText(change) : support::percent(share));
+  return fmt::format("{}{}", value < 0 ? "" : "+", zero ? jobs::valueText(change) : jobs::percent(share));
 }
 
 } // namespace
@@ -118,7 +117,7 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& given) {
       const std::vector<double> values = valuesOf(figures, members[g].rows, c);
       SeedGroup& group = all.groups[g];
       group.runs = std::max(group.runs, static_cast<int>(values.size()));
-      group.figures.push_back(values.empty() ? support::Estimate{base::kNaN, base::kNaN} : support::interval95(values));
+      group.figures.push_back(values.empty() ? support::Estimate{base::kNaN, base::kNaN} : jobs::interval95(values));
       addDifference(figures, pairs, c, group);
     }
   }
@@ -156,7 +155,7 @@ std::string intervalsText(const SeedIntervals& intervals) {
     for (const SeedGroup& group : intervals.groups) {
       if (!std::isfinite(group.figures[c].value)) continue;
       text += fmt::format("  {:<{}}  {:>22}  {} seed{}{}", named(intervals, group), width,
-                          support::valueText(group.figures[c]), group.runs, group.runs == 1 ? " " : "s",
+                          jobs::valueText(group.figures[c]), group.runs, group.runs == 1 ? " " : "s",
                           doubtOf(group, c).empty() ? "" : "  inconclusive");
       if (&group != &intervals.groups.front() && std::isfinite(group.differences[c].value))
         text += fmt::format("  {:>18}", differenceText(intervals.groups.front().figures[c], group, c));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the benches print and write.
 #include "runs/validation/bench/bench.hpp"
-#include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
@@ -101,15 +101,15 @@ struct Contacts {
   double mean(double sum) const { return counts ? sum / counts : 0; }
 };
 
-Json printParts(const coupling::StageTimer& bench) {
-  const double n = static_cast<double>(bench.steps());
+Json printParts(const coupling::StageTimer& timer) {
+  const double n = static_cast<double>(timer.steps());
   double sum = 0;
-  for (const coupling::StageTimer::Part& part : bench.parts()) sum += part.microseconds / n;
+  for (const coupling::StageTimer::Part& part : timer.parts()) sum += part.microseconds / n;
   fmt::print("\ninstrumented pass of {} steps: the device is waited for after every part, so that nothing overlaps and "
              "the sum is larger than a step\n",
-             bench.steps());
+             timer.steps());
   Json json = Json::object();
-  for (const coupling::StageTimer::Part& part : bench.parts()) {
+  for (const coupling::StageTimer::Part& part : timer.parts()) {
     const double each = part.microseconds / n;
     fmt::print("  {:<18} {:10.2f} us  {:5.1f} %\n", part.name, each, 100 * each / sum);
     json[part.name] = each;
@@ -236,11 +236,11 @@ BatchTimes timeBatches(coupling::Simulation& simulation, const StepBenchOptions&
 }
 
 /// The same steps with a clock at each stage, and contacts counted now and then.
-Contacts instrument(coupling::StageTimer& bench, coupling::Simulation& simulation, std::int64_t steps) {
+Contacts instrument(coupling::StageTimer& timer, coupling::Simulation& simulation, std::int64_t steps) {
   Contacts contacts;
   const std::int64_t countEvery = std::max<std::int64_t>(1, steps / kCountsTaken);
   for (std::int64_t i = 0; i < steps; ++i) {
-    bench.step();
+    timer.step();
     if ((i + 1) % countEvery == 0) contacts.count(simulation);
   }
   return contacts;
@@ -253,10 +253,10 @@ void printTimes(const BatchTimes& times, const StepBenchOptions& o, double from,
   if (ranks > 1) fmt::print("ranks     {}: the times are the first one's, with its waiting for the others\n", ranks);
 }
 
-void printRebuilds(const coupling::StageTimer& bench) {
-  const double rebuild = bench.part(coupling::Stage::neighbourList).microseconds;
-  fmt::print("  neighbour lists built {} times{}\n", bench.rebuilds(),
-             bench.rebuilds() ? fmt::format(", {:.1f} us each", rebuild / static_cast<double>(bench.rebuilds())) : "");
+void printRebuilds(const coupling::StageTimer& timer) {
+  const double rebuild = timer.part(coupling::Stage::neighbourList).microseconds;
+  fmt::print("  neighbour lists built {} times{}\n", timer.rebuilds(),
+             timer.rebuilds() ? fmt::format(", {:.1f} us each", rebuild / static_cast<double>(timer.rebuilds())) : "");
 }
 
 Json printContacts(const Contacts& contacts) {
@@ -323,8 +323,8 @@ void benchStepCommand(const BenchCommand& command) {
         fmt::format("--after drive: {} has no [vehicle] that drives off; give a time in seconds", scene.file.string()));
   const double ramp = scene.driver.rampOfDrive(), from = advance(*simulation, o, ramp);
   const BatchTimes times = timeBatches(*simulation, o, exec);
-  coupling::StageTimer bench(*simulation, exec);
-  const Contacts contacts = instrument(bench, *simulation, o.steps);
+  coupling::StageTimer timer(*simulation, exec);
+  const Contacts contacts = instrument(timer, *simulation, o.steps);
 
   printTimes(times, o, from, command.comm().size());
   json["timed_from_s"] = from;
@@ -337,9 +337,9 @@ void benchStepCommand(const BenchCommand& command) {
   }
   json["preparation_wall_s"] = preparation;
   json["microseconds_a_step"] = jsonOf(times);
-  json["instrumented_microseconds_a_step"] = printParts(bench);
-  json["rebuilds_while_instrumented"] = bench.rebuilds();
-  printRebuilds(bench);
+  json["instrumented_microseconds_a_step"] = printParts(timer);
+  json["rebuilds_while_instrumented"] = timer.rebuilds();
+  printRebuilds(timer);
   json["contacts_a_step"] = printContacts(contacts);
   printMemory(json, exec);
   writeBench(json, command.json, command.comm());

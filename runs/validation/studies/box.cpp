@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/validation/studies/box.hpp"
-#include "runs/setup/load_scene.hpp"
 
 #include "base/random.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_model.hpp"
+#include "runs/setup/load_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -206,8 +206,8 @@ jobs::Table measureOutput(const FeaturesCommand& c, const base::Exec& exec, cons
 FeatureCost costOf(const jobs::Table& table) {
   FeatureCost cost;
   const std::vector<double> a = table.values("without [ns]"), b = table.values("with [ns]");
-  cost.without = support::interval95(a).value, cost.with = support::interval95(b).value;
-  cost.difference = support::pairedChange(a, b), cost.relative = support::pairedDifference(a, b);
+  cost.without = jobs::interval95(a).value, cost.with = jobs::interval95(b).value;
+  cost.difference = jobs::pairedChange(a, b), cost.relative = jobs::pairedDifference(a, b);
   cost.bytesWithout = table.values("bytes without").front(), cost.bytesWith = table.values("bytes with").front();
   cost.sameState = table.values("same state").front() != 0;
   return cost;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/exec.hpp"
+#include "runs/jobs/estimate.hpp"
 #include "runs/jobs/pieces.hpp"
 #include "runs/setup/ground_setup.hpp"
-#include "runs/support/estimate.hpp"
 
 #include <filesystem>
 #include <functional>

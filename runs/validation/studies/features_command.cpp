@@ -142,8 +142,8 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
     const bool neutral = name.rfind("off_", 0) == 0;
     const std::string verdict = !neutral ? "" : cost.isNothing() ? "nothing" : "NOT NOTHING";
     fmt::print("  {:<14} {:>10.1f} {:>10.1f} {:>18} {:>16} {:>9.0f} {:>9.0f}  {}{}\n", name, cost.without, cost.with,
-               support::plusMinus(cost.difference, 1), support::percent(cost.relative), cost.bytesWithout,
-               cost.bytesWith, whatOf(name), verdict.empty() ? "" : ": " + verdict);
+               jobs::plusMinus(cost.difference, 1), jobs::percent(cost.relative), cost.bytesWithout, cost.bytesWith,
+               whatOf(name), verdict.empty() ? "" : ": " + verdict);
     csv += fmt::format("{},{},{:.6g},{:.6g},{:.4g},{:.4g},{:.4g},{:.4g},{:.6g},{:.6g},{}\n", name,
                        support::csvCell(whatOf(name)), cost.without, cost.with, cost.difference.value,
                        cost.difference.halfWidth, cost.relative.value, cost.relative.halfWidth, cost.bytesWithout,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/validation/studies/grain_stability.hpp"
-#include "base/sphere.hpp"
-#include "runs/setup/load_scene.hpp"
-#include "terrain/grain_forces.hpp"
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "base/sphere.hpp"
 #include "contact/restitution.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_model.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "terrain/grain_forces.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/support/estimate.hpp"
+#include "runs/jobs/estimate.hpp"
 #include "runs/virtual_tests/plate_test.hpp"
 
 #include <array>

@@ -65,8 +65,8 @@ std::string pressureTable(const std::vector<CaseRuns>& all, const std::vector<Sl
         text += fmt::format(" {:>16}", "-");
         continue;
       }
-      const support::Estimate p = support::interval95(c.pressures(s));
-      text += fmt::format(" {:>16}", support::plusMinus({1e-3 * p.value, 1e-3 * p.halfWidth}, 2));
+      const support::Estimate p = jobs::interval95(c.pressures(s));
+      text += fmt::format(" {:>16}", jobs::plusMinus({1e-3 * p.value, 1e-3 * p.halfWidth}, 2));
       csv += fmt::format("{},{},{:.4f},{:g},{:g},{:.5g},{:.3g}\n", c.plate->name, c.runs.size(), porosity, s[0], s[1],
                          p.value, p.halfWidth);
     }
@@ -93,9 +93,9 @@ std::string differenceTable(const std::vector<CaseRuns>& all, const std::vector<
         text += fmt::format(" {:>16}", "-");
         continue;
       }
-      const support::Estimate difference = support::relativeDifference(other->pressures(s), c.pressures(s));
-      verdict = support::verdictText(support::judge(difference, kEqualBar));
-      text += fmt::format(" {:>16}", support::plusMinus({100 * difference.value, 100 * difference.halfWidth}, 1));
+      const support::Estimate difference = jobs::relativeDifference(other->pressures(s), c.pressures(s));
+      verdict = jobs::verdictText(jobs::judge(difference, kEqualBar));
+      text += fmt::format(" {:>16}", jobs::plusMinus({100 * difference.value, 100 * difference.halfWidth}, 1));
       csv += fmt::format("{},{},{:g},{:g},{:.5f},{:.5f},{}\n", c.plate->name, other->plate->name, s[0], s[1],
                          difference.value, difference.halfWidth, verdict);
     }
@@ -151,7 +151,7 @@ std::string bearingTable(const PlatesCommand& command, const virtual_tests::Soil
                                           s[1] * c.breadth);
       };
       const std::vector<double> measured = c.pressures(s);
-      const support::Estimate p = support::interval95(measured);
+      const support::Estimate p = jobs::interval95(measured);
       const double q = theory(command.angle), low = theory(command.angle - command.angleError),
                    high = theory(command.angle + command.angleError);
       // What is not known of the angle counts as the pressure's own scatter.
@@ -159,10 +159,10 @@ std::string bearingTable(const PlatesCommand& command, const virtual_tests::Soil
       const double fits = virtual_tests::bearingAngle(c.plate->test.shape, p.value, weight, c.breadth,
                                                       0.5 * (s[0] + s[1]) * c.breadth) *
                           180 / base::kPi;
-      const std::string verdict = support::verdictText(support::judge(ratio, kBearingBar));
+      const std::string verdict = jobs::verdictText(jobs::judge(ratio, kBearingBar));
       text += fmt::format("  {:<10} {:>12} {:>18} {:>12.2f} ({:.2f} to {:.2f}) {:>20} {:>11} {:>12.1f} deg\n",
-                          c.plate->name, sliceText(s), support::plusMinus({1e-3 * p.value, 1e-3 * p.halfWidth}, 2),
-                          1e-3 * q, 1e-3 * low, 1e-3 * high, support::percent(ratio), verdict, fits);
+                          c.plate->name, sliceText(s), jobs::plusMinus({1e-3 * p.value, 1e-3 * p.halfWidth}, 2),
+                          1e-3 * q, 1e-3 * low, 1e-3 * high, jobs::percent(ratio), verdict, fits);
       csv += fmt::format("{},{:g},{:g},{:.5g},{:.3g},{:.5g},{:.5g},{:.5g},{:.4f},{:.4f},{},{:.4g}\n", c.plate->name,
                          s[0], s[1], p.value, p.halfWidth, q, low, high, ratio.value, ratio.halfWidth, verdict, fits);
     }

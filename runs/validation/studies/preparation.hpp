@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/jobs/estimate.hpp"
 #include "runs/jobs/pieces.hpp"
-#include "runs/support/estimate.hpp"
 
 namespace grouser::studies {
 

@@ -110,11 +110,11 @@ void studyPreparationCommand(const PreparationCommand& c) {
       csv += fmt::format("{:g},0,,,,,,,,out of reach\n", porosity);
       continue;
     }
-    const support::Estimate n = support::interval95(reached), z = support::interval95(contacts);
-    const std::string verdict = support::verdictText(support::judge({n.value - porosity, n.halfWidth}, kPorosityBar));
+    const support::Estimate n = jobs::interval95(reached), z = jobs::interval95(contacts);
+    const std::string verdict = jobs::verdictText(jobs::judge({n.value - porosity, n.halfWidth}, kPorosityBar));
     fmt::print("  {:>7.3f} {:>6} {:>18} {:>10.4f} {:>16} {:>9.3f} {:>8.3f}  {}\n", porosity, reached.size(),
-               support::plusMinus(n, 4), jobs::meanOf(friction).mean, support::plusMinus(z, 2),
-               jobs::meanOf(rattlers).mean, jobs::meanOf(order).mean, verdict);
+               jobs::plusMinus(n, 4), jobs::meanOf(friction).mean, jobs::plusMinus(z, 2), jobs::meanOf(rattlers).mean,
+               jobs::meanOf(order).mean, verdict);
     csv += fmt::format("{:g},{},{:.5g},{:.3g},{:.4g},{:.4g},{:.3g},{:.3g},{:.3g},{}\n", porosity, reached.size(),
                        n.value, n.halfWidth, jobs::meanOf(friction).mean, z.value, z.halfWidth,
                        jobs::meanOf(rattlers).mean, jobs::meanOf(order).mean, verdict);

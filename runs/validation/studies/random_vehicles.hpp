@@ -44,7 +44,7 @@ struct RandomOutcome {
 RandomOutcome tryRandomVehicle(const RandomVehicle& vehicle, const TrialPlace& place);
 
 /// Of a bed, which is another at another step: sound where the books close and no guard has spoken, stopped where the
-/// message has a cause that is known. On rigid ground as of the maps (support::judge()).
+/// message has a cause that is known. On rigid ground as of the maps (jobs::judge()).
 Judgement judgeRandom(const RandomVehicle& vehicle, const RandomOutcome& outcome);
 
 struct RandomVehicles {

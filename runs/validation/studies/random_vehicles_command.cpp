@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study random-vehicles`: pieces, table and files of random vehicles.
+#include "runs/storage/sphere_cache.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
@@ -8,7 +9,6 @@
 #include "runs/validation/studies/random_vehicles.hpp"
 #include "runs/validation/studies/trial_files.hpp"
 
-#include "runs/storage/sphere_cache.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/validation/studies/shear.hpp"
-#include "base/counted.hpp"
-#include "base/sphere.hpp"
-#include "runs/setup/load_scene.hpp"
 
+#include "base/counted.hpp"
 #include "base/enum_words.hpp"
 #include "base/math.hpp"
+#include "base/sphere.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/line_fit.hpp"
 #include "runs/support/progress.hpp"

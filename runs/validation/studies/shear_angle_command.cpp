@@ -98,7 +98,7 @@ std::string stressTable(const Samples& s, const jobs::Pieces& pieces, double rol
     const auto over = [&](const auto& value) {
       std::vector<double> values;
       for (const auto& seed : runs) values.push_back(value(seed[k]));
-      return support::interval95(values);
+      return jobs::interval95(values);
     };
     const support::Estimate peak = over([](const virtual_tests::ShearStrength& r) { return r.peak; });
     const support::Estimate residual = over([](const virtual_tests::ShearStrength& r) { return r.residual; });
@@ -107,8 +107,8 @@ std::string stressTable(const Samples& s, const jobs::Pieces& pieces, double rol
     const support::Estimate after = over([](const virtual_tests::ShearStrength& r) { return r.porosityAfter; });
     const support::Estimate inertial = over([](const virtual_tests::ShearStrength& r) { return r.inertialNumber; });
     text += fmt::format("  {:>10g} {:>16} {:>16} {:>16} {:>14} {:>14} {:>9.1e}\n", s.stresses[k],
-                        support::plusMinus(peak, 3), support::plusMinus(residual, 3), support::plusMinus(core, 1),
-                        support::plusMinus(before, 3), support::plusMinus(after, 3), inertial.value);
+                        jobs::plusMinus(peak, 3), jobs::plusMinus(residual, 3), jobs::plusMinus(core, 1),
+                        jobs::plusMinus(before, 3), jobs::plusMinus(after, 3), inertial.value);
     csv += fmt::format("{:g},{:g},{},{:.5g},{:.3g},{:.5g},{:.3g},{:.5g},{:.3g},{:.5g},{:.3g},{:.5g},{:.3g},{:.3g}\n",
                        rolling, s.stresses[k], runs.size(), peak.value, peak.halfWidth, residual.value,
                        residual.halfWidth, core.value, core.halfWidth, before.value, before.halfWidth, after.value,
@@ -136,8 +136,7 @@ ShearAngle shearAngle(const std::vector<std::vector<virtual_tests::ShearStrength
     peak.push_back(inDegrees(std::atan(through ? high.front() / sigma.front() : peaks.slope)));
     cohesion.push_back(through ? 0 : line.intercept);
   }
-  return {support::interval95(residual), support::interval95(peak), support::interval95(core),
-          support::interval95(cohesion)};
+  return {jobs::interval95(residual), jobs::interval95(peak), jobs::interval95(core), jobs::interval95(cohesion)};
 }
 
 void studyShearAngleCommand(const ShearAngleCommand& command) {
@@ -164,9 +163,8 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
     const ShearAngle a = shearAngle(runs);
     fmt::print("{}  atan of the line's slope: residual {} deg, peak {} deg; cohesion {} Pa; core {} deg\n"
                "  half width of the residual angle {} {:g} deg: {}\n",
-               text, support::plusMinus(a.angle, 2), support::plusMinus(a.peakAngle, 2),
-               support::plusMinus(a.cohesion, 0), support::plusMinus(a.mohrCoulomb, 2),
-               a.angle.halfWidth < kBar ? "below" : "not below", kBar,
+               text, jobs::plusMinus(a.angle, 2), jobs::plusMinus(a.peakAngle, 2), jobs::plusMinus(a.cohesion, 0),
+               jobs::plusMinus(a.mohrCoulomb, 2), a.angle.halfWidth < kBar ? "below" : "not below", kBar,
                a.angle.halfWidth < kBar ? "shown" : "not shown");
     angles += fmt::format("{:g},{},{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g}\n", rolling, runs.size(),
                           a.angle.value, a.angle.halfWidth, a.peakAngle.value, a.peakAngle.halfWidth,

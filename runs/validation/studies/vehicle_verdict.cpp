@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/validation/studies/vehicle_verdict.hpp"
 
+#include "runs/jobs/estimate.hpp"
 #include "runs/jobs/study_place.hpp"
-#include "runs/support/estimate.hpp"
 #include "vehicle/blow_meter.hpp"
 
 #include <fmt/format.h>
@@ -132,7 +132,7 @@ FigureScatter scatterOf(const ComparedFigure& c, const std::vector<TrialPair>& p
   const double root = std::sqrt(static_cast<double>(s.runs.size()));
   s.mean = m.mean, s.finerMean = finer.mean;
   s.deviation = root * m.error, s.finerDeviation = root * finer.error;
-  s.change = support::unpairedChange(s.runs, s.finer);
+  s.change = jobs::unpairedChange(s.runs, s.finer);
   s.may = allowed(c, size, finerSize);
   return s;
 }

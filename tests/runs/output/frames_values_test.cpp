@@ -4,12 +4,12 @@
 #include "runs/output/output.hpp"
 #include "runs/output/sinkage.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
-#include "runs/setup/provenance.hpp"
 #include <gtest/gtest.h>
 
 #include <cmath>

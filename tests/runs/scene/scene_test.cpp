@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/setup/load_scene.hpp"
+#include "runs/scene/scene_file.hpp"
 
 #include "base/error.hpp"
-#include "runs/scene/scene_file.hpp"
 #include "runs/support/locations.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
@@ -18,7 +17,7 @@ using namespace test; // fixtures
 namespace {
 
 Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return setup::parseScene(text, std::string(GROUSER_SOURCE_DIR) + "/scene.toml", overrides);
+  return readSceneText(text, std::string(GROUSER_SOURCE_DIR) + "/scene.toml", overrides);
 }
 
 TEST(Scene, EverySectionIsRead) {
@@ -79,7 +78,7 @@ TEST(Scene, PathsAreFoundBesideTheSceneFirst) {
   std::filesystem::create_directories(folder / "heightmaps");
   std::filesystem::copy_file(std::string(GROUSER_SOURCE_DIR) + "/assets/heightmaps/hills.png",
                              folder / "heightmaps/hills.png", std::filesystem::copy_options::overwrite_existing);
-  const Scene s = setup::parseScene(goodScene(), folder / "scene.toml");
+  const Scene s = readSceneText(goodScene(), folder / "scene.toml");
   EXPECT_EQ(s.terrain->heightmap, std::filesystem::canonical(folder / "heightmaps/hills.png").string());
   std::filesystem::remove_all(folder);
 }

@@ -5,13 +5,8 @@
 
 #include "base/error.hpp"
 #include "runs/scene/scene_file.hpp"
-#include "runs/setup/grain_count.hpp"
-#include "runs/setup/load_scene.hpp"
-#include "runs/setup/provenance.hpp"
-#include "runs/setup/step_limit.hpp"
-#include "runs/storage/checkpoint.hpp"
-#include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
+#include "tests/runs/soil_fixture.hpp"
 
 #include <string>
 #include <vector>
@@ -24,62 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A linear soil of grains of 10 mm, with a damping that goes with the radius.
-const char* const kLoam = R"(version = 1
-[soil]
-title = "loam"
-description = "of tests"
-calibrated = true
-[material]
-density = 2600
-law = "linear"
-stiffness = 2e5
-damping = 50
-friction = 0.45
-rolling_friction = 0.1
-cohesion = 3
-[bed]
-grain_radius = 0.01
-radius_spread = 0.2
-porosity = 0.41
-calibrated_radii = [0.008, 0.02]
-[[published]]
-quantity = "phi"
-value = 30
-unit = "deg"
-low = 29
-source = "a book"
-[[reached]]
-quantity = "phi"
-value = 29.5
-half_width = 0.5
-unit = "deg"
-grain_radius = 0.01
-command = "a command"
-)";
-
-/// A lone grain of a material.
-std::string grainOf(const std::string& material, double radius, const std::string& more = "") {
-  return "version = 1\n[run]\nduration = 1\n" + more +
-         "[[grain]]\nposition = [0, 0, 1]\nradius = " + std::to_string(radius) + "\nmaterial = \"" + material + "\"\n";
-}
-
-/// A bed of a material.
-std::string bedOf(const std::string& material, const std::string& more = "") {
-  return "version = 1\n[run]\nduration = 1\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [1, 1]\n"
-         "height_range = [0, 0]\ngrain_radius = 0.02\nmaterial = \"" +
-         material + "\"\n" + more;
-}
-
-class Soils : public FolderTest {
+class Soils : public SoilTest {
 protected:
-  void SetUp() override {
-    FolderTest::SetUp();
-    fs::create_directories(folder_ / "soils");
-    put(folder_ / "soils/loam.toml", kLoam);
-  }
   Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    return setup::parseScene(text, folder_ / "scene.toml", overrides);
+    return readSceneText(text, folder_ / "scene.toml", overrides);
   }
   /// The error that a scene ends with.
   std::string errorOf(const std::string& text, const std::vector<std::string>& overrides = {}) const {
@@ -138,15 +81,6 @@ TEST_F(Soils, YoungsModulusIsKept) {
   const Material& m = parse(grainOf("stone", 0.03)).material("stone");
   EXPECT_EQ(m.young, 3e8);
   EXPECT_DOUBLE_EQ(m.cohesion, 9);
-}
-
-TEST_F(Soils, TheTimeStepGoesWithTheRadius) {
-  // Linear, without damping of its own: sqrt(m / k) with m as r^3 and k as r.
-  put(folder_ / "soils/loam.toml", replaced(kLoam, "damping = 50", "restitution = 0.4"));
-  const std::string plane = "[[plane]]\nmaterial = \"loam\"\n";
-  const double fine = setup::chooseTimeStep(parse(grainOf("loam", 0.01) + plane)),
-               coarse = setup::chooseTimeStep(parse(grainOf("loam", 0.02) + plane));
-  EXPECT_NEAR(coarse / fine, 2, 1e-3) << "steps are rounded";
 }
 
 TEST_F(Soils, KeysOfTheSceneOverrideAndAreNotScaled) {
@@ -267,13 +201,13 @@ TEST_F(Soils, ResolvedSceneSaysWhereItsValuesComeFromAndLoadsToTheSame) {
             std::string::npos)
       << resolved;
   EXPECT_NE(resolved.find("\nstiffness = 400000.0\n"), std::string::npos) << resolved;
-  const Scene second = setup::parseScene(resolved, folder_ / "out/scene.toml");
+  const Scene second = readSceneText(resolved, folder_ / "out/scene.toml");
   EXPECT_EQ(second.materials, first.materials) << "not scaled twice";
   EXPECT_EQ(second.terrain, first.terrain);
   EXPECT_EQ(resolvedToml(second), resolved);
   // A soil that has changed since is told, and changes nothing.
   put(folder_ / "soils/loam.toml", replaced(kLoam, "stiffness = 2e5", "stiffness = 3e5"));
-  const Scene later = setup::parseScene(resolved, folder_ / "out/scene.toml");
+  const Scene later = readSceneText(resolved, folder_ / "out/scene.toml");
   EXPECT_EQ(later.material("loam").stiffness, 4e5);
   ASSERT_EQ(soilNotes(later).size(), 1u);
   EXPECT_NE(soilNotes(later)[0].find("has changed since"), std::string::npos) << soilNotes(later)[0];
@@ -311,12 +245,12 @@ TEST_F(Soils, AreCalibratedAtTheirSizeAndWithTheirValuesAlone) {
   }
   EXPECT_NE(of(0.06).second.find("not of 60 mm, 6 times its own"), std::string::npos) << of(0.06).second;
   EXPECT_NE(of(0.06).second.find("grouser soil loam --grain-radius 0.06"), std::string::npos);
-  const SoilUse changed = of(0.02, {"material.loam.friction=0.6"}).first;
+  const support::SoilUse changed = of(0.02, {"material.loam.friction=0.6"}).first;
   EXPECT_FALSE(changed.calibrated);
 }
 
 TEST_F(Soils, UsesNameFileHashAndScaledValues) {
-  const std::vector<SoilUse> uses = soilUses(parse(grainOf("g", 0.02, "[material.g]\nsoil = \"loam\"\n")));
+  const std::vector<support::SoilUse> uses = soilUses(parse(grainOf("g", 0.02, "[material.g]\nsoil = \"loam\"\n")));
   ASSERT_EQ(uses.size(), 1u);
   EXPECT_EQ(uses[0].material, "g");
   EXPECT_EQ(uses[0].soil, "loam");
@@ -325,28 +259,6 @@ TEST_F(Soils, UsesNameFileHashAndScaledValues) {
   EXPECT_DOUBLE_EQ(uses[0].scaled.at("stiffness [N/m]"), 4e5);
   EXPECT_DOUBLE_EQ(uses[0].scaled.at("cohesion [J/m2]"), 6);
   EXPECT_NE(soilLine(uses[0]).find("g is loam: "), std::string::npos) << soilLine(uses[0]);
-}
-
-TEST_F(Soils, ASettledBedIsKnownByItsValuesNotByTheSoilsName) {
-  const std::string values = "[material.plain]\ndensity = 2600\nstiffness = 4e5\ndamping = 25\nfriction = 0.45\n"
-                             "rolling_friction = 0.1\ncohesion = 6\n";
-  const std::string bed = "depth = 0.3\nporosity = 0.41\nradius_spread = 0.2\n";
-  std::string named = setup::bedOrigin(parse(bedOf("loam", bed)), 1e-5);
-  const std::string plain = setup::bedOrigin(parse(bedOf("plain", bed + values)), 1e-5);
-  for (std::size_t at = 0; (at = named.find("loam")) != std::string::npos;) named.replace(at, 4, "plain");
-  EXPECT_EQ(named, plain);
-}
-
-TEST_F(Soils, ResumedRunsNeedTheSameSoil) {
-  const std::string text = grainOf("a", 0.01, "[material.a]\nsoil = \"mine.toml\"\n");
-  put(folder_ / "mine.toml", kLoam);
-  storage::Checkpoint c;
-  c.scene = resolvedToml(parse(text)), c.inputs = setup::inputsOf(parse(text));
-  put(folder_ / "copy.toml", kLoam);
-  const Scene copied = parse(text, {"material.a.soil=copy.toml"});
-  EXPECT_NO_THROW(storage::checkSameScene(c, "c.h5", setup::provenanceOf(copied))) << "by its bytes";
-  put(folder_ / "mine.toml", std::string(kLoam) + "# a remark\n");
-  EXPECT_THROW(storage::checkSameScene(c, "c.h5", setup::provenanceOf(parse(text))), base::InputError);
 }
 
 TEST(AssetSoils, AreReadAndSayTheirSources) {
@@ -359,27 +271,10 @@ TEST(AssetSoils, AreReadAndSayTheirSources) {
     EXPECT_GT(soil.grains.radius, 0) << name;
     for (const PublishedConstant& c : soil.published) EXPECT_GT(c.source.size(), 10u) << name;
     EXPECT_EQ(soil.head.calibrated, !soil.reached.empty()) << name;
-    const Scene s = setup::parseScene(grainOf(name, 0.01), assets / "scene.toml");
+    const Scene s = readSceneText(grainOf(name, 0.01), assets / "scene.toml");
     EXPECT_EQ(s.material(name).density, soil.material.density);
   }
   EXPECT_GT(readSoil(known.at("sandy_loam")).material.cohesion, 0);
-}
-
-TEST(SoilScenes, AreLoadedAndOfTheSizeTheySay) {
-  const fs::path scenes = fs::path(GROUSER_SOURCE_DIR) / "runs/scenes";
-  const Scene full = setup::loadScene(scenes / "soil_full_size.toml");
-  EXPECT_GE(full.terrain->size[1], 4.6);
-  EXPECT_GE(*full.terrain->depth, 0.5);
-  EXPECT_LE(*full.terrain->grainRadius, 0.007);
-  EXPECT_LT(setup::plannedGrains(full), 3'000'000);
-  EXPECT_EQ(full.terrain->porosity, 0.445) << "the soil's";
-  EXPECT_EQ(full.material("grenville_loam").young, 2.68e8) << "the soil's, at its own radius";
-  const Scene coarse = setup::loadScene(scenes / "soil_coarse.toml");
-  EXPECT_GT(coarse.material("lete_sand").young, 1e9);
-  EXPECT_LT(setup::plannedGrains(coarse), 20'000);
-  const Scene wheel = setup::loadScene(scenes / "grc1_wheel.toml");
-  EXPECT_EQ(wheel.material("grc1").density, 2580);
-  EXPECT_EQ(wheel.meshes.at(0).mass, 17.5);
 }
 
 } // namespace

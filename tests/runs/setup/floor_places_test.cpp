@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Floors with hollows tighter than the grains: what they count to the limit of boundaries, and the memory they need.
 #include "base/error.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -8,7 +9,6 @@
 #include "tests/message_of.hpp"
 #include "tests/png_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include "base/rounded.hpp"
 #include "base/sphere.hpp"
 #include "contact/restitution.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 
@@ -64,11 +63,6 @@ TEST(FreeSurfaceNotes, DampingOfHertzFollowsTheSameRatioOfMasses) {
   const std::string made =
       fmt::format("{:.3f} instead of 0.500", contact::hertzRestitutionOf(beta * std::sqrt(2.0), false));
   EXPECT_NE(notes.front().find(made), std::string::npos) << notes.front();
-}
-
-TEST(FreeSurfaceNotes, PlanPrintsThem) {
-  const std::string plan = commands::planText(plateOf(0.01, "stiffness = 1e5\nrestitution = 0.5"));
-  EXPECT_NE(plan.find("\nnote: box \"plate\" is free with a mass of 0.01 kg"), std::string::npos) << plan;
 }
 
 TEST(FreeSurfaceNotes, HeavyAndElasticSurfacesAreNotNoted) {

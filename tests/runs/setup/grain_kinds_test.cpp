@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
@@ -210,21 +209,6 @@ TEST(ManyKindsScene, StepFollowsTheImpactSpeedAndTheSmallestGrain) {
   EXPECT_LT(chooseTimeStep(parse(kMixed, {"run.impact_speed=10"})), automatic);
   EXPECT_LT(chooseTimeStep(parse(kMixed, {"grains.0.radius=0.001"})), 0.5 * automatic);
   EXPECT_THROW(chooseTimeStep(parse(kMixed, {"run.time_step=" + std::to_string(1.1 * limit)})), base::InputError);
-}
-
-TEST(Plan, SaysWhatGrainsHaveAndWhichKernelRuns) {
-  const std::string mixed = commands::planText(parse(kMixed));
-  EXPECT_NE(mixed.find("on   rolling history"), std::string::npos) << mixed;
-  EXPECT_NE(mixed.find("on   radius of each grain"), std::string::npos) << mixed;
-  EXPECT_NE(mixed.find("general: hertz, friction, rolling friction, cohesion, many radii, many materials"),
-            std::string::npos)
-      << mixed;
-  const std::string plain =
-      commands::planText(parse("[material.a]\n[[plane]]\nmaterial = \"a\"\n[[grain]]\nposition = [0, 0, "
-                               "1]\nradius = 0.1\nmaterial = \"a\"\n"));
-  EXPECT_NE(plain.find("off  rolling history"), std::string::npos) << plain;
-  EXPECT_NE(plain.find("off  radius of each grain"), std::string::npos) << plain;
-  EXPECT_NE(plain.find("special: linear, friction, planes or floor, ledger"), std::string::npos) << plain;
 }
 
 } // namespace

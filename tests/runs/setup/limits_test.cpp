@@ -6,7 +6,6 @@
 #include "base/sphere.hpp"
 #include "contact/restitution.hpp"
 #include "coupling/simulation.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/laws.hpp"
@@ -252,18 +251,6 @@ TEST(MeetingPairs, HaveTheValuesThatAct) {
   EXPECT_EQ(lid.law.friction, 0);
 }
 
-TEST(MeetingPairs, SayWhatDoesNothing) {
-  const std::string plan = commands::planText(parsed(kPairs));
-  EXPECT_NE(plan.find("rolling_friction = 0.3 of material.rough does nothing against soil, which has 0"),
-            std::string::npos)
-      << plan;
-  EXPECT_NE(plan.find("[contact.\"soil|rough\"]"), std::string::npos) << plan;
-  EXPECT_NE(plan.find("grain on a plane: soil, rough"), std::string::npos) << plan;
-  const std::string given =
-      commands::planText(parsed(std::string(kPairs) + "[contact.\"soil|rough\"]\nrolling_friction = 0.2\n"));
-  EXPECT_EQ(given.find("rolling_friction = 0.3 of material.rough does nothing"), std::string::npos) << given;
-}
-
 TEST(MeetingPairs, OfTwoGrainsHaveThePairsMass) {
   // damping = 500 /s acts on the pair's mass, m / 2, and on a wall on m.
   const std::vector<MeetingPair> pairs = meetingPairs(parsed(
@@ -322,25 +309,6 @@ TEST(MeetingPairs, SoilSticksToAVehicleByTheShareThatIsGiven) {
   const auto [toldOfLarge, takenOfLarge] = stickingOf({"vehicle.adhesion=0.25", "material.soil.adhesion_radius=0.019"});
   EXPECT_NEAR(toldOfLarge, 8, 1e-12);
   EXPECT_NEAR(takenOfLarge, 8, 1e-12);
-}
-
-TEST(MeetingPairs, PlanSaysWhyNothingSticksToAVehicle) {
-  const auto line = [](const std::vector<std::string>& overrides, const std::string& scene = "coupled") {
-    const std::string text =
-        commands::switchesText(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/" + scene + ".toml", overrides));
-    const std::size_t at = text.find("soil sticks to vehicle");
-    return at == std::string::npos ? "" : text.substr(at - 5, text.find('\n', at) - at + 5);
-  };
-  const std::string coheres = "material.soil.cohesion=8", eepa = "material.soil.law=eepa_linear";
-  EXPECT_EQ(line({}), "off  soil sticks to vehicle     grains have no cohesion");
-  EXPECT_EQ(line({coheres}), "off  soil sticks to vehicle     vehicle.adhesion = 0");
-  EXPECT_EQ(line({coheres, "vehicle.adhesion=0.5"}), "on   soil sticks to vehicle     cohesion of 4 J/m2");
-  EXPECT_EQ(line({eepa, "material.soil.plasticity=0.5", "material.soil.surface_energy=3", "vehicle.adhesion=1"}),
-            "off  soil sticks to vehicle     grains pull by surface_energy or adhesion_stiffness alone, which act "
-            "between grains");
-  EXPECT_EQ(line({"vehicle.adhesion=1"}, "rigid"),
-            "off  soil sticks to vehicle     no grains: vehicle.adhesion does nothing");
-  EXPECT_EQ(line({}, "rigid"), "");
 }
 
 TEST(MeetingPairs, AVehicleOfAMaterialSticksAsThatSays) {

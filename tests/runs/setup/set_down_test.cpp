@@ -2,6 +2,7 @@
 // How a vehicle is set down, when it drives, and what may not stand about it.
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/vehicle_setup.hpp"
@@ -9,7 +10,6 @@
 #include "vehicle/assembly.hpp"
 #include "vehicle/spec_file.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

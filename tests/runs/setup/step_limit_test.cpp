@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/restitution.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/vehicle/spec_variant.hpp"
@@ -48,8 +47,8 @@ TEST(StepOfAMode, IsWhereTheRecurrenceBeginsToGrow) {
   EXPECT_NEAR(contact::stableStep(20, 0.75), 0.05, 1e-15) << "the same, by omega and zeta";
 }
 
-constexpr double kRadius = 0.02, kStiffness = 3e5;
-const double kMass = 2000 * 4.0 / 3 * base::kPi * kRadius * kRadius * kRadius;
+constexpr double kGrainRadius = 0.02, kStiffness = 3e5;
+const double kMass = 2000 * 4.0 / 3 * base::kPi * kGrainRadius * kGrainRadius * kGrainRadius;
 
 /// Two grains of 'soil', and a plane of 'hard' where it is asked for.
 struct Bed {
@@ -143,25 +142,25 @@ TEST(StepLimit, OfRollingIsTheSpringOfAnglesOnTheMomentOfInertia) {
   bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0.5\nrolling_friction = 2\n"
              "tangential_stiffness_ratio = 0.1\nrolling_damping_ratio = 0\n";
   // k_r = 2.25 k (mu_r R / 2)^2; at rest eight of them on 0.4 m R^2, in an impact two.
-  const double inertia = 0.4 * kMass * kRadius * kRadius, arm = 2 * kRadius / 2;
+  const double inertia = 0.4 * kMass * kGrainRadius * kGrainRadius, arm = 2 * kGrainRadius / 2;
   const double spring = 2.25 * kStiffness * arm * arm;
   ASSERT_GT(2 * spring / inertia, 8 * kStiffness / kMass);
   EXPECT_NEAR(bed.limit().step / undamped(2 * spring / inertia), 1, 1e-9);
   EXPECT_NEAR(bed.limit().calm / undamped(8 * spring / inertia), 1, 1e-9);
   bed.soil.replace(bed.soil.find("ratio = 0\n"), 10, "ratio = 0.3\n");
   // Critical damping of the pair: 2 sqrt(I_r k_r), I_r = 1.4 (m / 2) R^2; elastic grains have nothing to bound it by.
-  const double dashpot = 2 * 0.3 * std::sqrt(1.4 * kMass / 2 * kRadius * kRadius * spring);
+  const double dashpot = 2 * 0.3 * std::sqrt(1.4 * kMass / 2 * kGrainRadius * kGrainRadius * spring);
   EXPECT_NEAR(bed.limit().calm / damped(8 * spring / inertia, 8 * dashpot / inertia), 1, 1e-9);
   bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 4000\nfriction = 0\nrolling_friction = 0.5\n"
              "rolling_damping_ratio = 1\n";
-  const double push = 0.25 * kRadius * 0.25 * kRadius * 2000; // (mu_r R / 2)^2 c
+  const double push = 0.25 * kGrainRadius * 0.25 * kGrainRadius * 2000; // (mu_r R / 2)^2 c
   EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 4.5 * 2000 + 10 * push * kMass / inertia), 1, 1e-9);
 }
 
 TEST(StepLimit, OfHertzGrainsIsThatOfAnImpactAtTheGivenSpeed) {
   Bed bed;
   bed.soil = "law = \"hertz\"\nyoung = 5e7\npoisson = 0.25\ndensity = 2000\nrestitution = 1\nfriction = 0\n";
-  const double modulus = 5e7 / (1 - 0.0625) / 2, m = kMass / 2, R = kRadius / 2;
+  const double modulus = 5e7 / (1 - 0.0625) / 2, m = kMass / 2, R = kGrainRadius / 2;
   // Energy: m v^2 / 2 = (8/15) E sqrt(R) d^(5/2).
   const double deepest = std::pow(15 * m * 1.5 * 1.5 / (16 * modulus * std::sqrt(R)), 0.4), a = std::sqrt(R * deepest);
   EXPECT_NEAR(bed.limit().step / undamped(8 * 2 * modulus * a / kMass), 1, 1e-9);
@@ -178,7 +177,7 @@ TEST(StepLimit, OfHertzGrainsIsThatOfAnImpactAtTheGivenSpeed) {
 TEST(StepLimit, OfADampedHertzImpactIsTakenAtItsOwnDepth) {
   Bed bed;
   bed.soil = "law = \"hertz\"\nyoung = 5e7\npoisson = 0.25\ndensity = 2000\nrestitution = 0.2\nfriction = 0\n";
-  const double modulus = 5e7 / (1 - 0.0625) / 2, m = kMass / 2, R = kRadius / 2;
+  const double modulus = 5e7 / (1 - 0.0625) / 2, m = kMass / 2, R = kGrainRadius / 2;
   const double beta = contact::hertzDampingRatioFor(0.2, false);
   // Its own motion, in small steps.
   const double K = 4.0 / 3 * modulus * std::sqrt(R), C = 2 * beta * std::sqrt(2 * modulus * std::sqrt(R) * m);
@@ -226,23 +225,12 @@ TEST(AutomaticStep, OfStrongDashpotsIsHalfOfWhatIsCalmOrAllOfItWhereStepsMayBeFe
   }
 }
 
-TEST(Plan, WarnsWhereGrainsAtRestTremble) {
-  Bed bed;
-  bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 0.05\nfriction = 0.5\n";
-  scene::Scene scene = bed.scene();
-  const StepLimit limit = stepLimit(scene);
-  scene.run.timeStep = 0.5 * (limit.calm + limit.step);
-  EXPECT_NE(commands::planText(scene).find("tremble"), std::string::npos);
-  scene.run.timeStep = 0.99 * limit.calm;
-  EXPECT_EQ(commands::planText(scene).find("tremble"), std::string::npos);
-}
-
 TEST(AutomaticStep, OfHertzGrainsKeepsItsShareOfTheRayleighTime) {
   Bed bed;
   bed.soil = "law = \"hertz\"\nyoung = 5e7\npoisson = 0.25\ndensity = 2000\nrestitution = 0.9\nfriction = 0\n";
   scene::Scene scene = bed.scene();
   scene.run.impactSpeed = 1e-3; // slow impacts last long
-  const double rayleigh = contact::rayleighTime(kRadius, 2000, 5e7 / 2.5, 0.25);
+  const double rayleigh = contact::rayleighTime(kGrainRadius, 2000, 5e7 / 2.5, 0.25);
   EXPECT_NEAR(chooseTimeStep(scene) / (0.2 * rayleigh), 1, 1e-9);
   scene.run.stepsPerContact = 10;
   EXPECT_NEAR(chooseTimeStep(scene) / (0.4 * rayleigh), 1, 1e-9);
@@ -256,7 +244,7 @@ TEST(StepLimit, OfAFreeSurfaceCountsTheGrainsThatMayLieOnIt) {
       "material = \"soil\"\n";
   const StepLimit limit = bed.limit();
   // A dense layer on its largest face: 2 sqrt(3) R^2 a grain.
-  const double grains = 0.3 * 0.2 / (2 * std::sqrt(3.0) * kRadius * kRadius);
+  const double grains = 0.3 * 0.2 / (2 * std::sqrt(3.0) * kGrainRadius * kGrainRadius);
   EXPECT_NEAR(limit.step / undamped(kStiffness * (1 / kMass + grains / 1e-3)), 1, 1e-9);
   EXPECT_EQ(limit.remedy, "raise box.0.mass");
   bed.more.replace(bed.more.find("[[box]]"), std::string::npos,
@@ -343,7 +331,7 @@ TEST(ShortestContact, IsHalfASwingOfThePairsMassOrOfAWholeGrain) {
   EXPECT_NEAR(shortestContact(bed.scene()) / (base::kPi * std::sqrt(kMass / 6e6)), 1, 1e-9);
   bed.plane = false, bed.pair = "";
   bed.soil = "law = \"hertz\"\nyoung = 5e7\npoisson = 0.25\ndensity = 2000\nrestitution = 1\nfriction = 0\n";
-  const double modulus = 5e7 / (1 - 0.0625) / 2, m = kMass / 2, R = kRadius / 2;
+  const double modulus = 5e7 / (1 - 0.0625) / 2, m = kMass / 2, R = kGrainRadius / 2;
   const double deepest = std::pow(15 * m * 1.5 * 1.5 / (16 * modulus * std::sqrt(R)), 0.4);
   // 4 sqrt(pi) Gamma(2/5) / (5 Gamma(9/10)) deepest / v
   const double factor = 4 * std::sqrt(base::kPi) * std::tgamma(0.4) / (5 * std::tgamma(0.9));

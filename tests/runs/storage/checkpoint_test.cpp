@@ -15,6 +15,7 @@
 #include "tests/device_under_test.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/shared_cache.hpp"
+#include "tests/runs/soil_fixture.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <gtest/gtest.h>
@@ -278,6 +279,21 @@ TEST_F(CheckpointFile, KilledAtAnyTimeItIsWhole) {
     EXPECT_TRUE(steps == 5 || steps == 40) << steps;
   }
   EXPECT_GT(cutShort, 0) << "no kill came in the middle of a write";
+}
+
+class SoilOfACheckpoint : public SoilTest {};
+
+TEST_F(SoilOfACheckpoint, MustBeThatOfTheSceneByItsBytes) {
+  const auto parse = [&](const std::string& file) {
+    return setup::parseScene(grainOf("a", 0.01, "[material.a]\nsoil = \"" + file + "\"\n"), folder_ / "scene.toml");
+  };
+  put(folder_ / "mine.toml", kLoam);
+  Checkpoint c;
+  c.scene = scene::resolvedToml(parse("mine.toml")), c.inputs = setup::inputsOf(parse("mine.toml"));
+  put(folder_ / "copy.toml", kLoam);
+  EXPECT_NO_THROW(checkSameScene(c, "c.h5", setup::provenanceOf(parse("copy.toml")))) << "by its bytes";
+  put(folder_ / "mine.toml", std::string(kLoam) + "# a remark\n");
+  EXPECT_THROW(checkSameScene(c, "c.h5", setup::provenanceOf(parse("mine.toml"))), base::InputError);
 }
 
 } // namespace

@@ -24,11 +24,12 @@ constexpr const char* kSand =
     "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
     "value = 25\nunit = \"deg\"\nsource = \"a book\"\n[[published]]\nquantity = \"n\"\nvalue = 1\nunit = \"-\"\n"
     "source = \"a book\"\n";
-/// The smallest tests that are tests.
+/// The smallest tests that are tests, with the longest steps that are sound.
 constexpr const char* kSmallest =
     " --quick --plate-grains 5 --plate-ratio 1.5 "
     "--thickness 4.5 --bin 3 --pressure 20000 --inertial-number 0.05 --shear-loads 5000 10000 "
-    "--plate-waves 10 --shear-strain 0.1 --shear-inertial-number 0.05 --threads 1 --device cpu";
+    "--plate-waves 10 --shear-strain 0.05 --shear-inertial-number 0.1 --threads 1 --device cpu";
+constexpr const char* kLongSteps = " --steps-per-contact 10";
 
 const std::string kSmall = std::string(kSmallest) + " --seeds 2 --large-seeds 2";
 
@@ -47,7 +48,7 @@ TEST_F(SoilCommandTest, LeavesOutTheWidePlatesWhereAsked) {
 
 TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   put(folder_ / "sand.toml", kSand);
-  const std::string words = "soil sand.toml --out results" + kSmall;
+  const std::string words = "soil sand.toml --out results" + kSmall + kLongSteps;
   const Outcome part = call(words + " --part 2/3");
   ASSERT_EQ(part.code, 0) << part.errors;
   EXPECT_FALSE(fs::exists(folder_ / "results" / "soil.json")) << "a part writes no tables";
@@ -109,7 +110,8 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
       "version = 1\n[targets]\nphi = 24\nK = 12\nn = 1\nk = 1700\nb = 0.1\n[tolerances]\nphi = 40\nk = 1\n[start]\n"
       "stiffness = 1.2e4\nrestitution = 0.3\nfriction = 0.5\ncohesion = 25\nadhesion_radius = "
       "0.01\n[bed]\ngrain_radius = 0.01\n");
-  std::string words = std::string("soil --calibrate targets.toml --out found --seeds 1 --large-seeds 1") + kSmallest;
+  std::string words =
+      std::string("soil --calibrate targets.toml --out found --seeds 1 --large-seeds 1") + kSmallest + kLongSteps;
   words.replace(words.find("20000"), 5, "30000"); // half of what is wanted, which is within the tolerance
   const auto record = [&] { return nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")); };
   ASSERT_EQ(call(words + " --seconds 1e-3").code, 0);
@@ -164,7 +166,7 @@ TEST_F(SoilCommandTest, WhatEndsUnsoundlyIsDoneAgainWithShorterSteps) {
 TEST_F(SoilCommandTest, PartsMayBeginTogether) {
   put(folder_ / "sand.toml",
       std::string(kSand).replace(std::string(kSand).find("[[published"), 0, "porosity = 0.42\n"));
-  const std::string words = "\"$grouser\" soil sand.toml --out results --resume" + kSmall;
+  const std::string words = "\"$grouser\" soil sand.toml --out results --resume" + kSmall + kLongSteps;
   const Outcome o = shell(words + " --part 1/100 > first.log 2>&1 & first=$!; " + words +
                           " --part 2/100; second=$?; wait $first && exit $second");
   EXPECT_EQ(o.code, 0) << o.errors << contents(folder_ / "first.log");

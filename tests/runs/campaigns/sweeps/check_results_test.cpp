@@ -84,7 +84,7 @@ TEST_F(CheckResults, DifferencesAreTakenSeedBySeed) {
   const AxisError e = errorBy(f, CheckAxis::depth);
   EXPECT_NEAR(e.change.value, 2, 1e-12);
   EXPECT_NEAR(e.change.halfWidth, kStudent * 0.1 / std::sqrt(3.0), 1e-6); // not of the scatter of the values
-  EXPECT_EQ(e.verdict, support::Verdict::differs);
+  EXPECT_EQ(e.verdict, jobs::Verdict::differs);
   EXPECT_NEAR(f.bar, std::hypot(f.value.halfWidth, 2 + e.change.halfWidth), 1e-9);
 }
 

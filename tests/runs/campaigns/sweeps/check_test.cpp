@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/campaigns/sweeps/check_cases.hpp"
 #include "runs/campaigns/sweeps/check_report.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/runs/program_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

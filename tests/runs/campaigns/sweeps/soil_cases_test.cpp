@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A soil's grains, made finer by `grouser check`: what comes from its file goes with them once.
 #include "runs/campaigns/sweeps/check_cases.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <string>
 #include <vector>
 

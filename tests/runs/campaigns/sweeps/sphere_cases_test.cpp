@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts cut more finely by `grouser check`: whatever their radius follows from.
 #include "runs/campaigns/sweeps/check_cases.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <string>
 
 namespace grouser::sweeps {

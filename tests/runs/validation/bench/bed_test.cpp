@@ -38,16 +38,16 @@ TEST(StageTimer, ComputesTheSameBitsAsTheLoop) {
   const auto quiet = [](double, double) {};
   coupling::Simulation timed(setup::simulationSetup(scene), base::cpuExec(1), quiet),
       plain(setup::simulationSetup(scene), base::cpuExec(1), quiet);
-  coupling::StageTimer bench(timed, base::cpuExec(1));
-  for (int i = 0; i < 150; ++i) bench.step(), plain.step();
+  coupling::StageTimer timer(timed, base::cpuExec(1));
+  for (int i = 0; i < 150; ++i) timer.step(), plain.step();
   EXPECT_EQ(timed.stateHash(), plain.stateHash());
   EXPECT_EQ(timed.steps(), plain.steps());
-  EXPECT_EQ(bench.steps(), 150);
+  EXPECT_EQ(timer.steps(), 150);
   EXPECT_EQ(timed.ground().grains->system().rebuilds, plain.ground().grains->system().rebuilds);
-  EXPECT_GE(bench.rebuilds(), 1) << "the pass must hold a rebuild";
-  for (const coupling::StageTimer::Part& part : bench.parts()) EXPECT_GT(part.microseconds, 0) << part.name;
-  EXPECT_GT(bench.part(coupling::Stage::grainStep).microseconds,
-            bench.part(coupling::Stage::grainStepEnded).microseconds);
+  EXPECT_GE(timer.rebuilds(), 1) << "the pass must hold a rebuild";
+  for (const coupling::StageTimer::Part& part : timer.parts()) EXPECT_GT(part.microseconds, 0) << part.name;
+  EXPECT_GT(timer.part(coupling::Stage::grainStep).microseconds,
+            timer.part(coupling::Stage::grainStepEnded).microseconds);
 }
 
 TEST(StageTimer, ComputesTheSameBitsForAMechanism) {
@@ -56,11 +56,11 @@ TEST(StageTimer, ComputesTheSameBitsForAMechanism) {
   coupling::Simulation timed(setup::simulationSetup(scene), base::cpuExec(1), quiet),
       plain(setup::simulationSetup(scene), base::cpuExec(1), quiet);
   const std::string atRest = plain.stateHash();
-  coupling::StageTimer bench(timed, base::cpuExec(1));
-  for (int i = 0; i < 150; ++i) bench.step(), plain.step();
+  coupling::StageTimer timer(timed, base::cpuExec(1));
+  for (int i = 0; i < 150; ++i) timer.step(), plain.step();
   EXPECT_NE(plain.stateHash(), atRest);
   EXPECT_EQ(timed.stateHash(), plain.stateHash());
-  EXPECT_GT(bench.part(coupling::Stage::multibody).microseconds, 0);
+  EXPECT_GT(timer.part(coupling::Stage::multibody).microseconds, 0);
 }
 
 TEST(BenchBed, SettlesAndCountsWhatItSays) {
@@ -161,8 +161,11 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   EXPECT_EQ(call("bench step nosuch.toml").code, 2);
 }
 
-TEST_F(BenchCommands, StepSaysWhetherTheVehicleDrivesAndWaitsForIt) {
-  const auto timed = [&](const std::string& words) {
+/// `grouser bench step` of a vehicle whose ramps are over after 0.02 s; batch and instrumented pass are ten steps of
+/// 1e-4 s.
+class BenchStep : public BenchCommands {
+protected:
+  nlohmann::json timed(const std::string& words) const {
     const Outcome o = call("bench step " GROUSER_SOURCE_DIR
                            "/tests/scenes/rigid.toml --set vehicle.sphere_radius=0.03 --set driver.tension_ramp=0.02 "
                            "--set driver.weight_ramp=0.02 --set driver.drive_ramp=0.02 --steps 5 --batches 1 --threads "
@@ -170,22 +173,31 @@ TEST_F(BenchCommands, StepSaysWhetherTheVehicleDrivesAndWaitsForIt) {
                            words);
     EXPECT_EQ(o.code, 0) << words << o.errors;
     return nlohmann::json::parse(contents(folder_ / "step.json"));
-  };
-  const auto expect = [&](const std::string& words, const std::string& word, double from) {
+  }
+  void expect(const std::string& words, const std::string& word, double from) const {
     const nlohmann::json json = timed("--set driver.drive_start=0.05 " + words);
     EXPECT_EQ(json["timed"], word) << words;
     EXPECT_NEAR(json["timed_from_s"].get<double>(), from, 1e-9) << words;
     EXPECT_EQ(json["drive_start_s"].get<double>(), 0.05);
-  };
-  // Batch and instrumented pass are ten steps of 1e-4 s.
-  expect("--after 0.01", "standing", 0.01), expect("--after 0.0495", "driving off", 0.0495);
-  expect("--after drive+0.01", "speeding up", 0.06), expect("", "driving", 0.07);
-  // A start that only the run knows, at a look at the vehicle (every 50 steps): 0.05 s at rest after the ramps.
+  }
+};
+
+TEST_F(BenchStep, TimesADrivingVehicleUnlessATimeIsGiven) { expect("", "driving", 0.07); }
+
+TEST_F(BenchStep, WaitsForAStartThatOnlyTheRunKnows) {
+  // At a look at the vehicle (every 50 steps): 0.05 s at rest after the ramps.
   const nlohmann::json waited = timed("--set driver.rest_speed=10 --set driver.rest_load=0.5 --after drive");
   EXPECT_EQ(waited["timed"], "speeding up");
   EXPECT_GE(waited["drive_start_s"].get<double>(), 0.09 - 1e-9);
   EXPECT_NEAR(waited["timed_from_s"].get<double>(), waited["drive_start_s"].get<double>(), 1e-9);
+}
 
+TEST_F(BenchStep, SaysHowTheVehicleMovesAtEachTime) {
+  expect("--after 0.01", "standing", 0.01), expect("--after 0.0495", "driving off", 0.0495);
+  expect("--after drive+0.01", "speeding up", 0.06);
+}
+
+TEST_F(BenchStep, RefusesATimeThatIsNone) {
   const Outcome wrong = call("bench step x.toml --after driven");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.errors.find("driven is neither a time in seconds of at least 0, nor drive, nor such as drive+0.5"),

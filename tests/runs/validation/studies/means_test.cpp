@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Means, their errors and medians that the tables of studies state; and what a shear test says of its load.
+#include "runs/jobs/estimate.hpp"
 #include "runs/jobs/study_place.hpp"
-#include "runs/support/estimate.hpp"
 #include "runs/validation/studies/shear.hpp"
 
 #include <gtest/gtest.h>
@@ -28,19 +28,19 @@ TEST(StudyMeans, MedianIsTheMiddleOneOrTheMeanOfTwo) {
 }
 
 TEST(ValueText, HasNoMoreDigitsThanItsIntervalAllows) {
-  EXPECT_EQ(support::valueText({0.07294, 0.00903}), "0.0729 +- 0.0090");
-  EXPECT_EQ(support::valueText({1234567, 21000}), "(1.235 +- 0.021)e6");
-  EXPECT_EQ(support::valueText({0.5, 7e-10}), "(5.0000000000 +- 0.0000000070)e-1") << "not 0.5 +- 7.0e-10";
-  EXPECT_EQ(support::valueText({0.25, std::numeric_limits<double>::infinity()}), "0.25000 +- ?");
+  EXPECT_EQ(jobs::valueText({0.07294, 0.00903}), "0.0729 +- 0.0090");
+  EXPECT_EQ(jobs::valueText({1234567, 21000}), "(1.235 +- 0.021)e6");
+  EXPECT_EQ(jobs::valueText({0.5, 7e-10}), "(5.0000000000 +- 0.0000000070)e-1") << "not 0.5 +- 7.0e-10";
+  EXPECT_EQ(jobs::valueText({0.25, std::numeric_limits<double>::infinity()}), "0.25000 +- ?");
 }
 
 TEST(ValueText, LeavesOutAnIntervalOfRounding) {
   // Seeds that agree but for rounding: 1.5e-11 of the value, below the 1e-9 that count as agreement.
-  EXPECT_EQ(support::valueText({0.27056, 4e-12}), "0.27056");
-  EXPECT_EQ(support::valueText({0.27056, 0}), "0.27056");
-  EXPECT_EQ(support::plusMinus({0.27056, 4e-12}, 4), "0.2706");
-  EXPECT_EQ(support::plusMinus({0.27056, 4e-3}, 4), "0.2706 +- 0.0040");
-  EXPECT_EQ(support::percent({0, 0}), "0.0 %");
+  EXPECT_EQ(jobs::valueText({0.27056, 4e-12}), "0.27056");
+  EXPECT_EQ(jobs::valueText({0.27056, 0}), "0.27056");
+  EXPECT_EQ(jobs::plusMinus({0.27056, 4e-12}, 4), "0.2706");
+  EXPECT_EQ(jobs::plusMinus({0.27056, 4e-3}, 4), "0.2706 +- 0.0040");
+  EXPECT_EQ(jobs::percent({0, 0}), "0.0 %");
 }
 
 TEST(StudyShear, NormalForceIsThatOfTheLoadAndTheGrainsAbove) {

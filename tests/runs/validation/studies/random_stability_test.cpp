@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random scenes: all of them valid and spread as wide as they claim; sound at the steps that a run chooses and allows;
 // and a trial of steps tells sound from unsound.
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/validation/studies/random_stability.hpp"
 
-#include "runs/scene/scene.hpp"
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 class PlateReference : public ProgramTest {
 protected:
   Outcome script(const std::string& words) const {
-    return shell("/usr/bin/python3 " GROUSER_SOURCE_DIR "/runs/studies/reference/plate.py --grouser \"$grouser\" --out "
+    return shell("/usr/bin/python3 " GROUSER_SOURCE_DIR
+                 "/runs/validation/studies/reference/plate.py --grouser \"$grouser\" --out "
                  "results --seeds 2 --bin 6 --deep 3 --plate 3 --sinkage 0.3 --speed 0.3 --steps 10 " +
                  words);
   }

@@ -237,7 +237,10 @@ TEST(VehicleSeeds, ScatterIsThatOfSoundPointsOfOneMap) {
   EXPECT_EQ(seedScatterTable(points), "") << "of one nothing is known";
 }
 
-class VehicleMaps : public FolderTest {};
+class VehicleMaps : public FolderTest {
+protected:
+  TrialPlace place() const { return {folder_, nullptr, sharedSpheres()}; }
+};
 
 TEST_F(VehicleMaps, StepsBeyondTheLineAreRefusedAndThoseBelowAreNot) {
   std::set<std::string> names;
@@ -253,7 +256,7 @@ TEST_F(VehicleMaps, StepsBeyondTheLineAreRefusedAndThoseBelowAreNot) {
       const bool beyond = p.step > longest;
       stepped += p.y == p.step, refused += beyond;
       if (beyond) {
-        const VehicleTrial trial = tryVehicle(p.what, p.step, {folder_});
+        const VehicleTrial trial = tryVehicle(p.what, p.step, place());
         EXPECT_EQ(trial.end, TrialEnd::refused) << name << " " << p.x << " " << p.y;
         EXPECT_NE(trial.cause.find("time_step"), std::string::npos) << trial.cause;
       } else {
@@ -272,7 +275,7 @@ TEST_F(VehicleMaps, TensionIsTheMeanOverAllStepsOfTheWindow) {
   what.from = 0.04, what.until = 0.07;
   constexpr double kStep = 1e-4;
   constexpr int kBegin = 400, kEnd = 700; // a hundred samples: every third step
-  const VehicleTrial trial = tryVehicle(what, kStep, {folder_, nullptr, sharedSpheres()});
+  const VehicleTrial trial = tryVehicle(what, kStep, place());
   ASSERT_EQ(trial.end, TrialEnd::sound) << trial.cause;
   coupling::Simulation run(
       setup::simulationSetup(sceneOf(what, kStep, folder_)), base::cpuExec(1), [](double, double) {}, {}, nullptr,
@@ -294,7 +297,7 @@ TEST_F(VehicleMaps, AStepThatIsMuchTooLongIsCaughtEvenWhereNobodyRefusesIt) {
   const VehicleMap map = vehicleMap("stiffness", true, folder_);
   const VehicleCase& what = map.points.front().what;
   const double longest = longestStep(what, folder_);
-  const VehicleTrial wild = tryVehicle(what, 8 * longest, {folder_}, StepCheck::none);
+  const VehicleTrial wild = tryVehicle(what, 8 * longest, place(), StepCheck::none);
   ASSERT_EQ(wild.end, TrialEnd::stopped);
   EXPECT_TRUE(blameOf(wild.cause).step) << wild.cause;
   EXPECT_LT(wild.reached, what.until);
@@ -306,7 +309,7 @@ TEST_F(VehicleMaps, AnImpactFarStifferThanTheWeightAtRestIsCaught) {
   const auto point =
       std::find_if(map.points.begin(), map.points.end(), [](const MapPoint& p) { return p.x == 3 && p.step > 1e-4; });
   ASSERT_NE(point, map.points.end());
-  const VehicleTrial trial = tryVehicle(point->what, point->step, {folder_});
+  const VehicleTrial trial = tryVehicle(point->what, point->step, place());
   ASSERT_EQ(trial.end, TrialEnd::stopped);
   EXPECT_TRUE(blameOf(trial.cause).step) << trial.cause;
   EXPECT_NE(trial.cause.find("idler"), std::string::npos) << trial.cause;
@@ -319,10 +322,10 @@ TEST_F(VehicleMaps, AnIdlerThatTremblesOnHeavyShoesIsRefusedAndCaught) {
   const auto point = std::find_if(map.points.begin(), map.points.end(), [](const MapPoint& p) { return p.x == 65; });
   ASSERT_NE(point, map.points.end());
   const double step = 3.7e-4;
-  const VehicleTrial refused = tryVehicle(point->what, step, {folder_});
+  const VehicleTrial refused = tryVehicle(point->what, step, place());
   EXPECT_EQ(refused.end, TrialEnd::refused);
   EXPECT_NE(refused.cause.find("idler that turns on 6 shoes"), std::string::npos) << refused.cause;
-  const VehicleTrial trial = tryVehicle(point->what, step, {folder_}, StepCheck::none);
+  const VehicleTrial trial = tryVehicle(point->what, step, place(), StepCheck::none);
   ASSERT_EQ(trial.end, TrialEnd::stopped);
   EXPECT_TRUE(blameOf(trial.cause).step) << trial.cause;
   EXPECT_NE(trial.cause.find("idler"), std::string::npos) << trial.cause;

@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace grouser::scene {
+namespace grouser::setup {
 
 using namespace test; // fixtures
 
@@ -62,9 +62,9 @@ time = [0, 1]
 values = [0, 5]
 )";
 
-std::string errorOf(const std::string& text) {
+std::string refusal(const std::string& text) {
   try {
-    setup::parseScene(text, "scene.toml");
+    parseScene(text, "scene.toml");
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -72,8 +72,8 @@ std::string errorOf(const std::string& text) {
 }
 
 TEST(MechanismScene, HoldsWhatTheFileSays) {
-  const Scene scene = setup::parseScene(kScene, "scene.toml");
-  const multibody::Model model = setup::buildModel(scene.mechanism);
+  const scene::Scene scene = parseScene(kScene, "scene.toml");
+  const multibody::Model model = buildModel(scene.mechanism);
   ASSERT_EQ(model.bodies().size(), 2u);
   EXPECT_EQ(model.bodies()[0].inertia_B.m[1][1], 0.2);
   EXPECT_DOUBLE_EQ(model.bodies()[1].inertia_B.m[0][0], 1.0 / 12 * (0.01 + 0.01)) << "of the box";
@@ -89,28 +89,28 @@ TEST(MechanismScene, HoldsWhatTheFileSays) {
 }
 
 TEST(MechanismScene, ResolvedCopyLoadsToTheSameMechanism) {
-  const Scene scene = setup::parseScene(kScene, "scene.toml");
-  const Scene again = setup::parseScene(resolvedToml(scene), "scene.toml");
+  const scene::Scene scene = parseScene(kScene, "scene.toml");
+  const scene::Scene again = parseScene(scene::resolvedToml(scene), "scene.toml");
   EXPECT_TRUE(again.mechanism == scene.mechanism);
-  EXPECT_EQ(resolvedToml(again), resolvedToml(scene));
+  EXPECT_EQ(scene::resolvedToml(again), resolvedToml(scene));
 }
 
 TEST(MechanismScene, InertiaOfSixNumbersIsTheMatrix) {
-  const Scene scene =
-      setup::parseScene(replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
-  const auto& I = setup::buildModel(scene.mechanism).bodies()[0].inertia_B.m;
+  const scene::Scene scene =
+      parseScene(replaced(kScene, "[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.15, 0.01, 0.02, 0.03]"), "scene.toml");
+  const auto& I = buildModel(scene.mechanism).bodies()[0].inertia_B.m;
   EXPECT_EQ(I[0][1], 0.01);
   EXPECT_EQ(I[0][2], 0.02);
   EXPECT_EQ(I[2][1], 0.03);
 }
 
 TEST(MechanismScene, QuaternionAndAxisWithAngleMeanTheSameTurn) {
-  const Scene turned = setup::parseScene(kScene, "scene.toml");
-  const Scene given = setup::parseScene(replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
+  const scene::Scene turned = parseScene(kScene, "scene.toml");
+  const scene::Scene given = parseScene(replaced(kScene, "axis = [0, 1, 0]\nangle = 90",
                                                  "orientation = [0.70710678118654757, 0, 0.70710678118654757, 0]"),
                                         "scene.toml");
-  const base::Quat a = setup::buildModel(turned.mechanism).bodies()[1].pose.orientation,
-                   b = setup::buildModel(given.mechanism).bodies()[1].pose.orientation;
+  const base::Quat a = buildModel(turned.mechanism).bodies()[1].pose.orientation,
+                   b = buildModel(given.mechanism).bodies()[1].pose.orientation;
   EXPECT_NEAR(a.w, b.w, 1e-15); // a few units in the last place
   EXPECT_NEAR(a.y, b.y, 1e-15);
 }
@@ -126,7 +126,7 @@ TEST_P(MechanismMistakes, NamePlaceValueAndRemedy) {
   const auto& [from, to, message] = GetParam();
   const std::string text = replaced(kScene, from, to);
   ASSERT_FALSE(text.empty()) << from;
-  const std::string error = errorOf(text);
+  const std::string error = refusal(text);
   EXPECT_NE(error.find(message), std::string::npos) << error;
   EXPECT_EQ(error.rfind("scene.toml:", 0), 0u) << error;
 }
@@ -220,21 +220,21 @@ TEST(MechanismScene, DrivesThatContradictEachOtherThroughALoopAreRefusedAtTheirL
   pin("a", "world", "left", "[0, 0, 0]"), pin("b", "left", "top", "[0, 0, 1]");
   pin("c", "top", "right", "[1, 0, 1]"), pin("d", "world", "right", "[1, 0, 0]");
   const std::string good = text + "[[drive]]\nname = \"one\"\njoint = \"a\"\nvalue = 1\n";
-  EXPECT_EQ(errorOf(good), "no error");
-  const std::string error = errorOf(good + "[[drive]]\nname = \"two\"\njoint = \"d\"\nvalue = 2\n");
+  EXPECT_EQ(refusal(good), "no error");
+  const std::string error = refusal(good + "[[drive]]\nname = \"two\"\njoint = \"d\"\nvalue = 2\n");
   EXPECT_EQ(error.rfind("scene.toml:43: drive.1 (\"two\"): ", 0), 0u) << error;
   EXPECT_NE(error.find("'one'"), std::string::npos) << error;
 }
 
 TEST(MechanismScene, OverridesTakeTheNameOfAPart) {
-  const Scene scene = setup::parseScene(kScene, "scene.toml", {"body.upper.mass=3", "spring.cord.stiffness=7"});
+  const scene::Scene scene = parseScene(kScene, "scene.toml", {"body.upper.mass=3", "spring.cord.stiffness=7"});
   EXPECT_EQ(*scene.mechanism.bodies[0].mass, 3);
   EXPECT_EQ(scene.mechanism.springs[1].stiffness, 7);
-  EXPECT_THROW(setup::parseScene(kScene, "scene.toml", {"body.uper.mass=3"}), base::InputError);
+  EXPECT_THROW(parseScene(kScene, "scene.toml", {"body.uper.mass=3"}), base::InputError);
 }
 
 TEST(MechanismScene, PartsWithoutBodiesAreRefused) {
-  EXPECT_NE(errorOf("version = 1\n[run]\nduration = 1\n[[joint]]\nname = \"a\"\nbodies = [\"world\", \"b\"]\n")
+  EXPECT_NE(refusal("version = 1\n[run]\nduration = 1\n[[joint]]\nname = \"a\"\nbodies = [\"world\", \"b\"]\n")
                 .find("names no body \"b\""),
             std::string::npos);
 }
@@ -243,11 +243,11 @@ TEST(MechanismScene, EveryFileOfTheFolderLoads) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(GROUSER_SOURCE_DIR "/runs/mechanisms")) {
     if (entry.path().extension() != ".toml") continue;
-    EXPECT_NO_THROW(setup::loadScene(entry.path())) << entry.path();
+    EXPECT_NO_THROW(loadScene(entry.path())) << entry.path();
     ++count;
   }
   EXPECT_GE(count, 15);
 }
 
 } // namespace
-} // namespace grouser::scene
+} // namespace grouser::setup

@@ -7,7 +7,7 @@
 #include <string>
 
 /// What a few seeds tell: means with intervals, and whether two of them are equal within a bar.
-namespace grouser::support {
+namespace grouser::jobs {
 
 /// Mean and half width of its 95 % interval by Student's distribution; infinite for fewer than two values.
 support::Estimate interval95(std::span<const double> values);
@@ -47,4 +47,4 @@ std::string valueText(const support::Estimate& estimate);
 /// "12.3 +- 0.4 %".
 std::string percent(const support::Estimate& estimate, int digits = 1);
 
-} // namespace grouser::support
+} // namespace grouser::jobs

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace grouser::scene {
+namespace grouser::setup {
 
 using namespace test; // fixtures
 
@@ -23,7 +23,7 @@ std::string withDriver(const std::string& driver, const std::string& behind = ""
 /// The message with which a scene, or its vehicle, is refused.
 std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
-    setup::vehicleSetup(setup::parseScene(text, "scene.toml", overrides));
+    vehicleSetup(parseScene(text, "scene.toml", overrides));
   } catch (const base::InputError& error) {
     return error.what();
   }
@@ -38,17 +38,17 @@ void expectRefused(const std::string& text, const std::vector<std::string>& word
 
 TEST(SpecKeys, ChangeTheVehicleFileAndStandInTheResolvedCopy) {
   const std::string text = goodScene() + "[spec.idler]\npreload = 8000\n";
-  const Scene scene = setup::parseScene(text, "scene.toml", {"spec.shoe.pin_damping=7.5", "spec.vehicle.name=mine"});
-  const vehicle::VehicleSpec spec = setup::vehicleSetup(scene).spec;
+  const scene::Scene scene = parseScene(text, "scene.toml", {"spec.shoe.pin_damping=7.5", "spec.vehicle.name=mine"});
+  const vehicle::VehicleSpec spec = vehicleSetup(scene).spec;
   EXPECT_EQ(spec.idler.preload, 8000);
   EXPECT_EQ(spec.shoe.pinDamping, 7.5);
   EXPECT_EQ(spec.name, "mine");
-  const std::string resolved = resolvedToml(scene);
+  const std::string resolved = scene::resolvedToml(scene);
   for (const char* line : {"[spec.idler]\npreload = 8000.0\n", "[spec.shoe]\npin_damping = 7.5\n", "name = \"mine\""})
     EXPECT_NE(resolved.find(line), std::string::npos) << line << resolved;
-  const Scene again = setup::parseScene(resolved, "scene.toml");
+  const scene::Scene again = parseScene(resolved, "scene.toml");
   EXPECT_EQ(*again.vehicle, *scene.vehicle);
-  EXPECT_EQ(resolvedToml(again), resolved);
+  EXPECT_EQ(scene::resolvedToml(again), resolved);
 }
 
 TEST(SpecKeys, MistakesAreNamedWhereTheyStand) {
@@ -64,32 +64,30 @@ TEST(SpecKeys, MistakesAreNamedWhereTheyStand) {
 }
 
 TEST(SpecKeys, RigidArmsAndRollersLeftOutNeedNoOtherFile) {
-  const Scene scene = setup::parseScene(goodScene(), "scene.toml",
-                                        {"spec.arm.suspension=rigid", "spec.roller.x=[]", "spec.roller.z=[]"});
-  const vehicle::VehicleSpec spec = setup::vehicleSetup(scene).spec;
+  const scene::Scene scene =
+      parseScene(goodScene(), "scene.toml", {"spec.arm.suspension=rigid", "spec.roller.x=[]", "spec.roller.z=[]"});
+  const vehicle::VehicleSpec spec = vehicleSetup(scene).spec;
   EXPECT_EQ(spec.arm.suspension, vehicle::Suspension::rigid);
   EXPECT_TRUE(spec.roller.x.empty());
-  const std::string resolved = resolvedToml(scene);
+  const std::string resolved = scene::resolvedToml(scene);
   EXPECT_NE(resolved.find("x = []"), std::string::npos) << resolved;
-  EXPECT_EQ(*setup::parseScene(resolved, "scene.toml").vehicle, *scene.vehicle);
+  EXPECT_EQ(*parseScene(resolved, "scene.toml").vehicle, *scene.vehicle);
 }
 
 TEST(ReadyVehicles, FitTheirMeshes) {
   for (const char* name : {"light_tracked", "m113_like", "robot"}) {
-    const Scene scene =
-        setup::parseScene(goodScene(), "scene.toml",
-                          {std::string("vehicle.spec=vehicles/") + name + ".toml", "vehicle.sphere_radius=0.005"});
-    EXPECT_NO_THROW(setup::checkParts(scene)) << name;
+    const scene::Scene scene =
+        parseScene(goodScene(), "scene.toml",
+                   {std::string("vehicle.spec=vehicles/") + name + ".toml", "vehicle.sphere_radius=0.005"});
+    EXPECT_NO_THROW(checkParts(scene)) << name;
   }
-  const Scene wide = setup::parseScene(goodScene(), "scene.toml",
-                                       {"vehicle.spec=vehicles/m113_like.toml", "spec.shoe.pad_half_width=0.18"});
-  EXPECT_THROW(setup::checkParts(wide), base::InputError) << "the mesh does not follow";
+  const scene::Scene wide =
+      parseScene(goodScene(), "scene.toml", {"vehicle.spec=vehicles/m113_like.toml", "spec.shoe.pad_half_width=0.18"});
+  EXPECT_THROW(checkParts(wide), base::InputError) << "the mesh does not follow";
 }
 
 TEST(DriverByTorque, TablesAndConstantsReachTheDriver) {
-  const auto driver = [](const std::string& text) {
-    return setup::vehicleSetup(setup::parseScene(text, "scene.toml")).driver;
-  };
+  const auto driver = [](const std::string& text) { return vehicleSetup(parseScene(text, "scene.toml")).driver; };
   const auto constant = driver(withDriver("drive = \"torque\"\nleft_torque = 100\nright_torque = -50"));
   EXPECT_EQ(constant.drive, vehicle::SprocketDrive::torque);
   EXPECT_EQ(constant.torques.left, std::vector<double>{100});
@@ -122,17 +120,17 @@ TEST(DriverByEngine, NeedsOneInTheVehicleFile) {
 
 TEST(DriverOfACourse, ReachesTheDriver) {
   const std::string path = "[driver.course]\nspeed = 1.5\nx = [1, 2, 3]\ny = [0, 0, 1]\nturn_gain = 0.25\n";
-  const Scene scene = setup::parseScene(withDriver("", path), "scene.toml");
-  const auto course = setup::vehicleSetup(scene).driver.course;
+  const scene::Scene scene = parseScene(withDriver("", path), "scene.toml");
+  const auto course = vehicleSetup(scene).driver.course;
   ASSERT_TRUE(course);
   EXPECT_EQ(course->speed, 1.5);
   EXPECT_EQ(course->y, (std::vector<double>{0, 0, 1}));
   EXPECT_NEAR(course->lookAhead, 4 * 0.4458, 1e-15) << "auto: from first to last road wheel";
   EXPECT_EQ(course->turnGain, 0.25);
   EXPECT_NEAR(course->tread, 1.9, 1e-15);
-  EXPECT_EQ(setup::parseScene(resolvedToml(scene), "scene.toml").driver, scene.driver);
-  const Scene circle = setup::parseScene(withDriver("", "[driver.course]\nspeed = 1\nradius = -4\n"), "scene.toml");
-  EXPECT_EQ(setup::vehicleSetup(circle).driver.course->curvature, -0.25);
+  EXPECT_EQ(parseScene(scene::resolvedToml(scene), "scene.toml").driver, scene.driver);
+  const scene::Scene circle = parseScene(withDriver("", "[driver.course]\nspeed = 1\nradius = -4\n"), "scene.toml");
+  EXPECT_EQ(vehicleSetup(circle).driver.course->curvature, -0.25);
 }
 
 TEST(DriverOfACourse, MistakesAreRefused) {
@@ -151,4 +149,4 @@ TEST(DriverOfACourse, MistakesAreRefused) {
 }
 
 } // namespace
-} // namespace grouser::scene
+} // namespace grouser::setup

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/support/estimate.hpp"
+#include "runs/jobs/estimate.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace grouser::support {
+namespace grouser::jobs {
 
 namespace {
 
@@ -128,4 +128,4 @@ std::string percent(const support::Estimate& estimate, int digits) {
   return plusMinus({100 * estimate.value, 100 * estimate.halfWidth}, digits) + " %";
 }
 
-} // namespace grouser::support
+} // namespace grouser::jobs

@@ -2,11 +2,11 @@
 // What a scene does not have is not allocated, not built and not run; and `grouser plan` says so beforehand.
 #include "coupling/simulation.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/shared_cache.hpp"
 
-#include "runs/scene/scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include <gtest/gtest.h>
 
 namespace grouser::coupling {
