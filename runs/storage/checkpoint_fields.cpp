@@ -49,6 +49,7 @@ constexpr Meaning kMeanings[] = {
     {"bed/porosity_at_depth", "-", "at that depth"},
     {"undisturbed_surface", "m", "heights of its nodes"},
     {"lifts", "m", "of what was put on a settled bed"},
+    {"ground/state", "-", "of a ground that is neither of grains nor rigid, as it keeps itself"},
     {"mechanism/bodies", "m, -, m/s, rad/s", "places, velocities, springs and books of all bodies"},
     {"mechanism/worst", "m, -, -", "since the last row: widest gap of a joint, most iterations, singular steps"},
     {"mechanism/judged", "-, N, -, -, -",
