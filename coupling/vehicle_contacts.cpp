@@ -3,6 +3,8 @@
 
 #include "base/carry.hpp"
 #include "base/error.hpp"
+#include "coupling/grains_on_vehicle.hpp"
+#include "terrain/grains_ahead.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,22 +6,24 @@
 #include "base/gate.hpp"
 #include "contact/patch_contacts.hpp"
 #include "multibody/state.hpp"
-#include "coupling/granular_ground.hpp"
 #include "coupling/ground.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/obstacle_contacts.hpp"
-#include "coupling/replicated_work.hpp"
 #include "coupling/step_observer.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "coupling/vehicle_state.hpp"
-#include "terrain/grains_ahead.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <memory>
-#include <optional>
 #include <vector>
 
+namespace grouser::terrain {
+class GrainsAhead;
+}
+
 namespace grouser::coupling {
+
+class GrainsOnVehicle;
 
 /// What the parts of a vehicle touch: shoes the running gear, all parts the ground and the surfaces at rest of the
 /// scene. Computed on the device where there is one. On several ranks each computes its share of a ground that is
