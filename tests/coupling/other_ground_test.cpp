@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A kind of ground that the library does not have, behind the interface that its own kinds have: what docs/adding_a_ground.md
-// promises to who adds one.
+// A kind of ground that the library does not have, behind the interface that its own kinds have: what
+// docs/adding_a_ground.md promises to who adds one.
 #include "coupling/ground.hpp"
 #include "coupling/laid_ground.hpp"
 #include "coupling/simulation.hpp"
@@ -17,14 +17,14 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kStep = 1e-4;              // [s]
-constexpr double kStiffness = 1e5;          // of each edge [N/m]: the vehicle sinks in by some millimetres
-constexpr double kDamping = 1e3;            // [N s/m]
-constexpr double kGravity = 9.81;           // [m/s2]
+constexpr double kStep = 1e-4;               // [s]
+constexpr double kStiffness = 1e5;           // of each edge [N/m]: the vehicle sinks in by some millimetres
+constexpr double kDamping = 1e3;             // [N s/m]
+constexpr double kGravity = 9.81;            // [m/s2]
 constexpr double kEdges[] = {-0.045, 0.045}; // where a shoe's grousers stand, from its middle [m]
 
-/// Winkler's ground in its simplest form: level, at height 0, with a spring and a dashpot under both edges of each shoe.
-/// The springs also hold an edge where it touched down, and that place is the ground's state.
+/// Winkler's ground in its simplest form: level, at height 0, with a spring and a dashpot under both edges of each
+/// shoe. The springs also hold an edge where it touched down, and that place is the ground's state.
 class SpringGround : public Ground {
 public:
   void restore(const SimulationState& state) override { state_ = state.ground.value(); }
@@ -36,8 +36,8 @@ public:
     const vehicle::ShoeSpec& spec = on.assembly.spec.shoe;
     for (const int shoe : on.assembly.groundParts)
       for (const double x : kEdges)
-        edges_.push_back({static_cast<std::size_t>(on.parts.contactIndex(shoe)),
-                          {x, 0, spec.padBottom - spec.grouserHeight}});
+        edges_.push_back(
+            {static_cast<std::size_t>(on.parts.contactIndex(shoe)), {x, 0, spec.padBottom - spec.grouserHeight}});
     state_.resize(3 * edges_.size() + 1); // of each edge whether it touches, and where it has since; dissipated [J]
     return quanta_ = {on.quanta.force, on.quanta.torque};
   }
