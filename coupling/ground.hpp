@@ -11,7 +11,6 @@
 #include "coupling/replicated_work.hpp"
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace grouser::terrain {
@@ -25,8 +24,6 @@ namespace grouser::coupling {
 
 class VehicleParts;
 struct ContactLedger;
-struct GroundSetup;
-struct LaidGround;
 struct Ledger;
 struct SimulationState;
 struct VehicleState;
@@ -135,9 +132,5 @@ public:
   /// Writes the history of contacts with the parts: `ground` or `bed`; another kind may keep it in save().
   virtual void saveContacts(VehicleState&) const {}
 };
-
-/// The ground of a scene: of the kind that `setup` names, else grains where some were laid, else rigid ground; null
-/// where there is neither. Both outlive it.
-std::unique_ptr<Ground> makeGround(LaidGround& laid, const GroundSetup& setup, const base::Exec& exec);
 
 } // namespace grouser::coupling

@@ -2,6 +2,7 @@
 #include "coupling/simulation.hpp"
 
 #include "base/error.hpp"
+#include "coupling/ground_kinds.hpp"
 #include "coupling/placed_on_bed.hpp"
 #include "terrain/grain_faults.hpp"
 #include "terrain/grain_removal.hpp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A kind of ground that the library does not have, behind the interface that its own kinds have: what
 // docs/adding_a_ground.md promises to who adds one.
-#include "coupling/ground.hpp"
-#include "coupling/laid_ground.hpp"
+#include "coupling/ground_kinds.hpp"
 #include "coupling/simulation.hpp"
 #include "tests/message_of.hpp"
 #include "tests/terrain/grain_fixture.hpp"

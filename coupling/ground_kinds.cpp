@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coupling/ground.hpp"
+#include "coupling/ground_kinds.hpp"
 
 #include "base/error.hpp"
 #include "coupling/granular_ground.hpp"
