@@ -1,22 +1,138 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/settling.hpp"
+#include "base/array.hpp"
+#include "base/comm.hpp"
+#include "base/exec.hpp"
+#include "base/fixed_point.hpp"
+#include "base/math.hpp"
+#include "contact/part_motion.hpp"
+#include "contact/patch_law.hpp"
+#include "coupling/replicated_work.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace grouser::terrain {
+class HeightField;
+}
+namespace grouser::vehicle {
+struct Assembly;
+}
 
 namespace grouser::coupling {
 
-/// Lays the grains and places the walls. Nothing moves yet, but a tile that is to be copied settles. Where more is put
-/// on a bed once it has settled (placed_on_bed.hpp), the ground is the bed alone.
-/// On several ranks each takes the grains of its subdomain.
-Ground buildGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {});
+class VehicleParts;
+struct ContactLedger;
+struct Ledger;
+struct SimulationState;
+struct VehicleState;
 
-/// A ground whose bed has come to rest.
-struct SettledGround {
-  Ground ground;
-  SettleReport report;
+/// Constants of a ground that the vehicle's assembly depends on.
+struct GroundTraits {
+  base::Comm comm;                                 ///< ranks that share the ground; one: each rank has all of it
+  ReplicatedWork replicated;                       ///< for work that every rank does alike
+  double smallestGrain = base::kInfinity;          ///< radius [m], which limits how coarsely parts are cut
+  const terrain::HeightField* hullMeets = nullptr; ///< an elastic foundation for the hull, computed with the obstacles
+  bool hasMomentum = false; ///< whether what the parts give the ground stands in its own momentum, see Ledger
 };
-/// Builds it, and lets its bed settle where the scene gives that time.
-SettledGround settledGround(const GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
-                            const base::Comm& comm = {});
+
+/// The parts of a vehicle as a ground meets them. `assembly` and `parts` outlive the ground's steps.
+struct PartsOnGround {
+  const vehicle::Assembly& assembly; ///< its spec.contact holds the vehicle's contact parameters
+  const VehicleParts& parts;         ///< sphere sets; contact part c is part parts.partOf(c) of the assembly
+  contact::PatchQuanta quanta;       ///< of the vehicle's other contacts: its weight fits many thousand times
+  double timeStep{};                 ///< [s]
+  double margin{};                   ///< how far parts move at most between two calls of refreshContacts() [m]
+  bool shoesOnly{};                  ///< whether the scene lets the soil meet no other part
+};
+
+/// Units of the integer sums in which a ground returns its loads on parts.
+struct LoadQuanta {
+  base::FixedPoint force, torque; ///< [N], [N m]
+};
+
+/// Candidates for contact.
+struct ListedContacts {
+  std::size_t samples{};    ///< of parts against parts and what is rigid
+  std::size_t grainPairs{}; ///< of grain and part
+};
+
+/// A ground that a vehicle drives on. Derive from it to add a kind of ground (docs/adding_a_ground.md); RigidGround is
+/// the shortest example. Vehicle and step loop know no more of a ground than this. SI units.
+///
+/// The functions stand in the order in which a simulation calls them. All ranks call all of them, in one order. A
+/// ground that is not divided among ranks is computed by every rank alike, to the same bits.
+class Ground {
+public:
+  Ground() = default;
+  Ground(const Ground&) = delete;
+  Ground& operator=(const Ground&) = delete;
+  virtual ~Ground() = default;
+
+  // Before the first step.
+
+  /// Puts back what save() wrote, in a simulation that goes on from a saved state; before all functions below.
+  /// Throws base::InputError where the state is of another ground.
+  virtual void restore(const SimulationState&) {}
+  /// Height of the undisturbed surface at (x, y) [m], for as long as the ground lives. The vehicle is set down on it, and
+  /// sinkage is measured from it. Null where there is none.
+  virtual std::function<double(double x, double y)> surface() const = 0;
+  /// How much higher than surface() requires an assembled vehicle must stand, so that it touches nothing [m].
+  virtual double clearance(const vehicle::Assembly&) const { return 0; }
+  virtual GroundTraits traits() const { return {}; }
+  /// Takes the parts of the vehicle, once; without a vehicle this and all that concerns contacts is never called, and
+  /// no memory is used for it. Returns the units of compute()'s sums.
+  virtual LoadQuanta meet(const PartsOnGround& parts) = 0;
+  /// Puts back the history of contacts with the parts that saveContacts() wrote.
+  virtual void restoreContacts(const VehicleState&) {}
+
+  // One step, in this order.
+
+  /// Renews the ground's own lists where they have ended. True: refreshContacts() is due, however little parts moved.
+  virtual bool refreshLists() { return false; }
+  /// Lists what the parts at these places may touch until one has moved by the margin. Not in every step. `motion`:
+  /// one a contact part, on the device, as in compute().
+  virtual void refreshContacts(const base::Array<contact::PartMotion>& motion) = 0;
+  /// Queues the ground's own work that needs no poses of the vehicle; it may run beside compute().
+  virtual void beginUncoupled() {}
+  /// Changes where compute() reads other memory than in the step before, as of a double buffer: work is recorded and
+  /// replayed for each value. Null: always the same memory.
+  virtual const void* buffer() const { return nullptr; }
+  /// Queues the contacts of this step on the device, without waiting for it; recorded as a graph on a GPU, so launches
+  /// must be the same in every step between two calls of refreshContacts(). Adds to loads[c] force and torque on contact
+  /// part c about its centre of mass, in integers, whose sums do not depend on their order. loads[number of parts] is
+  /// the ground's own. `exec`: a stream beside that of the track's contacts. `travelled`, on the device: no part has
+  /// moved farther since refreshContacts() [m].
+  virtual void compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double* travelled,
+                       contact::PartLoad* loads) = 0;
+  /// Gives the ground its own sum of compute(), over all ranks of traits().comm.
+  virtual void collect(const contact::PartLoad&) {}
+  /// Queues the ground's motion or change of shape under these contacts; the host then solves the vehicle beside it.
+  virtual void beginStep() {}
+  /// Waits for it. Throws base::SimulationError at a fault.
+  virtual void endStep() {}
+  /// Between two steps, where gravity is set from outside: it acts from the next one on [m/s2].
+  virtual void setGravity(const base::Vec3d&) {}
+
+  // Output. None of it changes the state.
+
+  /// Adds energies [J] and momenta of the ground itself.
+  virtual void addTo(Ledger&) {}
+  /// Adds energies of the contacts with parts [J] and their numbers, as of the last step.
+  virtual void addContactsTo(ContactLedger&) const {}
+  virtual ListedContacts listed() const { return {}; }
+  /// Heights of the surface as it lies now [m] at the nodes of the undisturbed one; empty where it does not change.
+  virtual std::vector<double> surfaceNow() const { return {}; }
+  /// Begins new means and maxima: called after every row of output.
+  virtual void restartMeans() {}
+
+  // State. All on which later bits depend; hash and checkpoint are taken of it.
+
+  /// Writes the ground's own state: grains into `grains`, another kind as plain numbers into `ground`.
+  virtual void save(SimulationState&) const {}
+  /// Writes the history of contacts with the parts: `ground` or `bed`; another kind may keep it in save().
+  virtual void saveContacts(VehicleState&) const {}
+};
 
 } // namespace grouser::coupling

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@
 
 namespace grouser::coupling {
 
+class Ground;
 struct GroundSetup;
 
 /// When a bed counts as at rest.
@@ -86,6 +88,10 @@ struct GrainsSetup {
   bool manyKinds{};                     ///< grains differ in radius or material
   std::vector<std::string> materials;   ///< of the grains, by name
   std::optional<double> impactSpeed;    ///< for which the step was chosen, where there are hertz contacts [m/s]
+
+  /// Whether a run that goes on makes its grains of the saved ones: where something was put on a settled bed, or where a
+  /// tile was copied, it need not settle again.
+  bool isMadeOfState() const { return bed && (bed->alone || bed->tile); }
 };
 
 /// What a scene's vehicle or grains stand on.
@@ -96,6 +102,8 @@ struct GroundSetup {
   std::vector<SurfaceSetup> surfaces;          ///< that grains meet: planes that move or have a name, boxes, ...
   std::vector<Obstacle> obstacles;             ///< that parts of the vehicle meet
   std::optional<GrainsSetup> grains;
+  /// Makes a kind of ground that is neither of grains nor rigid; empty: see makeGround(). What it is given outlives it.
+  std::function<std::unique_ptr<Ground>(const GroundSetup&, const base::Exec&)> otherKind;
 };
 
 } // namespace grouser::coupling

@@ -34,9 +34,9 @@ std::vector<terrain::GrainSpec> laidGrains(const GroundSetup& setup, const BedSe
 
 } // namespace
 
-Ground layGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm,
+LaidGround layGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm,
                  const std::vector<terrain::GrainSpec>* start) {
-  Ground ground;
+  LaidGround ground;
   ground.surface = setup.surface, ground.rigid = setup.rigid;
   if (!setup.grains) return ground;
   const GrainsSetup& g = *setup.grains;
@@ -52,19 +52,19 @@ Ground layGround(const GroundSetup& setup, const base::Exec& exec, const base::C
   return ground;
 }
 
-void keepSurface(Ground& ground, const base::Exec& exec) {
+void keepSurface(LaidGround& ground, const base::Exec& exec) {
   ground.undisturbed = std::make_shared<terrain::BedSurface>(exec, *ground.grains, ground.rigid->view(), *ground.walls);
 }
 
-void keepSurface(Ground& ground, const std::vector<double>& heights, double radius) {
+void keepSurface(LaidGround& ground, const std::vector<double>& heights, double radius) {
   ground.undisturbed = std::make_shared<terrain::BedSurface>(*ground.walls, 2 * radius, heights);
 }
 
-std::vector<double> surfaceNow(const Ground& ground, const base::Exec& exec) {
+std::vector<double> surfaceNow(const LaidGround& ground, const base::Exec& exec) {
   return terrain::BedSurface(exec, *ground.grains, ground.rigid->view(), *ground.walls).heights();
 }
 
-terrain::BedExtent extentOf(const Ground& ground, const terrain::BedSurface& surface) {
+terrain::BedExtent extentOf(const LaidGround& ground, const terrain::BedSurface& surface) {
   const terrain::HeightField& floor = *ground.rigid;
   const base::Period& period = ground.grains->system().constants.period;
   return {*ground.walls,
@@ -73,7 +73,7 @@ terrain::BedExtent extentOf(const Ground& ground, const terrain::BedSurface& sur
           [&](double x, double y) { return surface.height(x, y); }};
 }
 
-terrain::BedStructure structureOf(const Ground& ground) {
+terrain::BedStructure structureOf(const LaidGround& ground) {
   return terrain::measureBed(*ground.grains, extentOf(ground, *ground.undisturbed));
 }
 
@@ -87,7 +87,7 @@ void checkStructure(const BedSetup& bed, const terrain::BedStructure& structure)
                   1 - structure.porosity, *bed.densest, 100 * structure.order));
 }
 
-std::function<double(double, double)> surfaceHeight(const Ground& ground) {
+std::function<double(double, double)> surfaceHeight(const LaidGround& ground) {
   if (const auto bed = ground.undisturbed) return [bed](double x, double y) { return bed->height(x, y); };
   if (!ground.surface) return {};
   const auto field = std::make_shared<terrain::HeightField>(*ground.surface);

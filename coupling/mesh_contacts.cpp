@@ -2,7 +2,6 @@
 #include "coupling/mesh_contacts.hpp"
 
 #include "coupling/grain_part_model.hpp"
-#include "coupling/ground.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

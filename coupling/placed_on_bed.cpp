@@ -154,7 +154,7 @@ std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const terrain::G
   return all;
 }
 
-void makeGrains(Ground& ground, const GroundSetup& scene, const std::vector<terrain::GrainSpec>& start,
+void makeGrains(LaidGround& ground, const GroundSetup& scene, const std::vector<terrain::GrainSpec>& start,
                 const base::Exec& exec, const base::Comm& comm) {
   const GrainsSetup& g = *scene.grains;
   terrain::PartitionOptions partition = g.partition;
@@ -266,7 +266,7 @@ void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const bas
   for (const PlacedGrains& p : scene.grains->onBed) requireRoomFor(p, scene);
 }
 
-void takeIntoScene(Ground& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm) {
+void takeIntoScene(LaidGround& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm) {
   const GrainsSetup &alone = *scene.grains->bed->alone->grains, &all = *scene.grains;
   const GrainState bed = ground.grains->state();
   const base::PositionScale scale = ground.grains->scale();
@@ -284,8 +284,9 @@ void takeIntoScene(Ground& ground, const GroundSetup& scene, const base::Exec& e
   ground.grains->restore(rows);
 }
 
-Ground groundAt(const GroundSetup& scene, const GrainState& rows, const base::Exec& exec, const base::Comm& comm) {
-  Ground ground;
+LaidGround groundAt(const GroundSetup& scene, const GrainState& rows, const base::Exec& exec,
+                const base::Comm& comm) {
+  LaidGround ground;
   ground.surface = scene.surface, ground.rigid = scene.rigid;
   ground.walls = scene.grains->bed->walls;
   std::vector<int> materials(std::max<std::size_t>(1, scene.grains->materials.size()));
@@ -295,7 +296,7 @@ Ground groundAt(const GroundSetup& scene, const GrainState& rows, const base::Ex
   return ground;
 }
 
-void putGrains(Ground& ground, const GroundSetup& scene) {
+void putGrains(LaidGround& ground, const GroundSetup& scene) {
   terrain::Grains& grains = *ground.grains;
   for (const PlacedGrains& p : scene.grains->onBed) {
     grains.onInsertionOverlap([&](const terrain::InsertionOverlap& o) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 #include "terrain/grain_state.hpp"
 
 #include <vector>
@@ -24,13 +24,13 @@ void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const bas
 /// Gives the grains of a settled bed the walls, surfaces, materials and radii of the whole scene: `ground` holds the
 /// bed alone before, and the same grains as the scene knows them after, where they lie and with the springs of their
 /// contacts. Where larger grains are put on the bed, its places are rounded to their units.
-void takeIntoScene(Ground& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm);
+void takeIntoScene(LaidGround& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm);
 /// The same of a saved state, whose rows this rank has: grains of the scene at those places.
-Ground groundAt(const GroundSetup& scene, const terrain::GrainState& rows, const base::Exec& exec,
+LaidGround groundAt(const GroundSetup& scene, const terrain::GrainState& rows, const base::Exec& exec,
                 const base::Comm& comm);
 
 /// Adds the grains that are put on the bed, with the ids that follow. Throws InputError where one would lie in a grain
 /// or a surface deeper than run.max_overlap.
-void putGrains(Ground& ground, const GroundSetup& scene);
+void putGrains(LaidGround& ground, const GroundSetup& scene);
 
 } // namespace grouser::coupling

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "terrain/grains.hpp"
+#include "terrain/grain_distribution.hpp"
 
 #include <chrono>
 
@@ -12,8 +12,8 @@ namespace grouser::coupling {
 class ReplicatedWork {
 public:
   ReplicatedWork() = default;
-  /// `grains` outlive it; null without.
-  explicit ReplicatedWork(terrain::Grains* grains) : ranks_(grains ? grains->distribution() : nullptr) {}
+  /// `ranks`: of the grains, which outlive it; null on one rank.
+  explicit ReplicatedWork(terrain::GrainDistribution* ranks) : ranks_(ranks) {}
 
   template <class Work> void run(const Work& work) const {
     if (!ranks_) return work();

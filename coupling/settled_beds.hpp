@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 
 namespace grouser::coupling {
 

@@ -29,7 +29,7 @@ constexpr double kStillPrepared = 10; // times the energy of rest: with little f
 /// Porosity of the small bed settled with this friction.
 double porosityAt(const PreparationSetup& preparation, double friction, const base::Exec& exec,
                   const SettleProgress& progress) {
-  Ground ground = layGround(*preparation.sample, exec);
+  LaidGround ground = layGround(*preparation.sample, exec);
   SettleReport report;
   settleWithFriction(*preparation.sample->grains->bed, *ground.grains, friction, progress, report);
   keepSurface(ground, exec);
@@ -37,7 +37,7 @@ double porosityAt(const PreparationSetup& preparation, double friction, const ba
 }
 
 /// What helps a bed on a floor too steep to lie on; empty where it is not.
-std::string steepnessText(const Ground& ground) {
+std::string steepnessText(const LaidGround& ground) {
   const terrain::HeightFieldBounds& floor = ground.rigid->bounds();
   if (!(floor.slope > kSteep) || floor.highest - floor.lowest < kStep * ground.grains->model().radius) return "";
   return fmt::format(
@@ -48,7 +48,7 @@ std::string steepnessText(const Ground& ground) {
 }
 
 /// Fills in how high the bed stands.
-void measureHeight(const Ground& ground, SettleReport& report) {
+void measureHeight(const LaidGround& ground, SettleReport& report) {
   const base::Exec& exec = ground.grains->system().exec;
   const terrain::Rectangle& w = *ground.walls;
   const terrain::BedSurface surface(exec, *ground.grains, ground.rigid->view(), w);
@@ -158,7 +158,7 @@ double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, 
   return friction;
 }
 
-SettleReport settle(const BedSetup& bed, const Ground& ground, const SettleProgress& progress) {
+SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleProgress& progress) {
   terrain::Grains& grains = *ground.grains;
   SettleReport report;
   try {

@@ -48,7 +48,7 @@ void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double fri
 /// Prepares the bed, where the scene asks for a porosity, and lets it come to rest under gravity. Throws
 /// SimulationError when the scene's time limit passes first, or when the grains meet a fault: the message says that it
 /// was while the bed settled.
-SettleReport settle(const BedSetup& bed, const Ground& ground, const SettleProgress& progress);
+SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleProgress& progress);
 
 /// The friction that has to act while a bed settles for it to have the porosity wanted: by bisection on small beds,
 /// until one is within 0.002 of it. The same on every device and rank, each of which does all of it. Throws InputError

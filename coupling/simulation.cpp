@@ -2,6 +2,7 @@
 #include "coupling/simulation.hpp"
 
 #include "base/error.hpp"
+#include "coupling/ground_kinds.hpp"
 #include "coupling/placed_on_bed.hpp"
 #include "terrain/grain_faults.hpp"
 #include "terrain/grain_removal.hpp"
@@ -21,28 +22,28 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
     const bool kept = beds && bed.settle.timeLimit > 0;
     SettledGround settled =
         kept ? beds->settle(bedGround(), exec, progress, comm) : settledGround(bedGround(), exec, progress, comm);
-    ground_ = std::move(settled.ground), settled_ = settled.report;
-    keepSurface(ground_, exec);
+    laid_ = std::move(settled.ground), settled_ = settled.report;
+    keepSurface(laid_, exec);
     if (bed.settle.timeLimit > 0) {
-      ground_.structure = structureOf(ground_);
-      checkStructure(bed, *ground_.structure);
+      laid_.structure = structureOf(laid_);
+      checkStructure(bed, *laid_.structure);
     }
     if (isPutOnBed()) {
-      lifts_ = liftsOnto(*ground_.grains, setup_.ground, comm);
+      lifts_ = liftsOnto(*laid_.grains, setup_.ground, comm);
       lift(setup_.ground, lifts_);
-      requireRoom(*ground_.grains, setup_.ground, comm);
-      takeIntoScene(ground_, setup_.ground, exec, comm);
+      requireRoom(*laid_.grains, setup_.ground, comm);
+      takeIntoScene(laid_, setup_.ground, exec, comm);
     }
   } else {
-    ground_ = buildGround(setup_.ground, exec, comm);
+    laid_ = buildGround(setup_.ground, exec, comm);
   }
-  surface_ = withObstacles(surfaceHeight(ground_), setup_.ground.obstacles);
-  if (setup_.vehicle) vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, spheres);
+  makeActingGround();
+  if (setup_.vehicle) makeVehicle(spheres);
   if (setup_.mechanism) mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
-  if (ground_.grains) ground_.grains->setSteps(0);
+  if (laid_.grains) laid_.grains->setSteps(0);
   makeSurfaces(nullptr);
-  if (isPutOnBed()) putGrains(ground_, setup_.ground);
-  if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains, spheres);
+  if (isPutOnBed()) putGrains(laid_, setup_.ground);
+  makeMeshContacts(spheres);
   start_ = wholeLedger();
   addGrains();
 }
@@ -62,27 +63,26 @@ void Simulation::step(StepObserver* observer) {
   const auto done = [observer](Stage stage) {
     if (observer) observer->after(stage);
   };
-  terrain::Grains* grains = ground_.grains.get();
   if (vehicle_) vehicle_->setSurfacePoses();
   done(Stage::surfacePoses);
-  const bool slotsChanged = grains && grains->refreshNeighbours();
+  const bool listsEnded = ground_ && ground_->refreshLists();
   done(Stage::neighbourList);
-  if (vehicle_) vehicle_->refreshLists(grains, slotsChanged);
+  if (vehicle_) vehicle_->refreshLists(listsEnded);
   done(Stage::partLists);
-  if (vehicle_ && grains) grains->beginBoundaries();
+  if (ground_) ground_->beginUncoupled();
   done(Stage::boundaries);
-  if (vehicle_) vehicle_->computeContacts(grains, observer);
+  if (vehicle_) vehicle_->computeContacts(observer);
   if (vehicle_) base::synchronize(exec_), vehicle_->collectLoads();
   done(Stage::partLoads);
-  if (surfaces_) surfaces_->computeContacts(*grains, steps_, slotsChanged);
-  if (grains) grains->beginStep(partLoads());
+  if (surfaces_) surfaces_->computeContacts(*laid_.grains, steps_, listsEnded);
+  if (ground_) ground_->beginStep();
   done(Stage::grainStep);
-  // The device works on the grains while the host solves vehicle or mechanism.
+  // The device works on the ground while the host solves vehicle or mechanism.
   if (vehicle_) vehicle_->advance();
   if (mechanism_) mechanism_->advance();
   done(Stage::multibody);
-  if (grains) namingCause([&] { grains->endStep(); });
-  if (surfaces_) surfaces_->advance(*grains, steps_);
+  if (ground_) namingCause([&] { ground_->endStep(); });
+  if (surfaces_) surfaces_->advance(*laid_.grains, steps_);
   done(Stage::grainStepEnded);
   ++steps_;
   takeOutCrushed();
@@ -94,11 +94,10 @@ void Simulation::step(StepObserver* observer) {
 
 /// `last`: the next step is not to be launched ahead of this one's end.
 void Simulation::stepAhead(bool last) {
-  terrain::Grains& grains = *ground_.grains;
   vehicle_->setSurfacePoses();
   if (!ahead_->nextIsLaunched()) {
-    const bool slotsChanged = grains.refreshNeighbours();
-    vehicle_->refreshLists(&grains, slotsChanged);
+    const bool listsEnded = ground_->refreshLists();
+    vehicle_->refreshLists(listsEnded);
   } else if (!vehicle_->contacts().listsHold()) {
     throw base::SimulationError(fmt::format("step {}, time {:.4g} s: a part of the vehicle was thrown: within one step "
                                             "it has moved more than four times as "
@@ -120,16 +119,16 @@ void Simulation::stepAhead(bool last) {
 
 /// Whether nothing but grains and vehicle takes part in a step, so that the device can be given work ahead.
 bool Simulation::canStepAhead() const {
-  return vehicle_ && ground_.grains && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
-         setup_.ground.grains->sources.empty() && !setup_.crushes() && terrain::GrainsAhead::canLaunch(*ground_.grains);
+  return vehicle_ && granular_ && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
+         setup_.ground.grains->sources.empty() && !setup_.crushes() && terrain::GrainsAhead::canLaunch(*laid_.grains);
 }
 
 std::int64_t Simulation::advance(std::int64_t most) {
   const bool grainsAlone =
-      ground_.grains && !vehicle_ && !mechanism_ && !surfaces_ && setup_.ground.grains->sources.empty();
+      laid_.grains && !vehicle_ && !mechanism_ && !surfaces_ && setup_.ground.grains->sources.empty();
   const std::int64_t toLook = EnergyGuard::kInterval - steps_ % EnergyGuard::kInterval;
   if (!grainsAlone && steps_ > 0 && canStepAhead()) {
-    if (!ahead_) ahead_ = std::make_unique<StepsAhead>(exec_, *ground_.grains, *vehicle_);
+    if (!ahead_) ahead_ = std::make_unique<StepsAhead>(exec_, *granular_, *vehicle_);
     const std::int64_t count = std::min(most, toLook);
     try {
       for (std::int64_t k = 1; k <= count; ++k) {
@@ -147,35 +146,48 @@ std::int64_t Simulation::advance(std::int64_t most) {
     return 1;
   }
   std::int64_t taken = 0;
-  namingCause([&] { taken = ground_.grains->advance(std::min(most, toLook)); });
+  namingCause([&] { taken = laid_.grains->advance(std::min(most, toLook)); });
   steps_ += taken;
   afterStep();
   return taken;
 }
 
-/// Of the rigid parts that touch the grains in this step; null without.
-const contact::GrainLoadsView* Simulation::partLoads() const {
-  if (vehicle_) return vehicle_->contacts().grainLoads();
-  return surfaces_ ? surfaces_->grainLoads() : nullptr;
+/// As laid_ and the setup are now; without it the vehicle hangs.
+void Simulation::makeActingGround() {
+  ground_ = makeGround(laid_, setup_.ground, exec_);
+  granular_ = dynamic_cast<GranularGround*>(ground_.get());
+}
+
+/// `lift` as in VehicleRig.
+void Simulation::makeVehicle(SphereSets* spheres, std::optional<double> lift) {
+  const auto bare = ground_ ? ground_->surface() : std::function<double(double, double)>{};
+  vehicle_ = std::make_unique<VehicleRig>(setup_, exec_, ground_.get(), withObstacles(bare, setup_.ground.obstacles),
+                                          spheres, lift);
 }
 
 /// Makes the surfaces and gives the grains their poses of this step. The grains were built with the poses of t = 0, so
 /// in a resumed run this comes before any contact is computed.
 void Simulation::makeSurfaces(const SurfaceStates* former) {
-  if (!ground_.grains || setup_.ground.surfaces.empty()) return;
+  if (!laid_.grains || setup_.ground.surfaces.empty()) return;
   surfaces_ = std::make_unique<Surfaces>(setup_.ground, setup_.gravity, setup_.timeStep);
   if (former) surfaces_->restore(*former);
-  surfaces_->place(*ground_.grains, steps_);
+  surfaces_->place(*laid_.grains, steps_);
+}
+
+void Simulation::makeMeshContacts(SphereSets* spheres) {
+  if (!surfaces_) return;
+  surfaces_->makeMeshContacts(exec_, *laid_.grains, spheres);
+  granular_->meetMeshes(surfaces_->grainLoads());
 }
 
 /// Adds the grains of the sources that enter before the next step. What they bring with them belongs to the ledger's
 /// start, so that it does not count as a change.
 void Simulation::addGrains() {
-  if (!ground_.grains || setup_.ground.grains->sources.empty()) return;
+  if (!laid_.grains || setup_.ground.grains->sources.empty()) return;
   const std::vector<terrain::GrainSpec> entering = setup_.ground.grains->sources.enteringAt(steps_);
   if (entering.empty()) return;
   const Ledger before = wholeLedger();
-  ground_.grains->add(entering);
+  laid_.grains->add(entering);
   start_.move(before, wholeLedger());
 }
 
@@ -183,14 +195,15 @@ void Simulation::addGrains() {
 /// contacts with parts held is dissipated; all else that they had the ledger goes on counting as it was.
 void Simulation::takeOutCrushed() {
   if (!setup_.crushes()) return;
-  const std::vector<std::uint32_t> ids = vehicle_ ? vehicle_->contacts().endedGrains() : surfaces_->endedGrains();
+  GrainsOnVehicle* onVehicle = granular_->onVehicle();
+  const std::vector<std::uint32_t> ids = onVehicle ? onVehicle->endedGrains() : surfaces_->endedGrains();
   if (ids.empty()) return;
-  if (vehicle_)
-    vehicle_->takeOut(ids);
+  if (onVehicle)
+    onVehicle->takeOut(ids);
   else
     surfaces_->takeOut(ids);
   const Ledger before = wholeLedger();
-  const double mass = terrain::removeGrains(*ground_.grains, ids);
+  const double mass = terrain::removeGrains(*laid_.grains, ids);
   const Ledger after = wholeLedger();
   start_.move(before, after);
   taken_.grains += static_cast<double>(ids.size()), taken_.mass += mass;
@@ -205,17 +218,7 @@ void Simulation::checkAlarm() {
 
 Ledger Simulation::wholeLedger() {
   Ledger l;
-  if (ground_.grains) {
-    const terrain::GrainLedger g = ground_.grains->ledger();
-    l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = l.grainElastic = g.elastic;
-    l.dissipated = {g.damped, g.rubbed, g.slipped, g.rolled, g.yielded, 0, 0, 0};
-    l.work = g.work, l.turnover = g.turnover;
-    l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;
-    l.momentumResidual = g.momentum - g.impulse, l.angularResidual = g.angularMomentum - g.angularImpulse;
-    l.grainContacts = g.contacts, l.boundaryContacts = g.boundaryContacts;
-    l.squeezedPairs = g.squeezed, l.squeezedAtBoundaries = g.squeezedAtBoundaries;
-    l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
-  }
+  if (ground_) ground_->addTo(l);
   if (vehicle_) vehicle_->addTo(l);
   if (surfaces_) surfaces_->addTo(l);
   if (mechanism_) mechanism_->addTo(l);
@@ -231,22 +234,22 @@ Ledger Simulation::ledger() {
 /// The grain that has stopped the run, and what it touches: vehicle and meshes too.
 PressedGrain Simulation::pressed(std::uint32_t grain) {
   PressedGrain pressed = pressedGrain(
-      *ground_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
+      *laid_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
   std::vector<std::pair<std::string, double>> parts;
-  if (vehicle_) parts = vehicle_->contacts().pressing(grain);
+  if (vehicle_) parts = granular_->onVehicle()->pressing(grain);
   if (surfaces_) parts = surfaces_->meshesPressing(grain);
   for (const auto& [name, overlap] : parts) pressed.by.insert(pressed.by.begin(), {name, overlap, {}, true});
   return pressed;
 }
 
 std::optional<PressedMost> Simulation::pressedMost() const {
-  if (vehicle_) return vehicle_->contacts().pressedMost();
+  if (granular_ && vehicle_) return granular_->onVehicle()->pressedMost();
   return surfaces_ ? surfaces_->pressedMost() : std::nullopt;
 }
 
 /// Hertz contacts of faster impacts are stiffer than the step was chosen for.
 std::string Simulation::impactNote(const Ledger& now) const {
-  if (!ground_.grains || !setup_.ground.grains->impactSpeed) return {};
+  if (!laid_.grains || !setup_.ground.grains->impactSpeed) return {};
   const double chosen = *setup_.ground.grains->impactSpeed;
   if (now.fastestGrain <= chosen) return {};
   return fmt::format(
@@ -307,10 +310,10 @@ double Simulation::energyHeld(const Ledger& now) const {
 
 /// What rests on stiff contacts holds next to no energy, yet its weight works on the resolution of its place.
 double Simulation::weightHeld() const {
-  if (!ground_.grains) return 0;
-  const terrain::GrainModel& model = ground_.grains->model();
+  if (!laid_.grains) return 0;
+  const terrain::GrainModel& model = laid_.grains->model();
   const double one = hasBed() ? setup_.ground.grains->bed->restEnergy : model.mass * norm(model.gravity) * model.radius;
-  return one * static_cast<double>(ground_.grains->count() - ground_.grains->system().fixedCount);
+  return one * static_cast<double>(laid_.grains->count() - laid_.grains->system().fixedCount);
 }
 
 std::string Simulation::energyVerdict(const Ledger& now) const { return guard_.judge(now, energyHeld(now)); }

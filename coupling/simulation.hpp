@@ -2,8 +2,9 @@
 #pragma once
 
 #include "coupling/energy_guard.hpp"
-#include "coupling/ground.hpp"
+#include "coupling/granular_ground.hpp"
 #include "coupling/inputs.hpp"
+#include "coupling/settled_ground.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/mechanism.hpp"
 #include "coupling/pressed_grain.hpp"
@@ -64,12 +65,16 @@ public:
   double time() const { return static_cast<double>(steps_) * setup_.timeStep; } ///< since the bed has settled [s]
 
   const base::Comm& comm() const { return comm_; }
-  const Ground& ground() const { return ground_; }
+  const LaidGround& ground() const { return laid_; } ///< height-map, floor and grains as they lie
+  /// What acts on the vehicle, or moves by itself; null where the vehicle hangs, and of a mechanism.
+  const Ground* actingGround() const { return ground_.get(); }
+  const GranularGround* granularGround() const { return granular_; } ///< the same where it is grains; else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
   /// Restarts the means of the observers: called after every row.
   void restartMeans() {
+    if (ground_) ground_->restartMeans();
     if (surfaces_) surfaces_->restartMeans();
     if (vehicle_) vehicle_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
@@ -113,8 +118,10 @@ private:
   std::string causeOf(const terrain::GrainFault& fault);
   PressedGrain pressed(std::uint32_t grain);
   std::string impactNote(const Ledger& now) const;
+  void makeActingGround();
+  void makeVehicle(SphereSets* spheres, std::optional<double> lift = {});
   void makeSurfaces(const SurfaceStates* former);
-  const contact::GrainLoadsView* partLoads() const;
+  void makeMeshContacts(SphereSets* spheres);
   bool hasBed() const { return setup_.ground.grains && setup_.ground.grains->bed; }
   /// Whether the bed settles alone, and what the scene has beyond it comes afterwards.
   bool isPutOnBed() const { return hasBed() && setup_.ground.grains->bed->alone; }
@@ -124,10 +131,11 @@ private:
   SimulationSetup setup_; ///< changes no more once things stand on the settled bed
   base::Exec exec_;
   base::Comm comm_;
-  Ground ground_;
+  LaidGround laid_;
+  std::unique_ptr<Ground> ground_;     ///< null without; refers to laid_
+  GranularGround* granular_{nullptr}; ///< ground_ where it is grains
   SettleReport settled_;
   std::vector<double> lifts_; ///< of what is put on a settled bed; see liftsOnto()
-  std::function<double(double, double)> surface_;
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;

@@ -15,6 +15,7 @@ std::string SimulationState::hash(const base::Comm& comm) const {
   for (const double way : lifts)
     if (way != 0) hash.add(base::bitsAs<std::uint64_t>(way));
   if (vehicle) hash.add(vehicle->words());
+  for (const double number : ground.value_or(std::vector<double>{})) hash.add(base::bitsAs<std::uint64_t>(number));
   if (mechanism) hash.add(mechanism->words());
   Inputs set;
   set.restore(inputs);
@@ -29,13 +30,11 @@ SimulationState Simulation::save() const {
   state.steps = steps_;
   state.settled = settled_;
   state.lifts = lifts_;
-  state.bed = ground_.structure;
   state.ledgerAtStart = start_.counted();
   state.guard = guard_.save();
   state.taken = taken_;
   state.inputs = inputs_.save();
-  if (ground_.undisturbed) state.surface = ground_.undisturbed->heights();
-  if (ground_.grains) state.grains = ground_.grains->state();
+  if (ground_) ground_->save(state);
   if (surfaces_) state.surfaces = surfaces_->save();
   if (vehicle_) state.vehicle = vehicle_->save();
   if (mechanism_) state.mechanism = mechanism_->save();
@@ -44,14 +43,8 @@ SimulationState Simulation::save() const {
 
 namespace {
 
-/// With all grains of the state where something has been put on a settled bed, or where a tile was copied: it need not
-/// settle again.
-bool isMadeOfState(const GroundSetup& setup) {
-  return setup.grains && setup.grains->bed && (setup.grains->bed->alone || setup.grains->bed->tile);
-}
-
-Ground groundOf(GroundSetup& setup, const SimulationState& state, const base::Exec& exec, const base::Comm& comm) {
-  if (!isMadeOfState(setup) || !state.grains) return buildGround(setup, exec, comm);
+LaidGround groundOf(GroundSetup& setup, const SimulationState& state, const base::Exec& exec, const base::Comm& comm) {
+  if (!setup.grains || !setup.grains->isMadeOfState() || !state.grains) return buildGround(setup, exec, comm);
   if (setup.grains->bed->alone) lift(setup, state.lifts);
   return groundAt(setup, *state.grains, exec, comm);
 }
@@ -60,25 +53,20 @@ Ground groundOf(GroundSetup& setup, const SimulationState& state, const base::Ex
 
 Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const SimulationState& state,
                        const base::Comm& comm, SphereSets* spheres)
-    : setup_(std::move(setup)), exec_(exec), comm_(comm), ground_(groundOf(setup_.ground, state, exec, comm)),
+    : setup_(std::move(setup)), exec_(exec), comm_(comm), laid_(groundOf(setup_.ground, state, exec, comm)),
       settled_(state.settled), lifts_(state.lifts), gravity_(setup_.gravity), steps_(state.steps) {
-  if (state.grains.has_value() != (ground_.grains != nullptr) || state.surface.empty() == hasBed() ||
+  if (state.grains.has_value() != (laid_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
       state.mechanism.has_value() != setup_.mechanism.has_value() ||
-      state.surfaces.has_value() != (ground_.grains && !setup_.ground.surfaces.empty()))
+      state.surfaces.has_value() != (laid_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
-  if (hasBed()) keepSurface(ground_, state.surface, bedGround().grains->model.radius);
-  ground_.structure = state.bed;
-  surface_ = withObstacles(surfaceHeight(ground_), setup_.ground.obstacles);
+  makeActingGround();
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
-  if (ground_.grains) {
-    ground_.grains->restore(*state.grains, isMadeOfState(setup_.ground) || !setup_.ground.grains->sources.empty());
-    ground_.grains->setSteps(steps_);
-    if (surfaces_) surfaces_->makeMeshContacts(exec_, *ground_.grains, spheres);
-  }
+  if (ground_) ground_->restore(state);
+  makeMeshContacts(spheres);
   if (setup_.vehicle) {
     // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.
-    vehicle_ = std::make_unique<VehicleRig>(setup_, exec, ground_, surface_, spheres, state.vehicle->lift);
+    makeVehicle(spheres, state.vehicle->lift);
     vehicle_->restore(*state.vehicle);
   }
   if (setup_.mechanism) {

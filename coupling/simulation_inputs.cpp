@@ -71,10 +71,7 @@ void Simulation::setGravity(const base::Vec3d& gravity) {
   if (vehicle_) vehicle_->setGravity(gravity);
   if (mechanism_) mechanism_->setGravity(gravity);
   if (surfaces_) surfaces_->setGravity(gravity);
-  if (!ground_.grains) return;
-  terrain::GrainModel model = ground_.grains->model();
-  model.gravity = gravity;
-  ground_.grains->replaceLaws(model);
+  if (ground_) ground_->setGravity(gravity);
   ahead_.reset(); // its graphs hold the former one
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 #include "coupling/mechanism_state.hpp"
 #include "coupling/surface_state.hpp"
 #include "coupling/vehicle_state.hpp"
@@ -29,6 +29,7 @@ struct SimulationState {
   std::vector<double> ledgerAtStart;        ///< Ledger::counted(): the ledger counts from here
   std::vector<double> guard;                ///< EnergyGuard::save()
   std::optional<terrain::GrainState> grains;
+  std::optional<std::vector<double>> ground; ///< of a ground that is neither of grains nor rigid, as it keeps itself
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;

@@ -5,8 +5,8 @@
 
 namespace grouser::coupling {
 
-StepsAhead::StepsAhead(const base::Exec& exec, terrain::Grains& grains, VehicleRig& vehicle)
-    : grains_(grains), vehicle_(vehicle), gate_(exec), graph_(exec) {}
+StepsAhead::StepsAhead(const base::Exec& exec, GranularGround& ground, VehicleRig& vehicle)
+    : grains_(ground.grains()), onVehicle_(*ground.onVehicle()), vehicle_(vehicle), gate_(exec), graph_(exec) {}
 
 StepsAhead::~StepsAhead() {
   try {
@@ -19,7 +19,7 @@ void StepsAhead::launch() {
   VehicleContacts& contacts = vehicle_.stepContacts();
   if (listings_ != contacts.listings()) graph_.forget();
   listings_ = contacts.listings();
-  graph_.from(grains_.view().position).run([&] { contacts.launchAhead(gate_, grains_); });
+  graph_.from(grains_.view().position).run([&] { contacts.launchAhead(gate_, grains_, onVehicle_); });
   grains_.exchangeBuffers();
   ++launched_;
 }

@@ -3,6 +3,7 @@
 
 #include "base/device_graph.hpp"
 #include "base/gate.hpp"
+#include "coupling/granular_ground.hpp"
 #include "coupling/vehicle_rig.hpp"
 #include "terrain/grains_ahead.hpp"
 
@@ -18,7 +19,7 @@ namespace grouser::coupling {
 class StepsAhead {
 public:
   /// Both outlive it.
-  StepsAhead(const base::Exec& exec, terrain::Grains& grains, VehicleRig& vehicle);
+  StepsAhead(const base::Exec& exec, GranularGround& ground, VehicleRig& vehicle);
   StepsAhead(const StepsAhead&) = delete;
   StepsAhead& operator=(const StepsAhead&) = delete;
   ~StepsAhead();
@@ -43,6 +44,7 @@ private:
   void launch();
 
   terrain::GrainsAhead grains_;
+  GrainsOnVehicle& onVehicle_;
   VehicleRig& vehicle_;
   base::Gate gate_;
   base::DoubleBufferedGraph graph_;

@@ -3,7 +3,8 @@
 
 #include "base/carry.hpp"
 #include "base/error.hpp"
-#include "coupling/grain_part_model.hpp"
+#include "coupling/grains_on_vehicle.hpp"
+#include "terrain/grains_ahead.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,17 +17,17 @@ using base::Vec3d;
 namespace {
 
 constexpr double kTrackMargin = 0.004; // [m] how far before touching a sample is listed
-constexpr double kBedMargin = 0.008;   // [m] the same for grains, beyond their own skin
+constexpr double kGroundMargin = 0.008; // [m] the same for ground and obstacles
 constexpr double kAhead = 0.0005;      // [m] that parts may move in a step launched ahead, however slow they were
 
 } // namespace
 
-VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts, const GroundSetup& setup,
-                                 const base::Exec& exec, double timeStep, const Ground& ground, bool shoesAlone,
-                                 SphereSets* kept)
-    : assembly_(assembly), parts_(parts), exec_(exec), side_(exec, true), graph_(exec),
-      replicated_(ground.grains.get()), timeStep_(timeStep) {
-  if (ground.grains) comm_ = ground.grains->system().comm;
+VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts,
+                                 const std::vector<Obstacle>& obstacles, const base::Exec& exec, double timeStep,
+                                 Ground* ground, bool shoesAlone, SphereSets* kept)
+    : assembly_(assembly), parts_(parts), exec_(exec), side_(exec, true), graph_(exec), ground_(ground),
+      timeStep_(timeStep) {
+  if (ground_) traits_ = ground_->traits();
   const std::size_t n = parts.contactParts();
   travelled_ = base::Mirrored<double>(exec_, 2);
   // Ten thousand times the vehicle's weight on one part is beyond anything that could still be driven.
@@ -35,13 +36,13 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
   quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
   quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums are of one step only
   quanta_.area = base::fixedPointFor(1, 40);
-  groundForceQuantum_ = quanta_.force, groundTorqueQuantum_ = quanta_.torque;
+  groundQuanta_ = {quanta_.force, quanta_.torque};
   makeTrack();
-  makeGround(setup, ground, shoesAlone);
-  makeObstacles(setup, ground, kept);
+  if (ground_) groundQuanta_ = ground_->meet({assembly_, parts_, quanta_, timeStep_, kGroundMargin, shoesAlone});
+  makeObstacles(obstacles, kept);
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n + surfaces());
   if (obstacles_) std::copy(obstacles_->motions().begin(), obstacles_->motions().end(), motion_.host() + n);
-  // And the count of grains that have ended.
+  // And the ground's own.
   loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n + 1 + (obstacles_ ? n + surfaces() : 0));
 }
 
@@ -56,35 +57,10 @@ void VehicleContacts::makeTrack() {
       parts_.setOfContactPart(), pairs);
 }
 
-void VehicleContacts::makeGround(const GroundSetup& setup, const Ground& ground, bool shoesAlone) {
-  if (ground.grains) {
-    const contact::GrainPartModel model = grainPartModel(*setup.grains, *ground.grains, kBedMargin);
-    groundForceQuantum_ = model.force, groundTorqueQuantum_ = model.torque;
-    std::vector<contact::GrainPart> parts;
-    const std::vector<int> sets = parts_.setOfContactPart();
-    for (std::size_t c = 0; c < sets.size(); ++c)
-      parts.push_back(
-          {sets[c], {}, {}, !shoesAlone || assembly_.parts[parts_.partOf(c)].kind == vehicle::PartKind::kShoe});
-    bed_ =
-        std::make_unique<contact::GrainPartContacts>(exec_, model, parts_.sets(), parts, comm_, setup.grains->partLaws);
-    if (auto* ranks = ground.grains->distribution())
-      ranks->onMigrate([this](const std::uint32_t* destination) { bed_->migrate(destination); });
-  } else if (ground.rigid) {
-    const vehicle::ContactSpec& spec = assembly_.spec.contact;
-    const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
-    std::vector<int> shoes;
-    for (const int part : assembly_.groundParts) shoes.push_back(parts_.contactIndex(part));
-    rigidGround_ = std::make_unique<terrain::GroundContacts>(
-        exec_, terrain::GroundContacts::Model{law, quanta_, timeStep_, kBedMargin}, *ground.rigid, parts_.sets(),
-        parts_.setOfContactPart(), shoes);
-  }
-}
-
-void VehicleContacts::makeObstacles(const GroundSetup& setup, const Ground& ground, SphereSets* kept) {
+void VehicleContacts::makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept) {
   const bool hullTouches = parts_.contactIndex(0) >= 0; // the hull stands first among the parts
-  obstacles_ = ObstacleContacts::make(assembly_, parts_, setup.obstacles,
-                                      hullTouches && !ground.grains && ground.rigid ? &*ground.rigid : nullptr, exec_,
-                                      {quanta_, timeStep_, kBedMargin}, comm_, kept);
+  obstacles_ = ObstacleContacts::make(assembly_, parts_, obstacles, hullTouches ? traits_.hullMeets : nullptr, exec_,
+                                      {quanta_, timeStep_, kGroundMargin}, traits_.comm, kept);
 }
 
 contact::PartMotion VehicleContacts::motionOf(std::size_t c, const multibody::State& state) const {
@@ -101,10 +77,10 @@ void VehicleContacts::setPoses(const multibody::State& state) {
 
 /// Two parts approach each other at most as fast as both move relative to the hull.
 bool VehicleContacts::trackHasLeft() const { return 2 * relativeTravel_ > kTrackMargin; }
-bool VehicleContacts::groundHasLeft() const { return (onGround() || obstacles_) && absoluteTravel_ > kBedMargin; }
+bool VehicleContacts::groundHasLeft() const { return (onGround() || obstacles_) && absoluteTravel_ > kGroundMargin; }
 
-void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChanged) {
-  const bool trackIsDue = trackHasLeft(), groundIsDue = groundHasLeft() || (onGround() && slotsChanged);
+void VehicleContacts::refreshLists(bool groundListsEnded) {
+  const bool trackIsDue = trackHasLeft(), groundIsDue = groundHasLeft() || (onGround() && groundListsEnded);
   if (!trackIsDue && !groundIsDue) return;
   ++listings_;
   motion_.upload();
@@ -114,23 +90,19 @@ void VehicleContacts::refreshLists(const terrain::Grains* grains, bool slotsChan
     relativeTravel_ = 0;
   }
   if (!groundIsDue) return;
-  if (bed_) {
-    bed_->refresh(grains->view(), motion_.device());
-    grainLoads_ = bed_->grainLoads();
-  }
-  if (rigidGround_) rigidGround_->refresh(motion_.device());
+  if (ground_) ground_->refreshContacts(motion_.device());
   if (obstacles_) obstacles_->refresh(motion_.device());
   absoluteTravel_ = 0;
 }
 
-void VehicleContacts::compute(const terrain::Grains* grains, StepObserver* observer) {
+void VehicleContacts::compute(StepObserver* observer) {
   noteTravel();
-  if (observer) return computeInParts(grains, *observer);
-  graph_.from(grains ? grains->view().position : nullptr).run([this, grains] {
+  if (observer) return computeInParts(*observer);
+  graph_.from(ground_ ? ground_->buffer() : nullptr).run([this] {
     uploadPoses();
     // Side by side: all write different parts of loadSums_, and read the same poses.
     side_.fork();
-    computeGround(grains, side_.exec());
+    computeGround(side_.exec());
     computeTrack();
     computeObstacles();
     side_.join();
@@ -139,12 +111,12 @@ void VehicleContacts::compute(const terrain::Grains* grains, StepObserver* obser
 }
 
 /// The same one after another, without graph and side stream, so that an observer can time each.
-void VehicleContacts::computeInParts(const terrain::Grains* grains, StepObserver& observer) {
+void VehicleContacts::computeInParts(StepObserver& observer) {
   uploadPoses();
   observer.after(Stage::posesUploaded);
   computeTrack();
   observer.after(Stage::trackContacts);
-  computeGround(grains, exec_);
+  computeGround(exec_);
   computeObstacles();
   observer.after(Stage::groundContacts);
   downloadLoads();
@@ -168,22 +140,22 @@ void VehicleContacts::downloadLoads() {
 
 /// Shoes against sprocket, wheels, rollers, idler.
 void VehicleContacts::computeTrack() {
-  replicated_.run([this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
+  traits_.replicated.run(
+      [this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
 }
 
 /// All parts against the surfaces at rest, and the hull against rigid ground.
 void VehicleContacts::computeObstacles() {
   if (!obstacles_) return;
-  replicated_.run([this] {
+  traits_.replicated.run([this] {
     obstacles_->compute(motion_.device(), travelled_.device().data() + 1, loadSums_.device().data() + obstacleLoads());
   });
 }
 
-/// All parts against the bed, or shoes against rigid ground.
-void VehicleContacts::computeGround(const terrain::Grains* grains, const base::Exec& exec) {
-  contact::PartLoad* groundLoads = loadSums_.device().data() + parts_.contactParts();
-  if (bed_) bed_->computeOn(exec, grains->view(), motion_.device(), groundLoads);
-  if (rigidGround_) rigidGround_->compute(motion_.device(), travelled_.device().data() + 1, groundLoads);
+void VehicleContacts::computeGround(const base::Exec& exec) {
+  if (!ground_) return;
+  ground_->compute(exec, motion_.device(), travelled_.device().data() + 1,
+                   loadSums_.device().data() + parts_.contactParts());
 }
 
 void VehicleContacts::collect(multibody::Loads& loads) {
@@ -193,32 +165,28 @@ void VehicleContacts::collect(multibody::Loads& loads) {
   // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
   constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
   static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
-  if (bed_) comm_.sum(&(loadSums_.host() + n)->force.x, (n + 1) * kNumbers);
+  traits_.comm.sum(&(loadSums_.host() + n)->force.x, (n + 1) * kNumbers);
+  if (ground_) ground_->collect(ground[n]);
   for (multibody::Wrench& wrench : loads.external) wrench = {};
   for (std::size_t c = 0; c < n; ++c) {
     multibody::Wrench& wrench = loads.external[static_cast<std::size_t>(assembly_.parts[parts_.partOf(c)].body)];
     wrench.force += quanta_.force.checked(track[c].force, "forces on a part") +
-                    groundForceQuantum_.checked(ground[c].force, "forces on a part");
+                    groundQuanta_.force.checked(ground[c].force, "forces on a part");
     wrench.torque += quanta_.torque.checked(track[c].torque, "torques on a part") +
-                     groundTorqueQuantum_.checked(ground[c].torque, "torques on a part");
+                     groundQuanta_.torque.checked(ground[c].torque, "torques on a part");
     if (surfaces) {
       wrench.force += quanta_.force.checked(surfaces[c].force, "forces on a part");
       wrench.torque += quanta_.torque.checked(surfaces[c].torque, "torques on a part");
     }
     impulseOnParts_ += ground[c].force;
-    angularOnParts_ += (groundTorqueQuantum_.value(ground[c].torque) +
-                        cross(motion_.host()[c].centre, groundForceQuantum_.value(ground[c].force))) *
+    angularOnParts_ += (groundQuanta_.torque.value(ground[c].torque) +
+                        cross(motion_.host()[c].centre, groundQuanta_.force.value(ground[c].force))) *
                        timeStep_;
   }
 }
 
-std::vector<std::uint32_t> VehicleContacts::endedGrains() const {
-  if (!bed_ || (loadSums_.host() + 2 * parts_.contactParts())->force.x == 0) return {};
-  return bed_->ended();
-}
-
 base::Vec3l VehicleContacts::inGroundQuanta(const base::Vec3l& force) const {
-  return groundForceQuantum_.quantise(quanta_.force.value(force));
+  return groundQuanta_.force.quantise(quanta_.force.value(force));
 }
 
 base::Vec3l VehicleContacts::groundForce(std::size_t index) const {
@@ -250,25 +218,26 @@ void VehicleContacts::trackTravel(const multibody::State& state) {
 bool VehicleContacts::listsHold(bool ahead) const {
   if (!ahead) return !trackHasLeft() && !groundHasLeft();
   return 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin &&
-         absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kBedMargin;
+         absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kGroundMargin;
 }
 
-void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains) {
+void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnVehicle& onGrains) {
+  contact::GrainPartContacts& bed = onGrains.contacts();
   const base::Watch watch = grains.flagsBefore();
   contact::PartLoad *const track = loadSums_.device().data(), *const ground = track + parts_.contactParts();
   grains.launchBoundaries();
   side_.fork();
   gate.carryBefore(
       side_.exec(), watch,
-      std::array{base::Parcel{track, nullptr, loadSums_.bytes()}, track_->clearedSums(), bed_->clearedSums()});
+      std::array{base::Parcel{track, nullptr, loadSums_.bytes()}, track_->clearedSums(), bed.clearedSums()});
   gate.pass(exec_, watch,
             std::array{base::Parcel{motion_.device().data(), motion_.host(), motion_.bytes()},
                        base::Parcel{travelled_.device().data(), travelled_.host(), travelled_.bytes()}});
   side_.join();
   side_.fork();
   track_->computeOnCleared(side_.exec(), motion_.device(), travelled_.device().data(), track, gate.calledOff());
-  bed_->computeOnCleared(exec_, grains.view(), motion_.device(), ground, gate.calledOff());
-  grains.launchGrains(grainLoads_);
+  bed.computeOnCleared(exec_, grains.view(), motion_.device(), ground, gate.calledOff());
+  grains.launchGrains(onGrains.loads());
   side_.fork(); // the loads are told when both are known, while the grains step
   gate.tell(side_.exec(), base::Gate::kFirst, std::array{base::Parcel{loadSums_.host(), track, loadSums_.bytes()}});
   side_.join();
@@ -276,68 +245,32 @@ void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains
   gate.tell(exec_, base::Gate::kSecond, std::array{grains.flagsAfter()});
 }
 
-VehicleContacts::Ledger VehicleContacts::ledger() const {
-  Ledger ledger;
+ContactLedger VehicleContacts::ledger() const {
+  ContactLedger ledger;
   const contact::PatchBuffers::Ledger track = track_->ledger();
   ledger.elastic = track.elastic, ledger.dissipated = track.dissipated, ledger.patches = track.patches;
-  if (rigidGround_) {
-    const contact::PatchBuffers::Ledger ground = rigidGround_->ledger();
-    ledger.elastic += ground.elastic, ledger.dissipated += ground.dissipated, ledger.patches += ground.patches;
-  }
+  if (ground_) ground_->addContactsTo(ledger);
   if (obstacles_) {
     const contact::PatchBuffers::Ledger surfaces = obstacles_->ledger();
     ledger.elastic += surfaces.elastic, ledger.dissipated += surfaces.dissipated, ledger.patches += surfaces.patches;
   }
-  if (bed_) {
-    const contact::GrainPartContacts::Ledger bed = bed_->ledger();
-    ledger.elastic += bed.elastic;
-    ledger.damped = bed.damped, ledger.rubbed = bed.rubbed, ledger.rolled = bed.rolled;
-    ledger.slipped = bed.slipped;
-    ledger.crushed = bed.crushed, ledger.cutImpulse = bed.cutImpulse, ledger.capped = bed.capped;
+  if (traits_.hasMomentum) {
     ledger.angularOnParts = angularOnParts_;
-    ledger.grainContacts = bed.contacts, ledger.squeezed = bed.squeezed;
-    ledger.impulseOnGrains = bed.impulseOnGrains;
-    ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
+    ledger.impulseOnParts = groundQuanta_.force.value(impulseOnParts_) * timeStep_;
   }
   return ledger;
 }
 
-std::vector<std::pair<std::string, double>> VehicleContacts::pressing(std::uint32_t grain) const {
-  std::vector<std::pair<std::string, double>> named;
-  if (!bed_) return named;
-  for (const contact::GrainPartContacts::Press& p : bed_->pressing(grain))
-    named.emplace_back("the " + assembly_.parts[parts_.partOf(static_cast<std::size_t>(p.part))].name,
-                       static_cast<double>(p.overlap));
-  return named;
-}
-
-GearContacts VehicleContacts::gearContacts() const {
-  std::vector<TouchedPart> touches;
-  if (!bed_) return {};
-  for (const contact::GrainPartContacts::Touch& t : bed_->touching())
-    touches.push_back({t.grain, assembly_.parts[parts_.partOf(static_cast<std::size_t>(t.part))].kind});
-  return countGear(touches);
-}
-
-std::optional<PressedMost> VehicleContacts::pressedMost() const {
-  if (!bed_) return {};
-  const auto most = bed_->mostPressed();
-  if (!most) return PressedMost{};
-  const std::size_t part = parts_.partOf(static_cast<std::size_t>(most->part));
-  return PressedMost{static_cast<int>(part), most->grain, most->share};
-}
-
-VehicleContacts::Listed VehicleContacts::listed() const {
-  Listed listed{track_->samplesListed(), bed_ ? bed_->pairs() : 0};
-  if (rigidGround_) listed.samples += rigidGround_->samplesListed();
+ListedContacts VehicleContacts::listed() const {
+  ListedContacts listed = ground_ ? ground_->listed() : ListedContacts{};
+  listed.samples += track_->samplesListed();
   if (obstacles_) listed.samples += obstacles_->samplesListed();
   return listed;
 }
 
 void VehicleContacts::save(VehicleState& s) const {
   s.track = track_->save();
-  if (rigidGround_) s.ground = rigidGround_->save();
-  if (bed_) s.bed = bed_->save();
+  if (ground_) ground_->saveContacts(s);
   if (obstacles_) s.surfaces = obstacles_->save();
   s.impulseOnParts = impulseOnParts_;
   s.angularOnParts = angularOnParts_;
@@ -345,8 +278,7 @@ void VehicleContacts::save(VehicleState& s) const {
 
 void VehicleContacts::restore(const VehicleState& s) {
   track_->restore(s.track);
-  if (rigidGround_) rigidGround_->restore(s.ground);
-  if (bed_) bed_->restore(s.bed);
+  if (ground_) ground_->restoreContacts(s);
   if (obstacles_) obstacles_->restore(s.surfaces);
   impulseOnParts_ = s.impulseOnParts;
   angularOnParts_ = s.angularOnParts;

@@ -4,7 +4,6 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
-#include "coupling/grains_under_shoes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,14 +30,14 @@ vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<doubl
   return vehicle::assemble(setup.spec, options);
 }
 
-base::Comm commOf(const Ground& ground) { return ground.grains ? ground.grains->system().comm : base::Comm{}; }
+GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() : GroundTraits{}; }
 
-/// So much that no shoe stands in a grain, and no part in an obstacle.
-double liftFor(const SimulationSetup& setup, const Ground& ground, const VehicleParts& parts,
+/// So much that no shoe stands in the ground, and no part in an obstacle.
+double liftFor(const SimulationSetup& setup, const Ground* ground, const VehicleParts& parts,
                const std::function<double(double, double)>& surfaceHeight) {
   const VehicleSetup& vehicle = *setup.vehicle;
   double lift = 0;
-  if (vehicle.onTerrain && ground.grains) lift = liftOffGrains(assembled(vehicle, surfaceHeight, 0), *ground.grains);
+  if (vehicle.onTerrain && ground) lift = ground->clearance(assembled(vehicle, surfaceHeight, 0));
   if (setup.ground.obstacles.empty()) return lift;
   return lift + liftOffObstacles(assembled(vehicle, surfaceHeight, lift), parts, setup.ground.obstacles);
 }
@@ -93,15 +92,14 @@ std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehi
 
 } // namespace
 
-VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
+VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Ground* ground,
                        const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
                        std::optional<double> lift)
     : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), stop_(setup.vehicle->stop),
       gravity_(setup.gravity), area_(setup.ground.area), surfaceHeight_(surfaceHeight),
-      replicated_(ground.grains.get()),
-      parts_(std::make_unique<VehicleParts>(
-          assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle, commOf(ground), kept,
-          ground.grains ? ground.grains->system().constants.smallestRadius : base::kInfinity)),
+      replicated_(traitsOf(ground).replicated),
+      parts_(std::make_unique<VehicleParts>(assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle,
+                                            traitsOf(ground).comm, kept, traitsOf(ground).smallestGrain)),
       lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
@@ -109,7 +107,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, con
       thickestStone_(setup.vehicle->thickestStone), heading_(setup.vehicle->place.heading),
       observer_(std::make_unique<vehicle::Observer>(assembly_, observerOptions())),
       blows_(assembly_.mass * norm(gravity_)) {
-  contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground, exec, timeStep_, ground,
+  contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground.obstacles, exec, timeStep_, ground,
                                                 setup.vehicle->soilMeetsShoesAlone, kept);
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
@@ -192,7 +190,6 @@ vehicle::Observation VehicleRig::observe(const vehicle::Observer& observer, cons
 
 void VehicleRig::restartMeans() {
   rowMeans_.restart();
-  contacts_->forgetPressed();
   observer_->restartMeans();
   if (towing_) towing_->restartMeans();
 }
@@ -296,7 +293,7 @@ std::string VehicleRig::alarm(std::int64_t step) {
 
 void VehicleRig::addTo(Ledger& ledger) const {
   const multibody::Balance b = bodiesBalance();
-  const VehicleContacts::Ledger c = contacts_->ledger();
+  const ContactLedger c = contacts_->ledger();
   ledger.kinetic += b.now.kinetic, ledger.work += b.now.kinetic - b.leftOver, ledger.turnover += b.turnover;
   ledger.driveWork += b.driveWork + (towing_ ? towing_->work() : 0) + applied_.work();
   ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;

@@ -28,8 +28,9 @@ namespace grouser::coupling {
 class VehicleRig {
 public:
   /// Reads the meshes, cuts them into spheres, places the vehicle above the ground: `lift` [m] higher than its surface
-  /// asks for; where not given, so high that no shoe stands in a grain. `kept` as in VehicleParts.
-  VehicleRig(const SimulationSetup& setup, const base::Exec& exec, const Ground& ground,
+  /// asks for; where not given, so high that it touches nothing. `ground` outlives it; null where the vehicle hangs.
+  /// `kept` as in VehicleParts.
+  VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Ground* ground,
              const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
              std::optional<double> lift = {});
   VehicleRig(const VehicleRig&) = delete;
@@ -37,8 +38,8 @@ public:
 
   // One step, in this order; see VehicleContacts.
   void setSurfacePoses() { contacts_->setPoses(state_); }
-  void refreshLists(const terrain::Grains* grains, bool slotsChanged) { contacts_->refreshLists(grains, slotsChanged); }
-  void computeContacts(const terrain::Grains* grains, StepObserver* observer) { contacts_->compute(grains, observer); }
+  void refreshLists(bool groundListsEnded) { contacts_->refreshLists(groundListsEnded); }
+  void computeContacts(StepObserver* observer) { contacts_->compute(observer); }
   void collectLoads();                                   ///< once the device has them
   void advance();                                        ///< multibody step
   VehicleContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
@@ -62,7 +63,6 @@ public:
   /// state alone before the first.
   vehicle::Observation watch() const;
   void restartWatch();
-  void takeOut(const std::vector<std::uint32_t>& grains) { contacts_->takeOut(grains); }
   void restartMeans();
   const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
   /// Sum over all parts, mean since restartMeans() [N].

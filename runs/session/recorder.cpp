@@ -43,7 +43,7 @@ std::vector<output::FramePart> frameParts(const coupling::VehicleRig& rig) {
 }
 
 /// What sinkage is measured from; empty without terrain.
-std::optional<output::UndisturbedSurface> undisturbedSurface(const coupling::Ground& ground) {
+std::optional<output::UndisturbedSurface> undisturbedSurface(const coupling::LaidGround& ground) {
   output::UndisturbedSurface s;
   const auto lay = [&s](const terrain::Rectangle& area, int columns, int rows, const std::vector<double>& heights) {
     for (int i = 0; i < columns; ++i) s.x.push_back(area.xMin + area.width() * i / (columns - 1));
@@ -186,7 +186,7 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 
 Recorder::Recorder(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& options,
                    const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total)
-    : simulation_(simulation), record_(record), exec_(exec), begunAt_(simulation.steps()),
+    : simulation_(simulation), record_(record), begunAt_(simulation.steps()),
       channels_(channelsOf(simulation, record.output)), row_(channels_),
       writer_(options.folder, record.provenance, channels_,
               writerOptions(record.output.frames, options, exec, channels_, former, total)) {
@@ -276,7 +276,8 @@ void Recorder::row() {
     row_.set("obstacles/" + obstacles[i].surface.name + "/force", simulation_.vehicle()->meanForceOn(i));
   if (const coupling::VehicleRig* rig = simulation_.vehicle(); rig && rig->towing())
     setHitchRow(row_, rig->towing()->observe(), drawbarPull);
-  if (countsGear(simulation_, record_.output)) setGearRow(row_, simulation_.vehicle()->contacts().gearContacts());
+  if (countsGear(simulation_, record_.output))
+    setGearRow(row_, simulation_.granularGround()->onVehicle()->gearContacts());
   if (const coupling::Mechanism* mechanism = simulation_.mechanism())
     output::setMechanismRow(row_, *mechanism, record_.output.record);
   setLedgerRow(row_, l, !simulation_.mechanism());
@@ -287,12 +288,12 @@ void Recorder::row() {
 }
 
 void Recorder::finalSurface() {
-  const coupling::Ground& ground = simulation_.ground();
-  if (!record_.output.finalSurface || !simulation_.vehicle() || !ground.undisturbed) return;
-  const std::vector<double> heights = coupling::surfaceNow(ground, exec_);
+  if (!record_.output.finalSurface || !simulation_.vehicle() || !simulation_.actingGround()) return;
+  const std::vector<double> heights = simulation_.actingGround()->surfaceNow();
+  const auto undisturbed = undisturbedSurface(simulation_.ground());
   // On several ranks all find the same; radii of what is left must not have changed the nodes.
-  if (heights.size() == ground.undisturbed->heights().size())
-    writer_.finalSurface(heights, static_cast<std::size_t>(ground.undisturbed->columns()));
+  if (undisturbed && !heights.empty() && heights.size() == undisturbed->height.size())
+    writer_.finalSurface(heights, undisturbed->x.size());
 }
 
 void Recorder::frame() {

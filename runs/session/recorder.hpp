@@ -30,7 +30,7 @@ public:
   /// Of a run that has met a fault in the present step, unless there is one of that step. Grains alone may have gone
   /// some steps beyond those that the simulation counts.
   void lastFrame();
-  /// The bed as it lies at the end, where the scene has a vehicle on one.
+  /// The ground's surface as it lies at the end, where a vehicle has changed it.
   void finalSurface();
   /// picture.png of the present state.
   void picture(int width);
@@ -46,7 +46,6 @@ private:
 
   coupling::Simulation& simulation_;
   const setup::RecordSetup& record_;
-  base::Exec exec_;
   const std::int64_t begunAt_; ///< step of the start, or of the checkpoint that the run goes on from
   std::vector<output::Channel> channels_;
   output::RowBuilder row_;

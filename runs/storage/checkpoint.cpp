@@ -66,6 +66,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   archive("/undisturbed_surface", s.surface);
   archive("/lifts", s.lifts);
   archive("/inputs", s.inputs);
+  if (archive.present("/ground", s.ground)) archive("/ground/state", *s.ground);
   if (archive.present("/mechanism", s.mechanism)) {
     archive("/mechanism/bodies", s.mechanism->bodies);
     archive("/mechanism/worst", s.mechanism->worst);

@@ -53,6 +53,7 @@ constexpr Meaning kMeanings[] = {
      "set from outside, ten numbers a setting: step before which, kind, target (track or body), 1 where released, then "
      "six values; kinds in order: sprocket_speed [rad/s], sprocket_torque [N m], throttle [-], hitch_force [N], "
      "hitch_speed [m/s], gravity [m/s2], body_load [N, N m]"},
+    {"ground/state", "-", "of a ground that is neither of grains nor rigid, as it keeps itself"},
     {"mechanism/bodies", "m, -, m/s, rad/s", "places, velocities, springs and books of all bodies"},
     {"mechanism/worst", "m, -, -", "since the last row: widest gap of a joint, most iterations, singular steps"},
     {"mechanism/judged", "-, N, -, -, -",

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/exec.hpp"
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 
 #include <cstdint>
 #include <string>
@@ -30,7 +30,7 @@ struct SampleGrains {
 /// A sample and its step.
 struct Sample {
   double timeStep = 0; ///< [s]
-  coupling::Ground ground;
+  coupling::LaidGround ground;
   terrain::Grains& grains() const { return *ground.grains; }
 };
 

@@ -41,7 +41,7 @@ TEST(SwingGrowth, CountsWhatLastsAndNoPeak) {
 PressedGrain pressedIn(const std::string& text, std::uint32_t id) {
   const scene::Scene scene = setup::parseScene(text, "scene.toml");
   const SimulationSetup setup = setup::simulationSetup(scene);
-  const Ground ground = buildGround(setup.ground, base::cpuExec(1));
+  const LaidGround ground = buildGround(setup.ground, base::cpuExec(1));
   return pressedGrain(
       *ground.grains, setup.ground, [&](std::size_t i) { return setup.ground.surfaces[i].start; }, id);
 }

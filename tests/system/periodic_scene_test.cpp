@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes with periodic boundaries, and beds made of copies of a settled tile.
 #include "base/error.hpp"
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -33,7 +33,7 @@ std::vector<std::string> with(std::vector<std::string> list, const std::vector<s
   return list;
 }
 
-SettleReport settled(const scene::Scene& scene, Ground& ground) {
+SettleReport settled(const scene::Scene& scene, LaidGround& ground) {
   const GroundSetup setup = setup::groundSetup(scene, kStep);
   ground = buildGround(setup, base::cpuExec(1));
   return settle(*setup.grains->bed, ground, [](double, double) {});
@@ -42,7 +42,7 @@ SettleReport settled(const scene::Scene& scene, Ground& ground) {
 TEST(JoinedBed, IsAsDenseAtItsSidesAsInside) {
   // Averaged over the axis, a bed with walls is thinner there: no centre is nearer to them than a radius.
   const auto share = [](const std::vector<std::string>& overrides) {
-    Ground ground;
+    LaidGround ground;
     settled(bed(overrides), ground);
     const auto snapshot = ground.grains->snapshot();
     int near = 0;
@@ -85,7 +85,7 @@ TEST(TiledBed, OfJoinedTilesIsInBalanceAtOnce) {
 }
 
 TEST(TiledBed, BetweenWallsIsABedLikeOneThatFell) {
-  Ground tiled, fallen;
+  LaidGround tiled, fallen;
   settled(bed({"terrain.tile=[0.5, 0.4]", "terrain.settle_kinetic_energy=1e-2"}), tiled);
   settled(bed({"terrain.settle_kinetic_energy=1e-2"}), fallen);
   const auto n = static_cast<double>(fallen.grains->count());
@@ -98,7 +98,7 @@ TEST(TiledBed, BetweenWallsIsABedLikeOneThatFell) {
 TEST(TiledBed, FillsHillsOnALevelFloorUpToTheHeightMap) {
   const scene::Scene scene = bed({"terrain.heightmap=heightmaps/hills.png", "terrain.height_range=[0, 0.3]",
                                   "terrain.floor=flat", "terrain.tile=[0.5, 0.4]"});
-  Ground ground = buildGround(setup::groundSetup(scene, kStep), base::cpuExec(1));
+  LaidGround ground = buildGround(setup::groundSetup(scene, kStep), base::cpuExec(1));
   for (const base::Vec3d& x : ground.grains->snapshot().position)
     ASSERT_LE(x.z, ground.surface->height(x.x, x.y) + 1e-6);
   EXPECT_THROW(buildGround(setup::groundSetup(bed({"terrain.heightmap=heightmaps/hills.png",
@@ -118,7 +118,7 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
         "material = \"soil\"\ngrain_radius = 0.03\nlayers = 3\narrangement = \"lattice\"\nfloor_grains = "
         "false\nwall_friction = 0.5\ntile = [0.5, 0.4]\ncache = false\n" +
         box;
-    Ground ground = buildGround(setup::groundSetup(setup::parseScene(text, "bed.toml"), kStep), base::cpuExec(1));
+    LaidGround ground = buildGround(setup::groundSetup(setup::parseScene(text, "bed.toml"), kStep), base::cpuExec(1));
     for (int k = 0; k < 20; ++k) ground.grains->refreshNeighbours(), ground.grains->step();
     return ground.grains->ledger();
   };

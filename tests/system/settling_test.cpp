@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When a bed counts as settled.
 #include "base/error.hpp"
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -27,7 +27,7 @@ scene::Scene settlingBed(const std::vector<std::string>& overrides) {
 TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
   const auto settled = [](const scene::Scene& scene, double& ratio) {
     const GroundSetup setup = setup::groundSetup(scene, 2e-4);
-    Ground ground = buildGround(setup, base::cpuExec(1));
+    LaidGround ground = buildGround(setup, base::cpuExec(1));
     const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
     ground.grains->refreshNeighbours();
     ground.grains->step();
@@ -45,7 +45,7 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
 TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
   const scene::Scene scene = settlingBed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.3"});
   const GroundSetup setup = setup::groundSetup(scene, 2e-4);
-  Ground ground = buildGround(setup, base::cpuExec(1));
+  LaidGround ground = buildGround(setup, base::cpuExec(1));
   try {
     settle(*setup.grains->bed, ground, [](double, double) {});
     FAIL() << "nothing rests to 1e-9";
@@ -60,7 +60,7 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
 TEST(Settling, WhatIsToldOfARestlessBedIsTheMostOfTheLastFiveLooks) {
   const scene::Scene scene = settlingBed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.26"});
   const GroundSetup setup = setup::groundSetup(scene, 2e-4);
-  Ground ground = buildGround(setup, base::cpuExec(1));
+  LaidGround ground = buildGround(setup, base::cpuExec(1));
   std::vector<double> seen;
   try {
     settle(*setup.grains->bed, ground, [&](double, double agitation) { seen.push_back(agitation); });
@@ -81,7 +81,7 @@ TEST(Settling, WhatIsToldOfARestlessBedIsTheMostOfTheLastFiveLooks) {
 
 TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
   const GroundSetup setup = setup::groundSetup(settlingBed({"material.soil.friction=0.5"}), 2e-4);
-  Ground ground = buildGround(setup, base::cpuExec(1));
+  LaidGround ground = buildGround(setup, base::cpuExec(1));
   const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
   const terrain::GrainLedger now = ground.grains->ledger();
   const terrain::GrainModel& model = ground.grains->model();
@@ -94,7 +94,7 @@ TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
 
 TEST(Settling, ReportsItsHighestGrainAndTheMeanOfTheSurfaceThatSinkageIsMeasuredFrom) {
   const GroundSetup setup = setup::groundSetup(settlingBed({"terrain.floor_grains=true"}), 2e-4);
-  Ground ground = buildGround(setup, base::cpuExec(1));
+  LaidGround ground = buildGround(setup, base::cpuExec(1));
   const SettleReport report = settle(*setup.grains->bed, ground, [](double, double) {});
   keepSurface(ground, base::cpuExec(1));
   EXPECT_EQ(report.meanHeight, structureOf(ground).settledHeight);
@@ -109,7 +109,7 @@ TEST(Settling, ASteepFloorIsNamedWhereItIsTheCause) {
     const scene::Scene scene = settlingBed({"terrain.height_range=[0," + std::to_string(height) + "]",
                                             "terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.1"});
     const GroundSetup setup = setup::groundSetup(scene, 2e-4);
-    const Ground ground = buildGround(setup, base::cpuExec(1));
+    const LaidGround ground = buildGround(setup, base::cpuExec(1));
     try {
       settle(*setup.grains->bed, ground, [](double, double) {});
     } catch (const base::SimulationError& error) {

@@ -2,7 +2,7 @@
 #include "runs/validation/studies/features.hpp"
 
 #include "base/error.hpp"
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/output/frames_file.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -36,7 +36,7 @@ std::string keysOf(const std::string& keys, const std::string& section) {
 
 /// The grains of a scene's bed, where they lie.
 std::vector<terrain::GrainSpec> placesOf(const coupling::GroundSetup& setup, const base::Exec& exec) {
-  const coupling::Ground ground = coupling::buildGround(setup, exec);
+  const coupling::LaidGround ground = coupling::buildGround(setup, exec);
   const terrain::GrainSnapshot at = ground.grains->snapshot();
   std::vector<terrain::GrainSpec> start;
   for (std::size_t i = 0; i < at.position.size(); ++i) {
@@ -138,7 +138,7 @@ jobs::Table measureFeature(const FeaturesCommand& c, const Feature& feature, con
   if (feature.change) feature.change(setups[1]);
   std::vector<terrain::GrainSpec> start;
   if (!feature.ownBeds) start = placesOf(base, exec);
-  coupling::Ground grounds[2];
+  coupling::LaidGround grounds[2];
   for (int k = 0; k < 2; ++k)
     grounds[k] =
         feature.ownBeds ? coupling::buildGround(setups[k], exec) : coupling::layGround(setups[k], exec, {}, &start);
@@ -166,7 +166,7 @@ jobs::Table measureFeature(const FeaturesCommand& c, const Feature& feature, con
 }
 
 jobs::Table measureOutput(const FeaturesCommand& c, const base::Exec& exec, const std::filesystem::path& folder) {
-  coupling::Ground ground = coupling::buildGround(groundOf(c, ""), exec);
+  coupling::LaidGround ground = coupling::buildGround(groundOf(c, ""), exec);
   terrain::Grains& grains = *ground.grains;
   output::FramesFile frames(folder, {}, {});
   const auto write = [&] {

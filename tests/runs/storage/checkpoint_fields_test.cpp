@@ -77,7 +77,7 @@ TEST_F(CheckpointFields, OfPartsThatASceneLacksAreNotMadeUp) {
   c.state.steps = 4;
   writeCheckpoint(path(), c);
   const coupling::SimulationState read = readCheckpoint(path()).state;
-  EXPECT_FALSE(read.grains || read.surfaces || read.vehicle || read.mechanism);
+  EXPECT_FALSE(read.grains || read.ground || read.surfaces || read.vehicle || read.mechanism);
   EXPECT_EQ(read.steps, 4);
 }
 
@@ -102,6 +102,7 @@ const NamedChange kHashed[] = {
     {"rolling angle of a contact", [](coupling::SimulationState& s) { s.grains->contactRolling[0].z += 1; }},
     {"spring of a wall", [](coupling::SimulationState& s) { s.grains->wallShear[1].x += 1; }},
     {"rolling angle of a wall", [](coupling::SimulationState& s) { s.grains->wallRolling[1].y += 1; }},
+    {"ground of another kind", [](coupling::SimulationState& s) { (*s.ground)[1] += 1; }},
     {"offset of a surface", [](coupling::SimulationState& s) { s.surfaces->surfaces[1].offset += 1; }},
     {"lift onto a settled bed", [](coupling::SimulationState& s) { s.lifts[1] += 1; }},
     {"speed of a surface", [](coupling::SimulationState& s) { s.surfaces->surfaces[2].speed += 1; }},

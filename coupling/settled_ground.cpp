@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coupling/ground.hpp"
+#include "coupling/settled_ground.hpp"
 
 #include "base/error.hpp"
 #include "coupling/tiled_bed.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 /// The grains of a tile, come to rest. Throws SimulationError where they do not. Every rank has all of them.
 std::unique_ptr<terrain::Grains> settledTile(const TileSetup& tile, const base::Exec& exec) {
-  Ground ground = buildGround(*tile.ground, exec);
+  LaidGround ground = buildGround(*tile.ground, exec);
   const BedSetup& bed = *tile.ground->grains->bed;
   if (bed.settle.timeLimit > 0) settle(bed, ground, [](double, double) {});
   return std::move(ground.grains);
@@ -28,13 +28,13 @@ std::vector<terrain::GrainSpec> tiledGrains(const GroundSetup& setup, const BedS
 
 } // namespace
 
-Ground buildGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm) {
+LaidGround buildGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm) {
   const BedSetup* bed = setup.grains && setup.grains->bed ? &*setup.grains->bed : nullptr;
   if (bed && bed->alone) return buildGround(*bed->alone, exec, comm);
   if (!bed || !bed->tile) return layGround(setup, exec, comm);
   const TiledBed tiles(*bed->tile, *settledTile(*bed->tile, exec), *setup.surface);
   const std::vector<terrain::GrainSpec> start = tiledGrains(setup, *bed, tiles);
-  Ground ground = layGround(setup, exec, comm, &start);
+  LaidGround ground = layGround(setup, exec, comm, &start);
   tiles.bringToRest(*ground.grains, setup.grains->boundaries.walls.size()); // the floor stands behind the walls
   return ground;
 }

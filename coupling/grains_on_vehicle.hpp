@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/grain_part_contacts.hpp"
+#include "coupling/gear_contacts.hpp"
+#include "coupling/ground.hpp"
+#include "coupling/ground_setup.hpp"
+#include "coupling/pressed_grain.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// Contacts of grains with the parts of a vehicle. On several ranks each computes those of its own grains.
+class GrainsOnVehicle {
+public:
+  /// `grains` outlive it, and it outlives their steps: on several ranks it registers with their migration, as
+  /// MeshContacts does.
+  GrainsOnVehicle(const PartsOnGround& parts, const GrainsSetup& setup, terrain::Grains& grains,
+                  const base::Exec& exec);
+  GrainsOnVehicle(const GrainsOnVehicle&) = delete;
+  GrainsOnVehicle& operator=(const GrainsOnVehicle&) = delete;
+
+  contact::GrainPartContacts& contacts() { return contacts_; }
+  const LoadQuanta& quanta() const { return quanta_; }
+  void refresh(const base::Array<contact::PartMotion>& motion);
+  /// For the grains' step, until the next refresh().
+  const contact::GrainLoadsView& loads() const { return loads_; }
+
+  /// Names of the parts that press a grain, and by how much [m]; all ranks call it.
+  std::vector<std::pair<std::string, double>> pressing(std::uint32_t grain) const;
+  /// How many pairs of grain and part have ended in this step, of all ranks.
+  void countEnded(std::int64_t pairs) { ended_ = pairs; }
+  /// Grains that were crushed to their middle in this step, by id; of all ranks, which all call it.
+  std::vector<std::uint32_t> endedGrains() const;
+  void takeOut(const std::vector<std::uint32_t>& grains) { contacts_.takeOut(grains); }
+  GearContacts gearContacts() const; ///< of the last step; of all ranks, which all call it. For rows, not for steps.
+  /// Since forgetPressed(); of all ranks, which all call it.
+  PressedMost pressedMost() const;
+  void forgetPressed() { contacts_.forgetPressed(); }
+
+  void addTo(ContactLedger& ledger) const;
+  void save(VehicleState& state) const;
+  void restore(const VehicleState& state);
+
+private:
+  std::size_t partOf(int contactPart) const;
+
+  const vehicle::Assembly& assembly_;
+  const VehicleParts& parts_;
+  terrain::Grains& grains_;
+  LoadQuanta quanta_;
+  contact::GrainPartContacts contacts_;
+  contact::GrainLoadsView loads_;
+  std::int64_t ended_{0};
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/granular_ground.hpp"
+
+#include "coupling/grains_under_shoes.hpp"
+#include "coupling/ledger.hpp"
+#include "coupling/simulation_state.hpp"
+
+namespace grouser::coupling {
+
+double GranularGround::clearance(const vehicle::Assembly& assembly) const { return liftOffGrains(assembly, grains()); }
+
+GroundTraits GranularGround::traits() const {
+  GroundTraits traits;
+  traits.comm = grains().system().comm;
+  traits.replicated = ReplicatedWork(grains().distribution());
+  traits.smallestGrain = grains().system().constants.smallestRadius;
+  traits.hasMomentum = true;
+  return traits;
+}
+
+LoadQuanta GranularGround::meet(const PartsOnGround& parts) {
+  onVehicle_ = std::make_unique<GrainsOnVehicle>(parts, *setup_.grains, grains(), exec_);
+  return onVehicle_->quanta();
+}
+
+/// Walls and floor; without a vehicle there is nothing that they could run beside.
+void GranularGround::beginUncoupled() {
+  if (onVehicle_) grains().beginBoundaries();
+}
+
+void GranularGround::compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double*,
+                             contact::PartLoad* loads) {
+  onVehicle_->contacts().computeOn(exec, grains().view(), motion, loads);
+}
+
+void GranularGround::setGravity(const base::Vec3d& gravity) {
+  terrain::GrainModel model = grains().model();
+  model.gravity = gravity;
+  grains().replaceLaws(model);
+}
+
+void GranularGround::addTo(Ledger& l) {
+  const terrain::GrainLedger g = grains().ledger();
+  l.kinetic += g.kinetic + g.rotational, l.potential += g.potential;
+  l.elastic += g.elastic, l.grainElastic += g.elastic;
+  l.dissipated.damping += g.damped, l.dissipated.friction += g.rubbed, l.dissipated.microSlip += g.slipped;
+  l.dissipated.rolling += g.rolled, l.dissipated.yielding += g.yielded;
+  l.work += g.work, l.turnover += g.turnover;
+  l.momentum += g.momentum, l.angularMomentum += g.angularMomentum;
+  l.momentumResidual += g.momentum - g.impulse, l.angularResidual += g.angularMomentum - g.angularImpulse;
+  l.grainContacts = g.contacts, l.boundaryContacts = g.boundaryContacts;
+  l.squeezedPairs = g.squeezed, l.squeezedAtBoundaries = g.squeezedAtBoundaries;
+  l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
+}
+
+std::vector<double> GranularGround::surfaceNow() const {
+  return laid_.undisturbed ? coupling::surfaceNow(laid_, exec_) : std::vector<double>{};
+}
+
+void GranularGround::restartMeans() {
+  if (onVehicle_) onVehicle_->forgetPressed();
+}
+
+void GranularGround::save(SimulationState& state) const {
+  state.bed = laid_.structure;
+  if (laid_.undisturbed) state.surface = laid_.undisturbed->heights();
+  state.grains = grains().state();
+}
+
+void GranularGround::restore(const SimulationState& state) {
+  const GrainsSetup& setup = *setup_.grains;
+  if (setup.bed) {
+    const GrainsSetup& alone = setup.bed->alone ? *setup.bed->alone->grains : setup;
+    keepSurface(laid_, state.surface, alone.model.radius);
+  }
+  laid_.structure = state.bed;
+  grains().restore(*state.grains, setup.isMadeOfState() || !setup.sources.empty());
+  grains().setSteps(state.steps);
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A kind of ground that the library does not have, behind the interface that its own kinds have: what
+// docs/adding_a_ground.md promises to who adds one.
+#include "coupling/ground_kinds.hpp"
+#include "coupling/simulation.hpp"
+#include "tests/message_of.hpp"
+#include "tests/terrain/grain_fixture.hpp"
+#include "vehicle/spec_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace grouser::coupling {
+namespace {
+
+using base::Vec3d;
+
+constexpr double kStep = 1e-4;               // [s]
+constexpr double kStiffness = 1e5;           // of each edge [N/m]: the vehicle sinks in by some millimetres
+constexpr double kDamping = 1e3;             // [N s/m]
+constexpr double kGravity = 9.81;            // [m/s2]
+constexpr double kEdges[] = {-0.045, 0.045}; // where a shoe's grousers stand, from its middle [m]
+
+/// Winkler's ground in its simplest form: level, at height 0, with a spring and a dashpot under both edges of each
+/// shoe. The springs also hold an edge where it touched down, and that place is the ground's state.
+class SpringGround : public Ground {
+public:
+  void restore(const SimulationState& state) override { state_ = state.ground.value(); }
+  void save(SimulationState& state) const override { state.ground = state_; }
+  std::function<double(double, double)> surface() const override {
+    return [](double, double) { return 0.0; };
+  }
+  LoadQuanta meet(const PartsOnGround& on) override {
+    const vehicle::ShoeSpec& spec = on.assembly.spec.shoe;
+    for (const int shoe : on.assembly.groundParts)
+      for (const double x : kEdges)
+        edges_.push_back(
+            {static_cast<std::size_t>(on.parts.contactIndex(shoe)), {x, 0, spec.padBottom - spec.grouserHeight}});
+    state_.resize(3 * edges_.size() + 1); // of each edge whether it touches, and where it has since; dissipated [J]
+    return quanta_ = {on.quanta.force, on.quanta.torque};
+  }
+  void refreshContacts(const base::Array<contact::PartMotion>&) override {} // all shoes are looked at in every step
+  void compute(const base::Exec&, const base::Array<contact::PartMotion>& motion, const double*,
+               contact::PartLoad* loads) override {
+    elastic_ = 0;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const contact::PartMotion& shoe = motion.data()[edges_[e].part];
+      const Vec3d p = shoe.toWorld(edges_[e].place), v = shoe.velocityAt(p);
+      double* held = &state_[3 * e];
+      if (p.z < 0 && held[0] == 0) held[1] = p.x, held[2] = p.y;
+      held[0] = p.z < 0 ? 1 : 0;
+      if (held[0] == 0) continue;
+      const Vec3d spring{held[1] - p.x, held[2] - p.y, -p.z}, force = spring * kStiffness - v * kDamping;
+      elastic_ += 0.5 * kStiffness * norm2(spring);
+      state_.back() += kDamping * norm2(v) * kStep;
+      loads[edges_[e].part].force += quanta_.force.quantise(force);
+      loads[edges_[e].part].torque += quanta_.torque.quantise(cross(p - shoe.centre, force));
+    }
+  }
+  void addContactsTo(ContactLedger& ledger) const override {
+    ledger.elastic += elastic_, ledger.dissipated += state_.back();
+  }
+  double elastic() const { return elastic_; }
+
+private:
+  struct Edge {
+    std::size_t part; ///< among the contact parts
+    Vec3d place;      ///< in its frame [m]
+  };
+  std::vector<Edge> edges_;
+  std::vector<double> state_;
+  LoadQuanta quanta_;
+  double elastic_{};
+};
+
+/// One track of the light vehicle, set down on springs; its ramps are as short as the vehicle stands.
+SimulationSetup onSprings() {
+  SimulationSetup setup;
+  setup.timeStep = kStep, setup.gravity = {0, 0, -kGravity};
+  setup.ground.otherKind = [](const GroundSetup&, const base::Exec&) { return std::make_unique<SpringGround>(); };
+  setup.vehicle.emplace();
+  setup.vehicle->spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
+  setup.vehicle->clearance = 0.001, setup.vehicle->onTerrain = true;
+  setup.vehicle->single = true, setup.vehicle->guide = vehicle::HullGuide::pitching;
+  setup.vehicle->sphereRadius = 0.01, setup.vehicle->sphereRadiusGiven = true;
+  setup.vehicle->driver.tensionRamp = 0.05, setup.vehicle->driver.weightRamp = 0.1;
+  setup.vehicle->driver.driveStart = 0.15;
+  return setup;
+}
+
+void advanceTo(Simulation& simulation, double time) {
+  while (simulation.time() < time - 0.5 * kStep) simulation.step();
+}
+
+TEST(OtherGround, CarriesTheVehicleThatSettlesOnIt) {
+  Simulation simulation(onSprings(), base::cpuExec(1), [](double, double) {});
+  advanceTo(simulation, 0.6);
+  simulation.restartMeans();
+  advanceTo(simulation, 0.8);
+  const VehicleRig& rig = *simulation.vehicle();
+  const double weight = kGravity * rig.assembly().mass;
+  const Vec3d force = rig.meanGroundForce();
+  EXPECT_NEAR(force.z, weight, 0.01 * weight) << "the hull still swings on its arms by a hundredth";
+  EXPECT_NEAR(force.x, 0, 0.01 * weight);
+  // Springs that carry W together and share it evenly hold W^2 / (2 n k).
+  const auto& ground = dynamic_cast<const SpringGround&>(*simulation.actingGround());
+  const double carrying = 2 * 14; // edges, at most, of the shoes between first and last road wheel
+  EXPECT_GT(ground.elastic(), 0.99 * weight * weight / (2 * carrying * kStiffness));
+  EXPECT_EQ(simulation.granularGround(), nullptr);
+  EXPECT_EQ(simulation.ground().grains, nullptr);
+}
+
+TEST(OtherGround, GoesOnFromASavedStateWithTheSameBits) {
+  Simulation straight(onSprings(), base::cpuExec(1), [](double, double) {});
+  advanceTo(straight, 0.2);
+  const SimulationState saved = straight.save();
+  Simulation resumed(onSprings(), base::cpuExec(1), saved);
+  EXPECT_EQ(resumed.stateHash(), straight.stateHash());
+  SimulationState moved = saved;
+  for (std::size_t k = 0; k + 3 < moved.ground->size(); k += 3) (*moved.ground)[k + 1] += 1e-4;
+  Simulation elsewhere(onSprings(), base::cpuExec(1), moved);
+  for (Simulation* s : {&straight, &resumed, &elsewhere}) advanceTo(*s, 0.25);
+  EXPECT_EQ(resumed.stateHash(), straight.stateHash());
+  EXPECT_NE(elsewhere.vehicle()->save().words(), straight.vehicle()->save().words()) << "the springs pull elsewhere";
+}
+
+TEST(OtherGround, IsRefusedBesideGrains) {
+  LaidGround laid;
+  laid.grains = std::make_unique<terrain::Grains>(base::cpuExec(1), terrain::testing::ball(1e-5), terrain::Boundaries{},
+                                                  std::vector<terrain::GrainSpec>{{{0, 0, 1}, {}, {}}});
+  const SimulationSetup setup = onSprings();
+  const std::string message = test::messageOf([&] { makeGround(laid, setup.ground, base::cpuExec(1)); });
+  EXPECT_NE(message.find("remove one of them"), std::string::npos) << message;
+}
+
+} // namespace
+} // namespace grouser::coupling
