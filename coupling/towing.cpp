@@ -44,6 +44,8 @@ std::vector<double> Towing::books() const {
   return {work_.sum, work_.lost, forces_.x, forces_.y, forces_.z, speeds_, taken_, static_cast<double>(steps_)};
 }
 
+double Towing::workOf(const std::vector<double>& books) { return multibody::CompensatedSum{books[0], books[1]}; }
+
 void Towing::restore(const std::vector<double>& state, const std::vector<double>& books) {
   hitch_.restore(state);
   if (books.size() != this->books().size())

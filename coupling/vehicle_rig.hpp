@@ -111,6 +111,7 @@ private:
   multibody::State state_;
   multibody::Loads loads_;
   vehicle::Driver driver_;
+  vehicle::Controls asked_; ///< of the last step
   std::optional<Towing> towing_;
   std::unique_ptr<vehicle::Observer> observer_;
   vehicle::BlowMeter blows_;

@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace grouser::vehicle {
@@ -61,6 +62,9 @@ public:
   /// (negative: before it). Once a step.
   base::Vec3d step(const HitchMotion& motion, double sinceDrive, double dt, const base::Vec3d& gravity);
 
+  /// Keeps it from taking hold before this time after the drive [s], in a branch that adds it under way.
+  void holdFrom(double sinceDrive) { late_ = std::max(0.0, sinceDrive - options_.start); }
+
   /// Has it taken hold?
   bool holds() const { return holds_; }
   /// Way of sled or carriage since the hitch took hold [m]: of a sled along its path; 0 of a force.
@@ -86,6 +90,7 @@ private:
   base::Vec3d motion_; ///< its velocity [m/s]
   double way_{};       ///< of sled or carriage [m]
   double speed_{};     ///< of the carriage [m/s]
+  double late_{};      ///< behind options_.start, when it takes hold [s]
 };
 
 } // namespace grouser::vehicle

@@ -13,6 +13,7 @@
 #include "runs/commands/run_warnings.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/session/branch.hpp"
 #include "runs/session/failed_run.hpp"
 #include "runs/session/preparation.hpp"
 #include "runs/session/run_session.hpp"
@@ -171,6 +172,19 @@ void drive(session::RunSession& run) {
   progress.finish(fmt::format("{} step{}", simulation.steps(), simulation.steps() == 1 ? "" : "s"));
 }
 
+void describeOrigin(const coupling::Simulation& simulation, const storage::Checkpoint& former, bool branch) {
+  if (branch)
+    fmt::print("branch    from {} ({:.6g} s)\n", former.branchedFrom->text(), simulation.time());
+  else
+    fmt::print("resumed   at step {}, {:.6g} s\n", simulation.steps(), simulation.time());
+}
+
+/// Steps whose wall time is not in that of this call.
+void noteOrigin(const storage::Checkpoint& former, bool branch, output::Summary& summary) {
+  if (!branch) summary.figures["resumed_at_step"] = static_cast<double>(former.state.steps);
+  if (former.branchedFrom) summary.figures["branched_at_step"] = static_cast<double>(former.branchedFrom->step);
+}
+
 /// `hasFolder`: whether it came so far that the folder is that of this run.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance,
                             const session::RunRequest& options, bool& hasFolder) {
@@ -181,18 +195,23 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
   forecast::requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
   support::FileLock folder; // of a run that goes on; one that begins makes its folder later
-  if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
+  if (options.resume && !options.branch && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<storage::Checkpoint> former = session::formerRun(provenance, options);
   if (!former && comm.first()) warnOfTerrain(scene); // before a bed settles
+  if (options.untilRest && !scene.vehicle)
+    throw base::InputError(fmt::format("{}: --until rest waits for a vehicle; add a section [vehicle], or remove it",
+                                       provenance.file.string()));
   const setup::RecordSetup record = setup::recordSetup(scene, provenance);
+  coupling::SimulationSetup compiled = setup::simulationSetup(scene, comm.size(), setup::SizeChecks::passed);
+  if (options.branch) session::branch(*former, provenance, compiled, options);
   session::Caches kept = session::cachesOf(scene.terrain && scene.terrain->cache, options);
-  const std::unique_ptr<coupling::Simulation> made = session::makeSimulation(
-      setup::simulationSetup(scene, comm.size(), setup::SizeChecks::passed), record, exec, former.get(), options, kept);
+  const std::unique_ptr<coupling::Simulation> made =
+      session::makeSimulation(std::move(compiled), record, exec, former.get(), options, kept);
   coupling::Simulation& simulation = *made;
   const double timeStep = simulation.timeStep();
   const std::int64_t all = std::llround(record.run.duration / timeStep), begin = simulation.steps(),
                      total = std::min(all, options.steps.value_or(all));
-  if (begin > total)
+  if (begin > total || (options.branch && begin == total))
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));
   const double prepared = whole.seconds();
@@ -204,7 +223,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   session::RunSession run(simulation, record, options, exec, former.get(), total);
   hasFolder = true;
   if (!ofBed.empty()) run.writer().fact("bed_warnings", fmt::format("{}", fmt::join(ofBed, "; ")));
-  if (former) fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
+  if (former) describeOrigin(simulation, *former, options.branch);
   output::Summary summary;
   run.record([&] {
     const Stopwatch driving;
@@ -212,14 +231,18 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     run.begin();
     drive(run);
     const double drove = driving.seconds(), waiting = (comm.waited() - waitedBefore) / drove;
-    if (simulation.steps() == total && total < all) run.writer().fact("ended_by", fmt::format("--steps {}", total));
+    const bool endsAtRest = options.untilRest && run.isAtRest();
+    if (endsAtRest)
+      run.writer().fact("ended_by", session::kUntilRest);
+    else if (simulation.steps() == total && total < all)
+      run.writer().fact("ended_by", fmt::format("--steps {}", total));
     const double cpu = 1e-6 * static_cast<double>(comm.sumOf(std::llround(1e6 * (cpuTime() - cpuBefore))));
     if (record.output.picture) run.recorder().picture(record.output.pictureWidth);
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = whole.seconds();
-    describeDrive(scene, simulation, run.recorder().drive().teeth(), run.writer(), summary);
-    if (former) summary.figures["resumed_at_step"] = static_cast<double>(begin);
+    describeDrive(scene, simulation, run.recorder().drive().teeth(), run.writer(), summary, endsAtRest);
+    if (former) noteOrigin(*former, options.branch, summary);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;
     summary.figures["wall_cutting_s"] = kept.spheres ? kept.spheres->cutting() : 0;
     if (simulation.settled().steps > 0) {

@@ -10,11 +10,15 @@
 
 namespace grouser::session {
 
+inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that has stopped before its drive
+
 /// What is asked of a run, beside its scene.
 struct RunRequest {
   std::filesystem::path folder;                ///< of the results
   bool force = false;                          ///< overwrite what is there
   std::optional<std::filesystem::path> resume; ///< go on from this checkpoint, in the folder it lies in
+  bool branch = false;    ///< that checkpoint is of another run: this one begins in a folder of its own
+  bool untilRest = false; ///< stop before the first step of the drive
   bool hash = false;                           ///< take the state hash at the end
   std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
   std::string commandLine;                     ///< for the manifest

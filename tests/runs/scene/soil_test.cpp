@@ -10,6 +10,7 @@
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/storage/checkpoint.hpp"
+#include "runs/storage/scene_changes.hpp"
 #include "tests/runs/folder_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
