@@ -103,9 +103,7 @@ public:
   /// start.
   void takeOver(const std::vector<double>& former, const Handover& from);
   /// When the speeds are those of the table [s], of a drive that began at `start`.
-  double rampEnds(double start) const {
-    return from_ ? from_->time + options_.changeRamp : start + options_.driveRamp;
-  }
+  double rampEnds(double start) const { return from_ ? from_->time + options_.changeRamp : start + options_.driveRamp; }
 
   /// All that changes, for checkpoint and hash: when it began, since when it has been at rest, -1 for never; then what
   /// a course remembers, and what it took over under way. Empty where the start is fixed and there is neither.

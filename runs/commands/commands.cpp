@@ -70,7 +70,8 @@ void chooseCheckpoint(const RunCommand& command, const setup::Provenance& proven
     throw base::InputError(fmt::format("--resume {}: there is no such file; name the checkpoint.h5 of a run, or leave "
                                        "the name away for that in the run's own folder",
                                        command.checkpoint));
-  options.resume = command.checkpoint.empty() ? options.folder / storage::kCheckpointName : fs::path(command.checkpoint);
+  options.resume =
+      command.checkpoint.empty() ? options.folder / storage::kCheckpointName : fs::path(command.checkpoint);
   const fs::path home = fs::absolute(*options.resume).lexically_normal().parent_path();
   const bool isNamed = !command.folder.empty(), isElsewhere = isNamed && !fs::equivalent(options.folder, home, error);
   const storage::Checkpoint origin = storage::readOrigin(*options.resume, options.comm());
@@ -128,7 +129,8 @@ void runCommand(const RunCommand& command) {
   nameIfThere("picture", options.folder / "picture.png");
   nameIfThere("frames", options.folder / "frames.xdmf");
   output::listFiles(options.folder);
-  if (!command.steps && !options.untilRest) fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary)));
+  if (!command.steps && !options.untilRest)
+    fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary)));
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 

@@ -185,6 +185,14 @@ void noteOrigin(const storage::Checkpoint& former, bool branch, output::Summary&
   if (former.branchedFrom) summary.figures["branched_at_step"] = static_cast<double>(former.branchedFrom->step);
 }
 
+/// What of the command line ended the run. `cut`: its last step is not that of the scene.
+void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
+  if (endsAtRest)
+    run.writer().fact("ended_by", session::kUntilRest);
+  else if (cut && run.simulation().steps() == run.total())
+    run.writer().fact("ended_by", fmt::format("--steps {}", run.total()));
+}
+
 /// `hasFolder`: whether it came so far that the folder is that of this run.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance,
                             const session::RunRequest& options, bool& hasFolder) {
@@ -232,10 +240,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     drive(run);
     const double drove = driving.seconds(), waiting = (comm.waited() - waitedBefore) / drove;
     const bool endsAtRest = options.untilRest && run.isAtRest();
-    if (endsAtRest)
-      run.writer().fact("ended_by", session::kUntilRest);
-    else if (simulation.steps() == total && total < all)
-      run.writer().fact("ended_by", fmt::format("--steps {}", total));
+    noteEnd(run, endsAtRest, total < all);
     const double cpu = 1e-6 * static_cast<double>(comm.sumOf(std::llround(1e6 * (cpuTime() - cpuBefore))));
     if (record.output.picture) run.recorder().picture(record.output.pictureWidth);
 

@@ -50,10 +50,10 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
   storage::BedCache* beds = kept.beds ? &*kept.beds : nullptr;
   storage::SphereCache* spheres = kept.spheres ? &*kept.spheres : nullptr;
   if (former && former->timeStep != setup.timeStep)
-    throw base::InputError(fmt::format("{}: run.time_step = \"auto\" is {:g} s with these keys, and {} was written with "
-                                       "{:g} s; give run.time_step, in the run that wrote it too",
-                                       record.provenance.file.string(), setup.timeStep, request.resume->string(),
-                                       former->timeStep));
+    throw base::InputError(
+        fmt::format("{}: run.time_step = \"auto\" is {:g} s with these keys, and {} was written with "
+                    "{:g} s; give run.time_step, in the run that wrote it too",
+                    record.provenance.file.string(), setup.timeStep, request.resume->string(), former->timeStep));
   if (former) return std::make_unique<coupling::Simulation>(std::move(setup), exec, former->state, comm, spheres);
   const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
   const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;

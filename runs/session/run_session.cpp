@@ -18,13 +18,13 @@ std::int64_t stepsOf(double interval, double timeStep) {
 
 RunSession::RunSession(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& request,
                        const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total)
-    : simulation_(simulation), record_(record), resumed_(former != nullptr), untilRest_(request.untilRest), total_(total),
-      rowEvery_(stepsOf(record.run.outputInterval, simulation.timeStep())),
+    : simulation_(simulation), record_(record), resumed_(former != nullptr), untilRest_(request.untilRest),
+      total_(total), rowEvery_(stepsOf(record.run.outputInterval, simulation.timeStep())),
       frameEvery_(stepsOf(record.run.frameInterval, simulation.timeStep())),
       saveEvery_(record.run.checkpointInterval > 0 ? stepsOf(record.run.checkpointInterval, simulation.timeStep())
                                                    : total + 1),
-      recorder_(simulation, record, request, exec, request.branch ? nullptr : former, total), checkpoints_(record.provenance, request),
-      signals_(simulation.comm()) {
+      recorder_(simulation, record, request, exec, request.branch ? nullptr : former, total),
+      checkpoints_(record.provenance, request), signals_(simulation.comm()) {
   if (!former) return;
   checkpoints_.goOnFrom(*former, request.branch);
   if (former->branchedFrom) writer().fact("branched_from", former->branchedFrom->text());

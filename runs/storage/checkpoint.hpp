@@ -26,9 +26,9 @@ GrainLengths lengthsOf(const terrain::Grains& grains);
 
 /// The state of another run that a run has branched from.
 struct BranchPoint {
-  std::string file;    ///< the checkpoint, absolute
-  std::int64_t step{}; ///< of it
-  std::string hash;    ///< of its state
+  std::string file;         ///< the checkpoint, absolute
+  std::int64_t step{};      ///< of it
+  std::string hash;         ///< of its state
   std::string text() const; ///< "FILE, step N, state hash H"
 };
 

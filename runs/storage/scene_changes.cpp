@@ -68,8 +68,9 @@ std::vector<KeyChange> changedKeys(const std::string& was, const std::string& is
 }
 
 bool actsInTheDrive(const std::string& key) {
-  constexpr const char* kDriver[] = {"driver.sprocket_speed", "driver.left",         "driver.right",     "driver.torque",
-                                     "driver.left_torque",    "driver.right_torque", "driver.drive_ramp"};
+  constexpr const char* kDriver[] = {"driver.sprocket_speed", "driver.left",        "driver.right",
+                                     "driver.torque",         "driver.left_torque", "driver.right_torque",
+                                     "driver.drive_ramp"};
   constexpr const char* kSections[] = {"driver.table.", "driver.torques.", "driver.course.", "hitch."};
   return std::find(std::begin(kDriver), std::end(kDriver), key) != std::end(kDriver) ||
          std::any_of(std::begin(kSections), std::end(kSections), [&](auto s) { return key.starts_with(s); });

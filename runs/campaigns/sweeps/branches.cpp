@@ -72,8 +72,9 @@ std::map<std::int64_t, fs::path> settledStates(const SweepPlan& plan, const Swee
   std::map<std::int64_t, fs::path> files;
   for (const auto& [seed, first] : seeds) {
     if (!first->scene.vehicle)
-      throw base::InputError("--from-checkpoint: the scene has no vehicle that could be lowered; name the checkpoint of "
-                             "a run, or leave --from-checkpoint away");
+      throw base::InputError(
+          "--from-checkpoint: the scene has no vehicle that could be lowered; name the checkpoint of "
+          "a run, or leave --from-checkpoint away");
     SweepRun run = *first;
     run.name = seeds.size() > 1 ? fmt::format("{},seed={}", kSettled, seed) : kSettled;
     if (std::any_of(plan.runs.begin(), plan.runs.end(), [&](const SweepRun& r) { return r.name == run.name; }))

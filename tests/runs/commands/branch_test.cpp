@@ -139,7 +139,8 @@ TEST_F(Branch, AtRestIsTheRunThatHadTheseKeysFromTheStart) {
                  {"hitch", "sprocket_speed = 2", kCarriage}};
   for (const auto& [name, drive, more] : kOthers) {
     // Its own state at the branch, then its end.
-    EXPECT_EQ(run(name + "_rest", scene(drive, more), true).stateHash == rest.stateHash, name != "hitch" && name != "course")
+    EXPECT_EQ(run(name + "_rest", scene(drive, more), true).stateHash == rest.stateHash,
+              name != "hitch" && name != "course")
         << name << ": hitch and course have states of their own";
     const std::string hash = run(name, scene(drive, more)).stateHash;
     EXPECT_EQ(branch(name + "_branch", "rest", scene(drive, more)).stateHash, hash) << name;
@@ -247,7 +248,8 @@ TEST_F(Branch, OtherAutomaticStepsAreRefused) {
   const Words step = {"run.time_step=auto"};
   run("rest", scene("sprocket_speed = 2", "", step), true);
   try {
-    branch("no", "rest", scene("sprocket_speed = 2", "[hitch]\nkind = \"speed\"\nslip = 0.1\nstiffness = 1e11\n", step));
+    branch("no", "rest",
+           scene("sprocket_speed = 2", "[hitch]\nkind = \"speed\"\nslip = 0.1\nstiffness = 1e11\n", step));
     ADD_FAILURE();
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("run.time_step"), std::string::npos) << error.what();
@@ -268,7 +270,8 @@ TEST_F(Branch, OfTheProgramGoesToAFolderOfItsOwn) {
       << slow.out;
   EXPECT_EQ(contents(folder_ / "out/v/timeseries.csv"), rows);
   EXPECT_TRUE(fs::exists(folder_ / "out/v_branch/results.h5"));
-  const Outcome named = call("run v.toml --resume out/v/checkpoint.h5 --out named --set driver.sprocket_speed=1 --hash");
+  const Outcome named =
+      call("run v.toml --resume out/v/checkpoint.h5 --out named --set driver.sprocket_speed=1 --hash");
   EXPECT_EQ(named.hash(), slow.hash());
   // Nothing is written over: neither the run that it branches from, even by force, nor a branch.
   for (const char* words :

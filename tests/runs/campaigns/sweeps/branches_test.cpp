@@ -79,7 +79,9 @@ TEST_F(BranchedSweep, LowersTheVehicleOnceAndEndsAsPlainRunsDo) {
   EXPECT_FALSE(fs::exists(folder_ / "given/settled"));
 
   // Again: nothing; with a value more, that one.
-  const auto ended = [&](const char* what) { return fs::last_write_time(folder_ / "branched" / what / "manifest.json"); };
+  const auto ended = [&](const char* what) {
+    return fs::last_write_time(folder_ / "branched" / what / "manifest.json");
+  };
   const auto settled = ended("settled"), first = ended("sprocket_speed=1");
   EXPECT_EQ(sweep("--set driver.sprocket_speed=0.5,1,2 --from-checkpoint --out branched").code, 0);
   EXPECT_EQ(ended("settled"), settled);
@@ -119,7 +121,8 @@ TEST_F(BranchedSweep, KeysThatShapeTheStateAreRefusedBeforeAnythingRuns) {
     EXPECT_FALSE(fs::exists(folder_ / "no")) << words;
   }
   ASSERT_EQ(run("--until rest --out base").code, 0);
-  const Outcome other = sweep("--set driver.sprocket_speed=1,2 --seeds 2 --from-checkpoint base/checkpoint.h5 --out no");
+  const Outcome other =
+      sweep("--set driver.sprocket_speed=1,2 --seeds 2 --from-checkpoint base/checkpoint.h5 --out no");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.error().find("run.seed = 2 was 1"), std::string::npos) << other.errors;
   EXPECT_FALSE(fs::exists(folder_ / "no"));
