@@ -133,7 +133,8 @@ vehicle::Controls VehicleRig::controls() {
 }
 
 void VehicleRig::advance() {
-  vehicle::applyControls(assembly_, controls(), gravity_, loads_);
+  asked_ = controls();
+  vehicle::applyControls(assembly_, asked_, gravity_, loads_);
   replicated_.run([this] {
     if (towing_) towing_->pull(assembly_, state_, driver_, timeStep_, gravity_, loads_);
     applied_.add(state_, loads_);
@@ -244,7 +245,7 @@ std::string VehicleRig::judgeTension() {
 bool VehicleRig::stalls() const {
   constexpr double kShare = 0.05, kTurns = 0.01; // [-], [m/s]
   const std::optional<double> start = driver_.driveStart();
-  if (!start || state_.time < *start + driver_.options().driveRamp) return false;
+  if (!start || state_.time < driver_.rampEnds(*start)) return false;
   bool driven = false;
   for (std::size_t i = 0; i < assembly_.tracks.size(); ++i) {
     const multibody::JointReading& sprocket = state_.joint[assembly_.tracks[i].sprocketJoint];
@@ -315,6 +316,9 @@ VehicleState VehicleRig::save() const {
   s.bodies = state_.save();
   s.observers = observer_->save();
   s.driver = driver_.save();
+  s.asked = vehicle::Handover{!asked_.held, state_.time, asked_.sprocketSpeed, asked_.torque,
+                              vehicle::hullMotion(assembly_, state_).speed}
+                .save();
   if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->books();
   s.appliedWork = applied_.save();
   contacts_->save(s);
@@ -335,6 +339,8 @@ void VehicleRig::restore(const VehicleState& s) {
   state_.restore(s.bodies);
   observer_->restore(s.observers);
   driver_.restore(s.driver);
+  const vehicle::Handover asked = vehicle::Handover::of(s.asked);
+  asked_.held = !asked.driven, asked_.sprocketSpeed = asked.sprocketSpeed, asked_.torque = asked.torque;
   if (towing_) towing_->restore(s.hitch, s.hitchBooks);
   applied_.restore(s.appliedWork);
   contacts_->restore(s);

@@ -19,6 +19,7 @@ struct VehicleState {
   std::vector<double> bodies;     ///< multibody::State::save()
   std::vector<double> observers;  ///< vehicle::Observer::save()
   std::vector<double> driver;     ///< vehicle::Driver::save()
+  std::vector<double> asked;      ///< vehicle::Handover::save() of the last step: from which a branch goes on
   std::vector<double> hitch;      ///< vehicle::Hitch::save(); empty without one
   contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
   contact::SavedPatches ground;   ///< of shoes with rigid ground; empty without it

@@ -61,9 +61,11 @@ double Course::crossTrack(const HullMotion& m) const {
   return p.alongX * (m.y - p.y) - p.alongY * (m.x - p.x);
 }
 
-std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, double dt) {
+std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, double dt, double from) {
   const CourseOptions& o = options_;
-  double speed = std::min(std::fabs(o.speed), o.acceleration * std::max(0.0, time)), curvature = o.curvature;
+  double speed = std::min(std::fabs(o.speed - from), o.acceleration * std::max(0.0, time)), curvature = o.curvature;
+  if (o.speed < from) speed = -speed;
+  if (from != 0) speed += from; // else not even the sign of a 0 changes
   if (onPath()) {
     follow(m);
     speed = std::min(speed, std::sqrt(2 * o.acceleration * std::max(0.0, length() - travelled_)));
@@ -72,7 +74,6 @@ std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, d
     curvature = 2 * (m.forwardX * dy - m.forwardY * dx) /
                 std::max(dx * dx + dy * dy, 0.01 * o.lookAhead * o.lookAhead); // of a hull that has come off far
   }
-  if (o.speed < 0) speed = -speed;
   const double turn = speed * curvature, missing = speed - m.speed, missingTurn = turn - m.turnRate;
   const double speedSum = speedSum_ + o.speedIntegral * missing * dt;
   const double turnSum = turnSum_ + o.turnIntegral * missingTurn * dt;

@@ -46,8 +46,9 @@ class Course {
 public:
   explicit Course(CourseOptions options);
 
-  /// Sprocket speeds left and right [rad/s], for a step of `dt` [s] that begins `time` [s] after the drive.
-  std::array<double, 2> sprocketSpeeds(const HullMotion& motion, double time, double dt);
+  /// Sprocket speeds left and right [rad/s], for a step of `dt` [s] that begins `time` [s] after the drive, or after it
+  /// took over a hull that went at `from` [m/s].
+  std::array<double, 2> sprocketSpeeds(const HullMotion& motion, double time, double dt, double from = 0);
 
   /// Way along the path of the place nearest to the hull that it has come to; never falls [m].
   double travelled() const { return travelled_; }

@@ -67,20 +67,48 @@ std::string Driver::judge(double time, double speed, double load) {
   return "";
 }
 
+std::vector<double> Handover::save() const {
+  return {driven ? 1.0 : 0.0, time, sprocketSpeed[0], sprocketSpeed[1], torque[0], torque[1], hullSpeed};
+}
+
+Handover Handover::of(const std::vector<double>& s) {
+  if (s.size() != kSaved)
+    throw base::InputError("driver: the checkpoint does not say what the sprockets were given; resume with the program "
+                           "that wrote it");
+  return {s[0] != 0, s[1], {s[2], s[3]}, {s[4], s[5]}, s[6]};
+}
+
 std::vector<double> Driver::save() const {
   std::vector<double> saved;
   if (options_.rest) saved = {begun_.value_or(-1), restsSince_.value_or(-1)};
   if (course_)
     for (const double value : course_->save()) saved.push_back(value);
+  if (from_)
+    for (const double value : from_->save()) saved.push_back(value);
   return saved;
 }
 
 void Driver::restore(const std::vector<double>& saved) {
-  if (saved.size() != save().size())
+  const std::size_t start = options_.rest ? 2 : 0, own = start + (course_ ? Course::kSaved : 0);
+  if (saved.size() != own && saved.size() != own + Handover::kSaved)
     throw base::InputError(
         "driver: the checkpoint is of another start of the drive; resume with the scene that was run");
-  if (course_) course_->restore(saved.data() + (saved.size() - Course::kSaved));
+  from_.reset();
+  if (saved.size() > own) from_ = Handover::of({saved.begin() + static_cast<std::ptrdiff_t>(own), saved.end()});
+  if (course_) course_->restore(saved.data() + start);
+  restoreStart(saved);
+}
+
+void Driver::takeOver(const std::vector<double>& former, const Handover& from) {
+  restoreStart(former);
+  if (from.driven) from_ = from;
+}
+
+void Driver::restoreStart(const std::vector<double>& saved) {
   if (!options_.rest) return;
+  if (saved.size() < 2)
+    throw base::InputError("driver: the checkpoint is of a fixed start of the drive; resume with the scene that was "
+                           "run");
   begun_ = saved[0] < 0 ? std::nullopt : std::optional(saved[0]);
   restsSince_ = saved[1] < 0 ? std::nullopt : std::optional(saved[1]);
 }
@@ -92,13 +120,20 @@ Controls Driver::at(double time) const {
   const std::optional<double> start = driveStart();
   if (!start) return controls;
   controls.held = time < *start;
-  const double drive = controls.drive = smoothRamp(time, *start, options_.driveRamp);
+  controls.drive = smoothRamp(time, *start, options_.driveRamp);
   const double t = time - *start;
-  controls.sprocketSpeed = {drive * tableValue(options_.speeds.time, options_.speeds.left, t),
-                            drive * tableValue(options_.speeds.time, options_.speeds.right, t)};
+  controls.sprocketSpeed = {tableValue(options_.speeds.time, options_.speeds.left, t),
+                            tableValue(options_.speeds.time, options_.speeds.right, t)};
   if (options_.drive == SprocketDrive::torque)
-    controls.torque = {drive * tableValue(options_.torques.time, options_.torques.left, t),
-                       drive * tableValue(options_.torques.time, options_.torques.right, t)};
+    controls.torque = {tableValue(options_.torques.time, options_.torques.left, t),
+                       tableValue(options_.torques.time, options_.torques.right, t)};
+  if (from_) {
+    passInto(controls.sprocketSpeed, from_->sprocketSpeed, time);
+    if (options_.drive == SprocketDrive::torque) passInto(controls.torque, from_->torque, time);
+    return controls;
+  }
+  for (std::size_t side = 0; side < 2; ++side)
+    controls.sprocketSpeed[side] *= controls.drive, controls.torque[side] *= controls.drive;
   return controls;
 }
 
@@ -111,9 +146,18 @@ void Commands::layOver(Controls& controls) const {
   }
 }
 
+/// From what a former driver asked for to what this one does.
+void Driver::passInto(std::array<double, 2>& asked, const std::array<double, 2>& former, double time) const {
+  const double share = smoothRamp(time, from_->time, options_.changeRamp);
+  for (std::size_t side = 0; side < 2; ++side) asked[side] = former[side] + share * (asked[side] - former[side]);
+}
+
 Controls Driver::step(double time, double dt, const HullMotion& motion) {
   Controls controls = at(time);
-  if (course_ && !controls.held) controls.sprocketSpeed = course_->sprocketSpeeds(motion, time - *driveStart(), dt);
+  if (!course_ || controls.held) return controls;
+  const double began = from_ ? from_->time : *driveStart();
+  controls.sprocketSpeed = course_->sprocketSpeeds(motion, time - began, dt, from_ ? from_->hullSpeed : 0);
+  if (from_) passInto(controls.sprocketSpeed, from_->sprocketSpeed, time);
   return controls;
 }
 

@@ -45,6 +45,7 @@ struct DriverOptions {
   double weightRamp = 0.3;          ///< then weight and the arms' preload from 0 to full [s]
   double driveStart = 0.45;         ///< time at which the sprockets begin to turn [s], >= tensionRamp + weightRamp
   double driveRamp = 0.3;           ///< sprocket speed from 0 to the table's value [s]
+  double changeRamp = 0.3;          ///< the same from those of another driver, which it takes over from [s]
   std::optional<RestBounds> rest{}; ///< wait until it rests, and no less than until driveStart
   SpeedTable speeds{{0}, {0}, {0}};
   SprocketDrive drive = SprocketDrive::speed;
@@ -72,6 +73,20 @@ struct Commands {
   void layOver(Controls& controls) const;
 };
 
+/// What the sprockets were given by a driver that another one takes over from.
+struct Handover {
+  bool driven = false;                       ///< false: they were held still, the drive had not begun
+  double time = 0;                           ///< [s]
+  std::array<double, 2> sprocketSpeed{0, 0}; ///< left, right [rad/s]
+  std::array<double, 2> torque{0, 0};        ///< [N m]
+  double hullSpeed = 0;                      ///< along the heading [m/s]
+
+  std::vector<double> save() const;
+  /// Throws base::InputError where these are not its numbers.
+  static Handover of(const std::vector<double>& saved);
+  static constexpr std::size_t kSaved = 7;
+};
+
 /// Tension, then weight, then drive, each on a smooth ramp: a step of the tension gives peaks of 16 kN where a ramp
 /// gives 7 kN, a step of the drive to 5 rad/s 99 kN where a ramp of 0.8 s gives 11 kN.
 class Driver {
@@ -93,18 +108,29 @@ public:
   /// When the drive began, or begins for sure [s]; empty while the vehicle is not at rest.
   std::optional<double> driveStart() const { return options_.rest ? begun_ : options_.driveStart; }
 
+  /// Takes over from a driver of other speeds, torques or course, whose save() is `former`. Under way what was asked
+  /// for then passes into what this one asks for over changeRamp; the times of tables still count from the begin of the
+  /// drive, a course takes up its speed from the hull's. Before the drive all is as if it had been there from the
+  /// start.
+  void takeOver(const std::vector<double>& former, const Handover& from);
+  /// When the speeds are those of the table [s], of a drive that began at `start`.
+  double rampEnds(double start) const { return from_ ? from_->time + options_.changeRamp : start + options_.driveRamp; }
+
   /// All that changes, for checkpoint and hash: when it began, since when it has been at rest, -1 for never; then what
-  /// a course remembers. Empty where the start is fixed and there is no course.
+  /// a course remembers, and what it took over under way. Empty where the start is fixed and there is neither.
   std::vector<double> save() const;
   void restore(const std::vector<double>& saved);
   const DriverOptions& options() const { return options_; }
 
 private:
+  void restoreStart(const std::vector<double>& saved);
+  void passInto(std::array<double, 2>& asked, const std::array<double, 2>& former, double time) const;
   static constexpr double kRestTime = 0.05; ///< [s]
 
   DriverOptions options_;
   std::optional<Course> course_;
   std::optional<double> begun_, restsSince_; ///< [s]
+  std::optional<Handover> from_;             ///< of a driver that it took over from under way
 };
 
 /// 3 s^2 - 2 s^3 of s = (time - start) / duration, held to 0 before and 1 after; a step where duration is 0.

@@ -52,7 +52,7 @@ void Hitch::command(std::optional<double> value) {
 
 Vec3d Hitch::step(const HitchMotion& m, double sinceDrive, double dt, const Vec3d& gravity) {
   const HitchOptions& o = options_;
-  const double since = sinceDrive - o.start;
+  const double since = sinceDrive - o.start - late_;
   if (!(since >= 0)) return {};
   if (!holds_) takeHold(m);
   const Vec3d ahead{m.forwardX, m.forwardY, 0};
@@ -97,16 +97,20 @@ Vec3d Hitch::pullCarriage(const HitchMotion& m, double since, double dt) {
 }
 
 std::vector<double> Hitch::save() const {
-  return {holds_ ? 1.0 : 0.0, origin_.x, origin_.y, line_.x,   line_.y, begun_,
-          place_.x,           place_.y,  motion_.x, motion_.y, way_,    speed_};
+  std::vector<double> saved{holds_ ? 1.0 : 0.0, origin_.x, origin_.y, line_.x,   line_.y, begun_,
+                            place_.x,           place_.y,  motion_.x, motion_.y, way_,    speed_};
+  if (late_ > 0) saved.push_back(late_);
+  return saved;
 }
 
 void Hitch::restore(const std::vector<double>& s) {
-  if (s.size() != save().size())
+  constexpr std::size_t kAlways = 12;
+  if (s.size() != kAlways && s.size() != kAlways + 1)
     throw base::InputError("hitch: the checkpoint is of another hitch; resume with the scene that was run");
   holds_ = s[0] != 0;
   origin_ = {s[1], s[2], 0}, line_ = {s[3], s[4], 0}, begun_ = s[5];
   place_ = {s[6], s[7], 0}, motion_ = {s[8], s[9], 0}, way_ = s[10], speed_ = s[11];
+  late_ = s.size() > kAlways ? s[kAlways] : 0;
 }
 
 } // namespace grouser::vehicle

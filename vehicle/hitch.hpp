@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -65,6 +66,8 @@ public:
   /// From the next step on the force [N] of a hitch of kind force, or the speed [m/s] of a carriage, in place of what
   /// the options say; empty: as they say. Ramps stay. Throws base::InputError on another kind.
   void command(std::optional<double> value);
+  /// Keeps it from taking hold before this time after the drive [s], in a branch that adds it under way.
+  void holdFrom(double sinceDrive) { late_ = std::max(0.0, sinceDrive - options_.start); }
 
   /// Has it taken hold?
   bool holds() const { return holds_; }
@@ -84,13 +87,14 @@ private:
 
   HitchOptions options_;
   bool holds_ = false;
-  base::Vec3d origin_;            ///< level place of the hitch when it took hold [m]
-  base::Vec3d line_;              ///< its heading then
-  double begun_{};                ///< speed of the hitch along it then [m/s]
-  base::Vec3d place_;             ///< of the sled, level [m]
-  base::Vec3d motion_;            ///< its velocity [m/s]
-  double way_{};                  ///< of sled or carriage [m]
-  double speed_{};                ///< of the carriage [m/s]
+  base::Vec3d origin_; ///< level place of the hitch when it took hold [m]
+  base::Vec3d line_;   ///< its heading then
+  double begun_{};     ///< speed of the hitch along it then [m/s]
+  base::Vec3d place_;  ///< of the sled, level [m]
+  base::Vec3d motion_; ///< its velocity [m/s]
+  double way_{};       ///< of sled or carriage [m]
+  double speed_{};     ///< of the carriage [m/s]
+  double late_{};      ///< behind options_.start, when it takes hold [s]
   std::optional<double> command_; ///< see command()
 };
 

@@ -144,18 +144,19 @@ class Scene:
     # These methods write the scene beside the folder of its results, as FOLDER.toml; messages name the scene.
 
     @briefly
-    def start(self, out: str | os.PathLike, *, force: bool = False, resume: bool = False, device: str = "",
-              threads: int | None = None, hash: bool = False, cache: bool = True, progress: Tell = None,
-              environment: dict[str, str] | None = None) -> Job:
+    def start(self, out: str | os.PathLike, *, force: bool = False, resume: bool | str | os.PathLike = False,
+              until: str = "", device: str = "", threads: int | None = None, hash: bool = False, cache: bool = True,
+              progress: Tell = None, environment: dict[str, str] | None = None) -> Job:
         """Starts `grouser run` and returns at once; `Run(out)` opens what is there already.
 
-        out: folder of the results. force: overwrite what is in it. resume: go on from its checkpoint. device: "auto",
+        out: folder of the results. force: overwrite what is in it. resume: go on from its checkpoint, or branch
+        from the one that is named, of another run. until: "rest" ends the run before the vehicle drives. device: "auto",
         "cpu" or "cuda"; threads: of the CPU, 0 for all; else as the scene says. hash: print the hash of the final
         state. cache: take and keep settled beds and cut parts. progress: called with each line of progress, from
         another thread. environment: variables beside those of this process.
         """
-        words = [flag for flag, given in (("--force", force), ("--resume", resume), ("--hash", hash),
-                                           ("--no-cache", not cache)) if given]
+        words = [flag for flag, given in (("--force", force), ("--hash", hash), ("--no-cache", not cache)) if given]
+        words += _with_file("--resume", resume) + (["--until", until] if until else [])
         return self._started("run", out, words + _options(device, threads), progress, environment)
 
     @briefly
@@ -180,12 +181,13 @@ class Scene:
     @briefly
     def sweep(self, out: str | os.PathLike, values: Mapping[str, Iterable[Any]] | None = None, *, seeds: int = 0,
               cases: Mapping[str, Mapping[str, Any]] | None = None, jobs: int = 1, force: bool = False,
-              device: str = "", threads: int | None = None, progress: Tell = None,
-              environment: dict[str, str] | None = None) -> Sweep:
+              from_checkpoint: bool | str | os.PathLike = False, device: str = "", threads: int | None = None,
+              progress: Tell = None, environment: dict[str, str] | None = None) -> Sweep:
         """Runs `grouser sweep`: all combinations, which goes on where it stopped.
 
         values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}; a text or a number is one value. cases: {name: {key: value}}, keys that
         change together. seeds: each combination with run.seed 1 to so many. jobs: runs at the same time.
+        from_checkpoint: all runs branch from this checkpoint, or from the vehicle that is lowered once for them (True).
         SimulationError names the runs that failed; `Sweep(out)` opens the others.
         """
         words = ["--jobs", str(jobs)]
@@ -194,7 +196,8 @@ class Scene:
         for name, keys in (cases or {}).items():
             words += ["--case", name + (": " if keys else "") + ", ".join(f"{k}={_word(v)}" for k, v in keys.items())]
         words += ["--seeds", str(seeds)] if seeds else []
-        words += (["--force"] if force else []) + _options(device, threads)
+        words += (["--force"] if force else []) + _with_file("--from-checkpoint", from_checkpoint)
+        words += _options(device, threads)
         self._started("sweep", out, words, progress, environment).wait()
         return Sweep(out)
 
@@ -238,6 +241,13 @@ class Scene:
         except BaseException:
             put_back()
             raise
+
+
+def _with_file(option: str, given: bool | str | os.PathLike) -> list[str]:
+    """Words of an option that may name a file; none where it is not given."""
+    if not given:
+        return []
+    return [option] if given is True else [option, str(Path(given).resolve())]
 
 
 def _own_text(file: Path) -> str | None:

@@ -24,7 +24,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "runs/storage/checkpoint.hpp"
+#include "runs/storage/scene_changes.hpp"
 #include "runs/storage/sphere_cache.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/output_place.hpp"
@@ -63,25 +63,28 @@ void nameIfThere(const char* what, const fs::path& file) {
   if (fs::exists(file)) fmt::print("{:<9} {}\n", what, file.string());
 }
 
-/// A run goes on in the folder of its checkpoint.
-void chooseCheckpoint(const RunCommand& command, session::RunRequest& options) {
-  if (command.checkpoint.empty()) {
-    options.resume = options.folder / storage::kCheckpointName;
-    return;
-  }
-  std::error_code missing;
-  if (!fs::is_regular_file(command.checkpoint, missing))
+/// A run goes on in the folder of its checkpoint; a branch goes elsewhere.
+void chooseCheckpoint(const RunCommand& command, const setup::Provenance& provenance, session::RunRequest& options) {
+  std::error_code error;
+  if (!command.checkpoint.empty() && !fs::is_regular_file(command.checkpoint, error))
     throw base::InputError(fmt::format("--resume {}: there is no such file; name the checkpoint.h5 of a run, or leave "
                                        "the name away for that in the run's own folder",
                                        command.checkpoint));
-  options.resume = command.checkpoint;
-  const fs::path folder = fs::absolute(command.checkpoint).lexically_normal().parent_path();
-  if (command.folder.empty()) options.folder = folder;
-  std::error_code error;
-  if (!fs::equivalent(options.folder, folder, error))
-    throw base::InputError(fmt::format("--out {}: a run goes on in the folder of its checkpoint, {}; leave --out away, "
-                                       "or copy that folder first",
-                                       command.folder, folder.string()));
+  options.resume =
+      command.checkpoint.empty() ? options.folder / storage::kCheckpointName : fs::path(command.checkpoint);
+  const fs::path home = fs::absolute(*options.resume).lexically_normal().parent_path();
+  const bool isNamed = !command.folder.empty(), isElsewhere = isNamed && !fs::equivalent(options.folder, home, error);
+  const storage::Checkpoint origin = storage::readOrigin(*options.resume, options.comm());
+  options.branch = isElsewhere || storage::checkSameScene(origin, *options.resume, provenance).any();
+  if (!options.branch) {
+    if (!command.checkpoint.empty()) options.folder = home;
+    return;
+  }
+  if (!isNamed) options.folder += "_branch";
+  if (fs::equivalent(options.folder, home, error))
+    throw base::InputError(fmt::format("{}: holds the run that this one branches from, with another [driver] or "
+                                       "[hitch]; name another folder with --out, and the checkpoint with --resume {}",
+                                       options.folder.string(), options.resume->string()));
 }
 
 /// Of preparation and steps [s]: what a run without pictures takes.
@@ -116,11 +119,11 @@ void runCommand(const RunCommand& command) {
   options.commandLine = command.commandLine;
   options.switches = switchesText(scene);
   options.ranks = command.ranks;
-  if (command.resume)
-    chooseCheckpoint(command, options);
-  else if (options.comm().first())
-    output::checkOutputFolder(options.folder, options.force);
+  options.untilRest = !command.until.empty();
+  if (!command.resume && options.comm().first()) output::checkOutputFolder(options.folder, options.force);
   const setup::Provenance provenance = setup::provenanceOf(scene);
+  if (command.resume) chooseCheckpoint(command, provenance, options);
+  if (options.branch && options.comm().first()) output::checkOutputFolder(options.folder, options.force);
   const output::Summary summary = runScene(scene, provenance, options);
   if (!options.comm().first()) return;
 
@@ -133,7 +136,8 @@ void runCommand(const RunCommand& command) {
   nameIfThere("picture", options.folder / "picture.png");
   nameIfThere("frames", options.folder / "frames.xdmf");
   output::listFiles(options.folder);
-  if (!command.steps) fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary)));
+  if (!command.steps && !options.untilRest)
+    fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary)));
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 
@@ -151,6 +155,7 @@ void sweepCommand(const SweepCommand& command) {
   options.program = fs::read_symlink("/proc/self/exe");
   options.folder = folder;
   options.jobs = command.jobs, options.seconds = command.seconds, options.force = command.force;
+  if (command.branches) options.from = command.checkpoint;
   if (const int failed = sweeps::runSweep(plan, options))
     throw base::SimulationError(fmt::format("{} of {} failed; their messages stand in {}", failed,
                                             base::counted(plan.runs.size(), "run"),

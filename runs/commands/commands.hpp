@@ -26,6 +26,7 @@ struct RunCommand {
   bool resume = false;
   std::string checkpoint; ///< of --resume; empty: that of the folder
   std::string replay;     ///< folder of the run to repeat, instead of a scene; empty: none
+  std::string until;      ///< "rest": stop before the drive; empty: at the end
   std::string commandLine;
   const base::Ranks* ranks = nullptr; ///< that run it together
 };
@@ -40,6 +41,8 @@ struct SweepCommand {
   int jobs = 1;
   double seconds = 0; ///< no run is begun after so many; 0: no end
   bool force = false;
+  bool branches = false;  ///< all runs begin with the state of one checkpoint
+  std::string checkpoint; ///< which; empty: of a vehicle lowered for that
 };
 /// Throws SimulationError where a run has failed, when all have ended.
 void sweepCommand(const SweepCommand& command);

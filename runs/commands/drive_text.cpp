@@ -28,9 +28,9 @@ std::string incompleteText(const scene::Scene& scene, const coupling::Simulation
 }
 
 void describeDrive(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth,
-                   output::RunWriter& writer, output::Summary& summary) {
+                   output::RunWriter& writer, output::Summary& summary, bool endsAtRest) {
   if (!simulation.vehicle()) return;
-  summary.incomplete = incompleteText(scene, simulation, teeth);
+  if (!endsAtRest) summary.incomplete = incompleteText(scene, simulation, teeth);
   if (!summary.incomplete.empty()) fmt::print("WARNING: {}\n", summary.incomplete);
   const std::optional<double> start = simulation.vehicle()->driveStart();
   if (start) summary.figures["drive_start_s"] = *start;

@@ -13,8 +13,8 @@ namespace grouser::commands {
 /// setup::kFewestTeeth `teeth`. Empty where it drove, and where the scene does not ask it to.
 std::string incompleteText(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth);
 /// Prints and notes that, before all else that is said of the run; then when the vehicle drove off, and what has ended
-/// the run before its time.
+/// the run before its time. A run that `endsAtRest`, as it was asked to, is not to drive.
 void describeDrive(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth,
-                   output::RunWriter& writer, output::Summary& summary);
+                   output::RunWriter& writer, output::Summary& summary, bool endsAtRest);
 
 } // namespace grouser::commands

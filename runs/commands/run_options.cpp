@@ -23,7 +23,9 @@ void addRun(CLI::App& app, const Invocation& invocation) {
   run->add_flag("--force", c.force, "overwrite the results in that folder");
   CLI::Option* resume =
       run->add_option("--resume", c.checkpoint,
-                      "go on from this checkpoint as if the run had not been stopped; default: that of its folder")
+                      "go on from this checkpoint as if the run had not been stopped; default: that of its folder. "
+                      "With other keys of the drive or the hitch, or another folder, a branch that leaves that run as "
+                      "it is; default of its --out: out/NAME_branch")
           ->expected(0, 1)
           ->type_name("[FILE]");
   run->add_option(
@@ -31,6 +33,11 @@ void addRun(CLI::App& app, const Invocation& invocation) {
          "repeat the run of this folder, with all that was set from outside while it went; compares the hashes")
       ->excludes(scene)
       ->excludes(resume);
+  run->add_option("--until", c.until,
+                  "rest: stop, with a checkpoint to branch from, where the vehicle has been lowered and would begin to "
+                  "drive")
+      ->check(CLI::IsMember({"rest"}))
+      ->type_name("rest");
   run->add_flag("!--no-cache", c.cache, "settle the bed and cut the parts anew, and keep neither");
   run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
   run->callback([command, resume] {
@@ -73,7 +80,17 @@ void addSweep(CLI::App& app, const Invocation&) {
       sweep->add_flag("--resume")
           ->description("go on with what an earlier call has left, which the same command does anyway");
   sweep->add_flag("--force", c.force, "run again what has already been run")->excludes(resume);
-  sweep->callback([command] { sweepCommand(*command); });
+  CLI::Option* from =
+      sweep
+          ->add_option("--from-checkpoint", c.checkpoint,
+                       "all runs branch from this checkpoint of a vehicle at rest (run --until rest); without FILE the "
+                       "vehicle is lowered once, and once a seed, in the folder settled")
+          ->expected(0, 1)
+          ->type_name("[FILE]");
+  sweep->callback([command, from] {
+    command->branches = from->count() > 0;
+    sweepCommand(*command);
+  });
 }
 
 void addPlan(CLI::App& app, const Invocation&) {

@@ -15,6 +15,7 @@
 #include "runs/output/mechanism_output.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/soil.hpp"
+#include "runs/session/branch.hpp"
 #include "runs/session/failed_run.hpp"
 #include "runs/session/preparation.hpp"
 #include "runs/session/run_session.hpp"
@@ -185,6 +186,27 @@ void describeReplay(const session::RecordedRun& recorded, const std::string& sta
                     stateHash, recorded.folder.string(), recorded.stateHash));
 }
 
+void describeOrigin(const coupling::Simulation& simulation, const storage::Checkpoint& former, bool branch) {
+  if (branch)
+    fmt::print("branch    from {} ({:.6g} s)\n", former.branchedFrom->text(), simulation.time());
+  else
+    fmt::print("resumed   at step {}, {:.6g} s\n", simulation.steps(), simulation.time());
+}
+
+/// Steps whose wall time is not in that of this call.
+void noteOrigin(const storage::Checkpoint& former, bool branch, output::Summary& summary) {
+  if (!branch) summary.figures["resumed_at_step"] = static_cast<double>(former.state.steps);
+  if (former.branchedFrom) summary.figures["branched_at_step"] = static_cast<double>(former.branchedFrom->step);
+}
+
+/// What of the command line ended the run. `cut`: its last step is not that of the scene.
+void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
+  if (endsAtRest)
+    run.writer().fact("ended_by", session::kUntilRest);
+  else if (cut && run.simulation().steps() == run.total())
+    run.writer().fact("ended_by", fmt::format("--steps {}", run.total()));
+}
+
 /// `hasFolder`: whether it came so far that the folder is that of this run.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance,
                             const session::RunRequest& options, bool& hasFolder) {
@@ -195,19 +217,24 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
   forecast::requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
   support::FileLock folder; // of a run that goes on; one that begins makes its folder later
-  if (options.resume && comm.first()) output::claimFolder(folder, options.folder);
+  if (options.resume && !options.branch && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<storage::Checkpoint> former = session::formerRun(provenance, options);
   if (!former && comm.first()) warnOfTerrain(scene); // before a bed settles
+  if (options.untilRest && !scene.vehicle)
+    throw base::InputError(fmt::format("{}: --until rest waits for a vehicle; add a section [vehicle], or remove it",
+                                       provenance.file.string()));
   const setup::RecordSetup record = setup::recordSetup(scene, provenance);
+  coupling::SimulationSetup compiled = setup::simulationSetup(scene, comm.size(), setup::SizeChecks::passed);
+  if (options.branch) session::branch(*former, provenance, compiled, options);
   session::Caches kept = session::cachesOf(scene.terrain && scene.terrain->cache, options);
-  const std::unique_ptr<coupling::Simulation> made = session::makeSimulation(
-      setup::simulationSetup(scene, comm.size(), setup::SizeChecks::passed), record, exec, former.get(), options, kept);
+  const std::unique_ptr<coupling::Simulation> made =
+      session::makeSimulation(std::move(compiled), record, exec, former.get(), options, kept);
   coupling::Simulation& simulation = *made;
   const double timeStep = simulation.timeStep();
   const session::RecordedRun recorded = options.replay ? session::recordedRun(*options.replay) : session::RecordedRun{};
   const std::int64_t all = options.replay ? recorded.steps : std::llround(record.run.duration / timeStep),
                      begin = simulation.steps(), total = std::min(all, options.steps.value_or(all));
-  if (begin > total)
+  if (begin > total || (options.branch && begin == total))
     throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
                                        options.resume->string(), begin, total));
   const double prepared = whole.seconds();
@@ -220,7 +247,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   hasFolder = true;
   run.replay(recorded.inputs);
   if (!ofBed.empty()) run.writer().fact("bed_warnings", fmt::format("{}", fmt::join(ofBed, "; ")));
-  if (former) fmt::print("resumed   at step {}, {:.6g} s\n", begin, simulation.time());
+  if (former) describeOrigin(simulation, *former, options.branch);
   output::Summary summary;
   run.record([&] {
     const Stopwatch driving;
@@ -228,14 +255,15 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     run.begin();
     drive(run);
     const double drove = driving.seconds(), waiting = (comm.waited() - waitedBefore) / drove;
-    if (simulation.steps() == total && total < all) run.writer().fact("ended_by", fmt::format("--steps {}", total));
+    const bool endsAtRest = options.untilRest && run.isAtRest();
+    noteEnd(run, endsAtRest, total < all);
     const double cpu = 1e-6 * static_cast<double>(comm.sumOf(std::llround(1e6 * (cpuTime() - cpuBefore))));
     if (record.output.picture) run.recorder().picture(record.output.pictureWidth);
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = whole.seconds();
-    describeDrive(scene, simulation, run.recorder().drive().teeth(), run.writer(), summary);
-    if (former) summary.figures["resumed_at_step"] = static_cast<double>(begin);
+    describeDrive(scene, simulation, run.recorder().drive().teeth(), run.writer(), summary, endsAtRest);
+    if (former) noteOrigin(*former, options.branch, summary);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;
     summary.figures["wall_cutting_s"] = kept.spheres ? kept.spheres->cutting() : 0;
     if (simulation.settled().steps > 0) {

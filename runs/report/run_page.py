@@ -297,7 +297,7 @@ def provenance(run):
     m, program = run.manifest, run.manifest.get("program", {})
     inputs = [line.rpartition(" ") for line in m.get("inputs", "").strip().split("\n") if line]
     rows = [("status", f"<strong>{esc(run.status)}</strong>"), ("why", esc(why_ended(m))),
-            ("ended by", esc(m.get("ended_by", ""))),
+            ("branched from", esc(m.get("branched_from", ""))), ("ended by", esc(m.get("ended_by", ""))),
             ("command", f"<code>{esc(m['command_line'])}</code>" if "command_line" in m else ""),
             ("scene", f"<code>{esc(m.get('scene', ''))}</code>"),
             ("overridden", ", ".join(f"<code>{esc(o)}</code>" for o in m.get("overrides", []))),

@@ -267,7 +267,8 @@ struct Driver {
 
   /// Of the drive at the earliest [s]: as given, or when tension and weight are on.
   double driveBegins() const { return driveStart.value_or(tensionRamp + weightRamp); }
-  double rampOfDrive() const { return driveRamp.value_or(table || torqueTable ? 0 : 0.3); } ///< [s]
+  double rampOfDrive() const { return table || torqueTable ? driveRamp.value_or(0) : rampOfChange(); } ///< [s]
+  double rampOfChange() const { return driveRamp.value_or(0.3); } ///< from former speeds, where a branch has others [s]
   /// Whatever form the speeds were given in, as one table.
   SpeedTable speeds() const;
   TorqueTable torques() const;

@@ -31,8 +31,11 @@ public:
   void writeRemembered(const coupling::Simulation& simulation, output::RunWriter& writer);
   /// "out/hills/checkpoint.h5, step 1000": where the last one is; empty while there is none.
   std::string last() const;
-  /// The run goes on from one of this step.
-  void begunAt(std::int64_t step) { writtenAt_ = step; }
+  /// The run goes on from this one, or branches from it.
+  void goOnFrom(const storage::Checkpoint& former, bool branch) {
+    checkpoint_.branchedFrom = former.branchedFrom;
+    if (!branch) writtenAt_ = former.state.steps;
+  }
 
 private:
   void describe(const coupling::Simulation& simulation, std::int64_t rows, std::int64_t frames);

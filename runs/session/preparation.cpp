@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/session/failed_run.hpp"
 #include "runs/session/signal_watch.hpp"
+#include "runs/storage/scene_changes.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stopwatch.hpp"
@@ -28,7 +29,12 @@ Caches cachesOf(bool beds, const RunRequest& request) {
 std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenance, const RunRequest& request) {
   if (!request.resume) return nullptr;
   auto former = std::make_unique<storage::Checkpoint>(storage::readCheckpoint(*request.resume, request.comm()));
-  storage::checkSameScene(*former, *request.resume, provenance);
+  const storage::BranchChanges changes = storage::checkSameScene(*former, *request.resume, provenance);
+  if (changes.any() && !request.branch)
+    throw base::InputError(fmt::format("{}: [{}] differs from that of the run in {}; such a branch of it goes to a "
+                                       "folder of its own, which --out names",
+                                       provenance.file.string(), changes.driver ? "driver" : "hitch",
+                                       request.folder.string()));
   if (former->commit != support::buildInfo().commit && request.comm().first())
     support::tell(
         "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
@@ -43,6 +49,11 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
   const base::Comm comm = request.comm();
   storage::BedCache* beds = kept.beds ? &*kept.beds : nullptr;
   storage::SphereCache* spheres = kept.spheres ? &*kept.spheres : nullptr;
+  if (former && former->timeStep != setup.timeStep)
+    throw base::InputError(
+        fmt::format("{}: run.time_step = \"auto\" is {:g} s with these keys, and {} was written with "
+                    "{:g} s; give run.time_step, in the run that wrote it too",
+                    record.provenance.file.string(), setup.timeStep, request.resume->string(), former->timeStep));
   if (former) return std::make_unique<coupling::Simulation>(std::move(setup), exec, former->state, comm, spheres);
   const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
   const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;

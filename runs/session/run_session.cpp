@@ -18,14 +18,16 @@ std::int64_t stepsOf(double interval, double timeStep) {
 
 RunSession::RunSession(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& request,
                        const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total)
-    : simulation_(simulation), record_(record), resumed_(former != nullptr), total_(total),
-      rowEvery_(stepsOf(record.run.outputInterval, simulation.timeStep())),
+    : simulation_(simulation), record_(record), resumed_(former != nullptr), untilRest_(request.untilRest),
+      total_(total), rowEvery_(stepsOf(record.run.outputInterval, simulation.timeStep())),
       frameEvery_(stepsOf(record.run.frameInterval, simulation.timeStep())),
       saveEvery_(record.run.checkpointInterval > 0 ? stepsOf(record.run.checkpointInterval, simulation.timeStep())
                                                    : total + 1),
-      recorder_(simulation, record, request, exec, former, total), checkpoints_(record.provenance, request),
-      signals_(simulation.comm()) {
-  if (former) checkpoints_.begunAt(simulation.steps());
+      recorder_(simulation, record, request, exec, request.branch ? nullptr : former, total),
+      checkpoints_(record.provenance, request), signals_(simulation.comm()) {
+  if (!former) return;
+  checkpoints_.goOnFrom(*former, request.branch);
+  if (former->branchedFrom) writer().fact("branched_from", former->branchedFrom->text());
 }
 
 void RunSession::begin() {
@@ -36,12 +38,22 @@ void RunSession::begin() {
 
 bool RunSession::goesOn() const {
   const coupling::VehicleRig* rig = simulation_.vehicle();
-  return simulation_.steps() < total_ && !(rig && !rig->ended().empty());
+  return simulation_.steps() < total_ && !(rig && !rig->ended().empty()) && !(untilRest_ && isAtRest());
+}
+
+/// At most so many: a driver that waits is asked again at the next look at the vehicle.
+std::int64_t RunSession::stepsToDrive() const {
+  constexpr double kRounding = 1e-6; // of a step
+  const std::optional<double> start = simulation_.vehicle()->driveStart();
+  if (!start) return coupling::VehicleRig::kAlarmInterval - simulation_.steps() % coupling::VehicleRig::kAlarmInterval;
+  const double steps = std::ceil((*start - simulation_.time()) / simulation_.timeStep() - kRounding);
+  return static_cast<std::int64_t>(std::max(0.0, steps));
 }
 
 void RunSession::advance(std::int64_t most) {
   most = replay_.apply(simulation_, most);
   const auto until = [now = simulation_.steps()](std::int64_t every) { return every - now % every; };
+  if (untilRest_) most = std::min(most, stepsToDrive());
   simulation_.advance(
       std::min({most, total_ - simulation_.steps(), until(rowEvery_), until(frameEvery_), until(saveEvery_)}));
   const std::int64_t now = simulation_.steps();

@@ -18,8 +18,8 @@ namespace grouser::session {
 /// On several ranks all have one and call the same.
 class RunSession {
 public:
-  /// `simulation` and `record` outlive it. `former`: the checkpoint that the run goes on from, or null; `total`: the
-  /// step at which it ends. Makes the folder.
+  /// `simulation` and `record` outlive it. `former`: the checkpoint that the run goes on or branches from, or null;
+  /// `total`: the step at which it ends. Makes the folder.
   RunSession(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& request,
              const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total);
 
@@ -27,8 +27,11 @@ public:
   void replay(std::vector<coupling::Input> inputs) { replay_ = Replay(std::move(inputs)); }
   /// The first row and frame of a run that does not go on from a checkpoint.
   void begin();
-  /// Whether steps are left: neither the end nor what [stop] names has come.
+  /// Whether steps are left: neither the end nor what [stop] names has come, nor the begin of the drive where the
+  /// request ends there.
   bool goesOn() const;
+  /// Whether the next step is the first of the drive, or behind it.
+  bool isAtRest() const { return simulation_.vehicle() && stepsToDrive() == 0; }
   /// At least one step, at most `most`, none beyond the next row, frame or checkpoint, and writes what is due then.
   /// Throws Stopped where a signal has come, with a checkpoint left.
   void advance(std::int64_t most);
@@ -47,6 +50,7 @@ public:
   std::int64_t total() const { return total_; }
 
 private:
+  std::int64_t stepsToDrive() const;
   void leaveState();
   void leaveCheckpoint();
   std::string withCheckpoint(const std::string& message) const;
@@ -60,7 +64,7 @@ private:
 
   coupling::Simulation& simulation_;
   const setup::RecordSetup& record_;
-  bool resumed_;
+  bool resumed_, untilRest_;
   std::int64_t total_, rowEvery_, frameEvery_, saveEvery_; ///< [steps]
   Recorder recorder_;
   Checkpoints checkpoints_;

@@ -33,7 +33,7 @@ vehicle::DriverOptions driverOptions(const scene::Driver& d, const vehicle::Vehi
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
   // The sum of ramps that were typed may be a bit above the start that was.
   options.driveStart = std::max(d.driveBegins(), d.tensionRamp + d.weightRamp);
-  options.driveRamp = d.rampOfDrive();
+  options.driveRamp = d.rampOfDrive(), options.changeRamp = d.rampOfChange();
   if (!d.driveStart) options.rest = vehicle::RestBounds{d.restSpeed, d.restLoad, d.restTimeLimit};
   const scene::SpeedTable table = d.speeds();
   options.speeds = {table.time, table.left, table.right};

@@ -8,11 +8,11 @@
 #include "vehicle/spec.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <type_traits>
 
 namespace grouser::storage {
@@ -101,6 +101,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/bodies", v.bodies);
     archive("/vehicle/observers", v.observers);
     archive("/vehicle/driver", v.driver);
+    archive("/vehicle/asked", v.asked);
     archive("/vehicle/hitch", v.hitch);
     archive("/vehicle/hitch_books", v.hitchBooks);
     archive("/vehicle/applied_work", v.appliedWork);
@@ -284,43 +285,6 @@ private:
   }
 };
 
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-/// Keys that have no part in how the state came about, or are compared by what the file holds.
-bool isFree(const std::string& key) {
-  constexpr const char* kFree[] = {
-      "run.duration",      "run.output_interval", "run.frame_interval", "run.checkpoint_interval",
-      "run.device",        "run.threads",         "run.skin",           "run.max_overlap",
-      "terrain.heightmap", "terrain.cache",       "vehicle.spec"};
-  const bool soil = key.rfind("material.", 0) == 0 && (key.ends_with("\".soil") || key.ends_with("\".soil_hash"));
-  return soil || key.rfind("output.", 0) == 0 || key.rfind("stop.", 0) == 0 || key.rfind("parallel.", 0) == 0 ||
-         std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
-}
-
-/// "section.key" and value of a resolved scene, in its order; the sections of a list are numbered.
-std::vector<std::pair<std::string, std::string>> entriesOf(const std::string& resolved) {
-  std::vector<std::pair<std::string, std::string>> entries;
-  std::map<std::string, int> count;
-  std::string section;
-  for (const std::string& line : linesOf(resolved)) {
-    if (line.rfind("[[", 0) == 0) {
-      const std::string name = line.substr(2, line.size() - 4);
-      section = fmt::format("{}[{}].", name, count[name]++);
-    } else if (line.rfind('[', 0) == 0) {
-      section = line.substr(1, line.size() - 2) + ".";
-    } else if (const std::size_t equals = line.find(" = "); equals != std::string::npos) {
-      const std::string key = section + line.substr(0, equals);
-      if (!isFree(key)) entries.emplace_back(key, line.substr(equals + 3));
-    }
-  }
-  return entries;
-}
-
 } // namespace
 
 GrainLengths lengthsOf(const terrain::Grains& grains) { return {grains.scale().unit, grains.model().radius}; }
@@ -334,6 +298,11 @@ void writeState(const fs::path& path, const char* kind, const Checkpoint& checkp
       file.attribute("/", "scene", checkpoint.scene);
       file.attribute("/", "inputs", checkpoint.inputs);
       file.attribute("/", "commit", checkpoint.commit);
+      if (const auto& from = checkpoint.branchedFrom) {
+        file.attribute("/", "branched_from", from->file);
+        file.attribute("/", "branched_at_step", static_cast<double>(from->step));
+        file.attribute("/", "branched_at_hash", from->hash);
+      }
       Writer writer(file, counter);
       writer("/time_step", checkpoint.timeStep);
       writer("/rows", checkpoint.rows);
@@ -369,6 +338,9 @@ Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm) {
   checkpoint.scene = file.text("/", "scene");
   checkpoint.inputs = file.text("/", "inputs");
   checkpoint.commit = file.text("/", "commit");
+  if (const std::string from = file.text("/", "branched_from"); !from.empty())
+    checkpoint.branchedFrom =
+        BranchPoint{from, std::llround(file.number("/", "branched_at_step")), file.text("/", "branched_at_hash")};
   Reader reader(file, comm);
   reader("/time_step", checkpoint.timeStep);
   reader("/rows", checkpoint.rows);
@@ -396,35 +368,33 @@ void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const b
   writeState(path, kCheckpointFile, checkpoint, comm);
 }
 
-Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
-  // HDF5 opens only files whose checksum is right.
+namespace {
+
+/// HDF5 opens only files whose checksum is right.
+support::Hdf5File openedCheckpoint(const fs::path& path, const base::Comm& comm) {
   if (comm.first()) checkStateFile(path, kCheckpointFile);
   comm.wait();
-  return readState(support::Hdf5File::open(path), comm);
+  return support::Hdf5File::open(path);
 }
 
-void checkSameScene(const Checkpoint& checkpoint, const fs::path& path, const setup::Provenance& provenance) {
-  const auto was = entriesOf(checkpoint.scene), is = entriesOf(provenance.resolved);
-  const auto refuse = [&](const std::string& what) {
-    throw base::InputError(
-        fmt::format("{}: {}; set it back, or start anew without --resume", provenance.file.string(), what));
-  };
-  const std::map<std::string, std::string> then(was.begin(), was.end()), now(is.begin(), is.end());
-  for (const auto& [key, value] : is) {
-    const auto old = then.find(key);
-    if (old == then.end())
-      refuse(fmt::format("{} = {} does not stand in the scene that {} is of", key, value, path.string()));
-    if (old->second != value)
-      refuse(fmt::format("{} = {} was {} when {} was written", key, value, old->second, path.string()));
-  }
-  for (const auto& [key, value] : was)
-    if (!now.contains(key))
-      refuse(fmt::format("{} = {} is missing, with which {} was written", key, value, path.string()));
-  const auto filesThen = linesOf(checkpoint.inputs), filesNow = linesOf(provenance.inputs);
-  for (const std::string& file : filesNow)
-    if (std::find(filesThen.begin(), filesThen.end(), file) == filesThen.end())
-      refuse(fmt::format("the file of {} is another than the one that {} was written with",
-                         file.substr(0, file.find(' ')), path.string()));
+} // namespace
+
+Checkpoint readCheckpoint(const fs::path& path, const base::Comm& comm) {
+  return readState(openedCheckpoint(path, comm), comm);
 }
+
+Checkpoint readOrigin(const fs::path& path, const base::Comm& comm) {
+  const support::Hdf5File file = openedCheckpoint(path, comm);
+  Checkpoint checkpoint;
+  checkpoint.scene = file.text("/", "scene"), checkpoint.inputs = file.text("/", "inputs");
+  checkpoint.commit = file.text("/", "commit");
+  return checkpoint;
+}
+
+BranchPoint branchPoint(const fs::path& path, const Checkpoint& checkpoint, const base::Comm& comm) {
+  return {fs::absolute(path).lexically_normal().string(), checkpoint.state.steps, checkpoint.state.hash(comm)};
+}
+
+std::string BranchPoint::text() const { return fmt::format("{}, step {}, state hash {}", file, step, hash); }
 
 } // namespace grouser::storage

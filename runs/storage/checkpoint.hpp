@@ -24,6 +24,14 @@ struct GrainLengths {
 };
 GrainLengths lengthsOf(const terrain::Grains& grains);
 
+/// The state of another run that a run has branched from.
+struct BranchPoint {
+  std::string file;         ///< the checkpoint, absolute
+  std::int64_t step{};      ///< of it
+  std::string hash;         ///< of its state
+  std::string text() const; ///< "FILE, step N, state hash H"
+};
+
 /// A stopped run: all that is needed to go on as if it had not been stopped.
 struct Checkpoint {
   std::string scene;   ///< resolved
@@ -32,7 +40,8 @@ struct Checkpoint {
   double timeStep{};   ///< [s]
   std::int64_t rows{}; ///< written by then
   std::int64_t frames{};
-  std::optional<GrainLengths> lengths; ///< where there are grains; none in files of before
+  std::optional<BranchPoint> branchedFrom; ///< empty: the run began with the first step
+  std::optional<GrainLengths> lengths;     ///< where there are grains; none in files of before
   coupling::SimulationState state;
 };
 
@@ -45,7 +54,12 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
 /// On several ranks, whatever their number was when it was written, each gets its rows.
 Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
 
-/// What the two above are made of. `kind` is one of those named on top; readState() takes a file that checkStateFile()
+/// Of it scene, inputs and commit alone. All ranks call it.
+Checkpoint readOrigin(const std::filesystem::path& path, const base::Comm& comm = {});
+/// All ranks call it, each with its rows.
+BranchPoint branchPoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
+
+/// What these are made of. `kind` is one of those named on top; readState() takes a file that checkStateFile()
 /// has found whole, which one rank does for all.
 void writeState(const std::filesystem::path& path, const char* kind, const Checkpoint& checkpoint,
                 const base::Comm& comm);
@@ -62,11 +76,5 @@ struct StoredField {
 };
 /// All that a file may hold; what they mean is said in checkpoint_fields.hpp.
 std::vector<StoredField> storedFields();
-
-/// Throws base::InputError, naming the key, where `scene` differs from the checkpoint's in anything that has shaped the
-/// state: everything but duration and intervals, device, threads, skin, max_overlap and [output]. Files are compared by
-/// what is in them.
-void checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path,
-                    const setup::Provenance& provenance);
 
 } // namespace grouser::storage

@@ -109,10 +109,14 @@ constexpr Meaning kMeanings[] = {
      "travel of each track in teeth, pitches and metres; then sums since the last row of torque and power of each, and "
      "of how many steps; sums of the speeds of each sprocket and of the hull at it; heading and roll with their whole "
      "turns"},
-    {"vehicle/driver", "s, m/s, rad/s, m",
+    {"vehicle/driver", "s, m/s, rad/s, m, N m",
      "when the drive began, and since when it had rested, -1: not yet; of a course the integrals of the errors of "
      "speed "
-     "and of turning, and the way along it"},
+     "and of turning, and the way along it; of a branch that changed them under way: when, speeds and torques of the "
+     "sprockets and speed of the hull then"},
+    {"vehicle/asked", "-, rad/s, N m, m/s",
+     "of the sprockets in the last step: whether they were driven, speeds and torques asked for, left and right; speed "
+     "of the hull after it"},
     {"vehicle/hitch", "-, m, m/s",
      "whether it has taken hold; its level place and heading then, and speed; place and velocity of the sled; way of "
      "sled or carriage, speed of the carriage; empty without a hitch"},

@@ -240,6 +240,14 @@ class Calls(FolderTest):
         finished = scene.run("long", resume=True)
         self.assertEqual(finished.status, "finished")
         self.assertGreater(finished.time[-1], stopped.time[-1])
+        scene["run.duration"] += 2
+        branch = scene.run("branch", resume="long/checkpoint.h5")
+        self.assertIn("long/checkpoint.h5, step ", branch.manifest["branched_from"])
+        self.assertGreater(branch.time[0], finished.time[-1])
+        with self.assertRaisesRegex(grouser.InputError, "--from-checkpoint"):
+            scene.sweep("branches", {"run.seed": [1, 2]}, from_checkpoint="long/checkpoint.h5")
+        with self.assertRaisesRegex(grouser.InputError, "--until rest waits for a vehicle"):
+            scene.run("rest", until="rest")
 
     def test_what_was_printed_comes_back(self):
         self.assertRegex(grouser.call(["--version"]), r"^grouser \d+\.\d+\.\d+\n")

@@ -61,6 +61,9 @@ TEST(Course, SpeedRisesWithTheAcceleration) {
   EXPECT_NEAR(course.sprocketSpeeds({0, 0, 1, 0, 0, 0}, 9, 1e-3)[0], 2 / 0.25, 1e-14);
   o.speed = -2;
   EXPECT_NEAR(Course(o).sprocketSpeeds({0, 0, 1, 0, 0, 0}, 1.5, 1e-3)[1], -0.75 / 0.25, 1e-14);
+  // Of a hull that went at 1 m/s when it took over, from there.
+  EXPECT_NEAR(Course(o).sprocketSpeeds({0, 0, 1, 0, 0, 0}, 1.5, 1e-3, 1)[1], (1 - 0.75) / 0.25, 1e-14);
+  EXPECT_NEAR(Course(o).sprocketSpeeds({0, 0, 1, 0, 0, 0}, 90, 1e-3, 1)[1], -2 / 0.25, 1e-14);
 }
 
 /// speed = (1 - s)(v* + p e + I), e = v* - speed, I' = i e: e falls as exp(-(1 - s) i t / (1 + (1 - s) p)). Here the

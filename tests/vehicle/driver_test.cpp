@@ -46,6 +46,35 @@ TEST(Driver, SpeedTable_IsLinearBetweenAndConstantOutside) {
   EXPECT_EQ(driver.at(9).sprocketSpeed[1], 8);
 }
 
+TEST(Driver, TakenOverUnderWay_PassesFromTheFormerSpeeds) {
+  const vehicle::DriverOptions options{.tensionRamp = 0,
+                                       .weightRamp = 0,
+                                       .driveStart = 0,
+                                       .driveRamp = 0.25,
+                                       .changeRamp = 0.5,
+                                       .speeds = {{0, 4}, {0, 8}, {0, -8}}};
+  Driver driver(options);
+  driver.takeOver({}, {.driven = true, .time = 2, .sprocketSpeed = {6, 2}});
+  EXPECT_EQ(driver.at(2).sprocketSpeed, (std::array{6.0, 2.0})) << "no jump";
+  EXPECT_EQ(driver.at(2.25).sprocketSpeed, (std::array{0.5 * (6 + 4.5), 0.5 * (2 - 4.5)}));
+  EXPECT_EQ(driver.at(3).sprocketSpeed, (std::array{6.0, -6.0})) << "times count from the begin of the drive";
+  EXPECT_EQ(driver.rampEnds(0), 2.5);
+  Driver resumed(options);
+  resumed.restore(driver.save());
+  EXPECT_EQ(resumed.at(2.1).sprocketSpeed, driver.at(2.1).sprocketSpeed);
+  EXPECT_THROW(Driver({.rest = vehicle::RestBounds{}}).takeOver({}, {}), base::InputError);
+}
+
+TEST(Driver, TakenOverBeforeTheDrive_IsAsFromTheStart) {
+  const vehicle::DriverOptions options{.rest = vehicle::RestBounds{}, .speeds = {{0}, {2}, {2}}};
+  Driver driver(options), same(options);
+  driver.takeOver({0.5, 0.45}, {.driven = false, .time = 0.5, .sprocketSpeed = {1, 1}});
+  same.restore({0.5, 0.45});
+  EXPECT_EQ(driver.driveStart(), 0.5);
+  EXPECT_EQ(driver.at(0.6).sprocketSpeed, same.at(0.6).sprocketSpeed);
+  EXPECT_EQ(driver.save(), same.save());
+}
+
 TEST(Driver, BadOptions_AreRefused) {
   EXPECT_THROW(Driver({.speeds = {{1, 0}, {1, 1}, {1, 1}}}), base::InputError);
   EXPECT_THROW(Driver({.speeds = {{0, 1}, {1}, {1, 1}}}), base::InputError);

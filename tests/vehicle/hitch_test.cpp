@@ -52,6 +52,22 @@ TEST(Hitch, ForceOnAFreeBlockIsMassTimesAcceleration) {
   EXPECT_NEAR(block.x, -2000. * 2001. / 2 * 0.25 * 1e-6, 1e-12);
 }
 
+TEST(Hitch, AddedUnderWayTakesHoldThereAndComesOnFromThere) {
+  HitchOptions o = of(HitchKind::ramp);
+  o.force = 100, o.rate = 50, o.start = 1;
+  Hitch hitch(o);
+  hitch.holdFrom(3);
+  const HitchMotion ahead{{0, 0, 0}, {0, 0, 0}, 1, 0, 0};
+  EXPECT_EQ(hitch.step(ahead, 2.9, 1e-3, kHitchGravity), Vec3d{});
+  EXPECT_EQ(hitch.step(ahead, 3, 1e-3, kHitchGravity).x, -100);
+  Hitch resumed(o);
+  resumed.restore(hitch.save());
+  EXPECT_EQ(resumed.step(ahead, 5, 1e-3, kHitchGravity).x, -200);
+  Hitch early(o);
+  early.holdFrom(0.5);
+  EXPECT_EQ(early.save(), Hitch(o).save()) << "it has not begun";
+}
+
 TEST(Hitch, ForceActsAgainstTheHeadingFromItsStartOnAndComesOnSmoothly) {
   HitchOptions o = of(HitchKind::force);
   o.force = 250, o.start = 1, o.ramp = 0.5;

@@ -42,8 +42,9 @@ std::string RunManifest::commit() const {
 }
 
 double RunManifest::stepsOverTimed() const {
-  const double steps = number("steps"), before = figure("resumed_at_step");
-  return before > 0 ? steps / (steps - before) : 1; // which is no number where it went on at its end
+  const double steps = number("steps"), before = figure("resumed_at_step"), from = figure("branched_at_step");
+  return before > 0 ? (steps - (from > 0 ? from : 0)) / (steps - before)
+                    : 1; // which is no number where it went on at its end
 }
 
 double RunManifest::wallTime() const {

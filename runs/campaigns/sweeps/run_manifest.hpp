@@ -18,7 +18,7 @@ public:
   std::string text(const char* key) const; ///< empty where it is missing
   std::string commit() const;              ///< of the program; empty where it is missing
   /// All steps of the run over those that its times are of: a run that went on from a checkpoint tells times since
-  /// then.
+  /// then. Steps before a branch are not its own.
   double stepsOverTimed() const;
   double wallTime() const; ///< all steps [s]; a resumed run measured only its last part; NaN: missing
 

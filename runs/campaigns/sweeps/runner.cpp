@@ -44,10 +44,12 @@ using output::RunStatus;
 
 constexpr const char* kLog = "log.txt"; // what a run printed
 
-/// How a run of this scene by this program stands in the folder; pending where there is none.
-RunStatus statusOf(const fs::path& folder, const scene::Scene& scene) {
+/// How this run by this program stands in the folder; pending where there is none.
+RunStatus statusOf(const fs::path& folder, const SweepRun& run) {
+  const scene::Scene& scene = run.scene;
   const RunManifest manifest(folder);
   const std::optional<RunStatus> status = base::valueOf<RunStatus>(manifest.text("status"));
+  if (manifest.text("branched_from") != (run.from ? run.from->text() : "")) return RunStatus::pending;
   if (!status || manifest.commit() != support::buildInfo().commit || manifest.text("inputs") != setup::inputsOf(scene))
     return RunStatus::pending;
   try {
@@ -140,7 +142,7 @@ public:
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       const bool anew =
           options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
-      const RunStatus former = anew ? RunStatus::pending : statusOf(folder(i), plan.runs[i].scene);
+      const RunStatus former = anew ? RunStatus::pending : statusOf(folder(i), plan.runs[i]);
       if (former == RunStatus::finished) {
         outcomes_[i].status = RunStatus::finished;
         progress_.note(fmt::format("{} finished already", title(i)));
@@ -216,6 +218,8 @@ private:
       putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
     for (const std::string& o : overrides) words.insert(words.end(), {"--set", o});
     words.insert(words.end(), {"--out", folder(i).string(), goesOn ? "--resume" : "--force", "--hash"});
+    if (plan_.runs[i].untilRest) words.insert(words.end(), {"--until", "rest"});
+    if (const auto& from = plan_.runs[i].from; from && !goesOn) words.insert(words.end(), {"--resume", from->file});
     const int place = freePlace();
     if (goesOn) progress_.note(fmt::format("{} goes on from its checkpoint", title(i)));
     running_[start(std::move(words), folder(i) / kLog, place, goesOn)] = {i, Clock::now(), place};

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,9 @@ struct SweepOptions {
   bool force = false;            ///< run again what has already been run, and overwrite folders of other origin
   std::vector<std::string> made; ///< names of runs that `force` does not run again: made a moment ago
   bool plot = true;
-  bool failuresStay = false; ///< a run that has failed is a result: it is not run again
-  bool shared = false;       ///< other calls work in the same folder at the same time, on other runs
+  std::optional<std::filesystem::path> from; ///< checkpoint that all runs branch from; empty path: made for them
+  bool failuresStay = false;                 ///< a run that has failed is a result: it is not run again
+  bool shared = false;                       ///< other calls work in the same folder at the same time, on other runs
 };
 
 using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;
@@ -35,10 +37,10 @@ std::string endedText(const std::vector<SweepOutcome>& outcomes);
 /// Runs what is not there yet, at most `jobs` at a time: in the order of the plan, but where several may go at a time
 /// and `seconds` sets no end, those with the most work first, since the longest would else be what all wait for
 /// (workOf). A run is left out when its folder holds a finished one of the same identity(), the same bytes of all files
-/// that the scene names, and the same commit of the program; what is half done goes on from its checkpoint, if it has
-/// one, and what is of another scene is run again.
-/// `changed` is called at the start and after every run; `what` stands before the lines of progress. Throws InputError,
-/// before anything is started, where a run's folder holds something else. Returns how each run stands.
+/// that the scene names, and the same commit of the program, that has branched from the same state; what is half done
+/// goes on from its checkpoint, if it has one, and what is of another scene is run again. `changed` is called at the
+/// start and after every run; `what` stands before the lines of progress. Throws InputError, before anything is
+/// started, where a run's folder holds something else. Returns how each run stands.
 std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
                                      const OutcomesChanged& changed);
 

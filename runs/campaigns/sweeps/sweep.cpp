@@ -2,6 +2,7 @@
 #include "runs/campaigns/sweeps/sweep.hpp"
 
 #include "base/counted.hpp"
+#include "runs/campaigns/sweeps/branches.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
@@ -47,8 +48,9 @@ std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOu
 
 } // namespace
 
-int runSweep(const SweepPlan& plan, const SweepOptions& options) {
+int runSweep(const SweepPlan& given, const SweepOptions& options) {
   if (!options.force) checkSweepFiles(options.folder);
+  const SweepPlan plan = options.from ? branched(given, options) : given;
   const std::vector<SweepOutcome> outcomes = runMissing(
       plan, options, "sweep", [&](const std::vector<SweepOutcome>& now) { writeSummary(plan, now, options.folder); });
   // Of an earlier sweep with other values.

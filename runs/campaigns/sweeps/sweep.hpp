@@ -11,7 +11,7 @@ namespace grouser::sweeps {
 
 /// Runs what is not there yet (runMissing()). summary.csv is written anew after every run; where seeds are swept,
 /// intervals.csv at the end. Returns the number of failed runs. Throws InputError, before anything is started, where
-/// the folder holds something of other origin.
+/// the folder holds something of other origin. Where `options.from` is given all runs branch from one state a seed.
 int runSweep(const SweepPlan& plan, const SweepOptions& options);
 
 } // namespace grouser::sweeps

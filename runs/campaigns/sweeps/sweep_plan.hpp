@@ -2,8 +2,10 @@
 #pragma once
 
 #include "runs/scene/scene.hpp"
+#include "runs/storage/checkpoint.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,12 +26,14 @@ inline constexpr const char* kSeedKey = "run.seed"; ///< over its values means a
 
 /// One run of a sweep.
 struct SweepRun {
-  std::string name;                   ///< of its folder: "deep,sprocket_speed=0.5,seed=1"
-  std::vector<std::string> values;    ///< as given, one a swept key
-  std::vector<std::string> overrides; ///< "key=value", the swept ones and the fixed ones
-  scene::Scene scene;                 ///< with the overrides applied
-  std::filesystem::path file{};       ///< of its scene; empty: the plan's
-  double expectedEnd = 0;             ///< simulated time at which it will likely end [s]; 0: run.duration
+  std::string name;                           ///< of its folder: "deep,sprocket_speed=0.5,seed=1"
+  std::vector<std::string> values;            ///< as given, one a swept key
+  std::vector<std::string> overrides;         ///< "key=value", the swept ones and the fixed ones
+  scene::Scene scene;                         ///< with the overrides applied
+  std::filesystem::path file{};               ///< of its scene; empty: the plan's
+  bool untilRest = false;                     ///< it stops before its drive
+  std::optional<storage::BranchPoint> from{}; ///< that it begins with
+  double expectedEnd = 0;                     ///< simulated time at which it will likely end [s]; 0: run.duration
 };
 
 struct SweepPlan {

@@ -302,8 +302,6 @@ std::vector<Mistake> checkpoints() {
       badCheckpoint("CheckpointOfAnotherFormat", [](const fs::path& c) { put(c, picture()); }, {"no checkpoint"}),
       badCheckpoint("CheckpointOfAnotherScene", nothing, {"run.seed", "set it back"},
                     "run scene.toml --resume --out a --set run.seed=9"),
-      badCheckpoint("CheckpointElsewhere", nothing, {"a run goes on in the folder"},
-                    "run scene.toml --resume a/checkpoint.h5 --out b"),
       badCheckpoint("CheckpointBeyondTheEnd", nothing, {"raise run.duration"},
                     "run scene.toml --resume --out a --steps 10"),
       badCheckpoint("HashOfWhatIsNone", nothing, {"no checkpoint"}, "hash a/results.h5"),

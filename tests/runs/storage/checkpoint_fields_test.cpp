@@ -48,6 +48,7 @@ TEST_F(CheckpointFields, AreAllReadBackAsTheyWereWritten) {
   c.scene = "scene", c.inputs = "inputs", c.commit = "commit";
   c.timeStep = 0.125, c.rows = 7, c.frames = 5;
   c.lengths = GrainLengths{0.25, 3};
+  c.branchedFrom = BranchPoint{"/a/checkpoint.h5", 450, "0123"};
   c.state = filled();
   const auto written = numbersOf(c.state);
   ASSERT_GT(written.size(), 200u);
@@ -67,6 +68,8 @@ TEST_F(CheckpointFields, AreAllReadBackAsTheyWereWritten) {
   EXPECT_EQ(read.timeStep, 0.125);
   EXPECT_EQ(read.rows, 7);
   EXPECT_EQ(read.frames, 5);
+  ASSERT_TRUE(read.branchedFrom);
+  EXPECT_EQ(read.branchedFrom->text(), "/a/checkpoint.h5, step 450, state hash 0123");
   ASSERT_TRUE(read.lengths);
   EXPECT_EQ(read.lengths->unit, 0.25);
   EXPECT_EQ(read.lengths->radius, 3);
@@ -138,6 +141,7 @@ const NamedChange kUnhashed[] = {
     {"grains taken out", [](coupling::SimulationState& s) { s.taken.mass += 1; }},
     {"sums of an obstacle", [](coupling::SimulationState& s) { s.vehicle->surfaces.sums[0].elastic += 1; }},
     {"books of the hitch", [](coupling::SimulationState& s) { s.vehicle->hitchBooks[0] += 1; }},
+    {"speeds that were asked for", [](coupling::SimulationState& s) { s.vehicle->asked[1] += 1; }},
     {"steps without way", [](coupling::SimulationState& s) { s.vehicle->stalledSteps += 50; }},
     {"what was pressed most", [](coupling::SimulationState& s) { s.vehicle->bed.deepest[1] ^= 1; }},
     {"worst gap", [](coupling::SimulationState& s) { s.mechanism->worst[0] += 1; }},

@@ -2,6 +2,7 @@
 // Checkpoints: straight = resumed, bit for bit; and a file that is whole or refused.
 #include "runs/setup/load_scene.hpp"
 #include "runs/storage/checkpoint.hpp"
+#include "runs/storage/scene_changes.hpp"
 
 #include "base/error.hpp"
 #include "base/hash.hpp"

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/branch.hpp"
+
+#include "coupling/ledger.hpp"
+#include "coupling/towing.hpp"
+
+namespace grouser::coupling {
+
+namespace {
+
+/// The ledger counts on from a start that lacks the work of a hitch whose books are closed.
+void keepWork(SimulationState& state, double work) {
+  Ledger start;
+  start.setCounted(state.ledgerAtStart);
+  start.driveWork -= work;
+  state.ledgerAtStart = start.counted();
+}
+
+} // namespace
+
+void branch(SimulationState& state, const VehicleSetup& setup, bool otherDriver, bool otherHitch, double time) {
+  VehicleState& vehicle = *state.vehicle;
+  const vehicle::Handover asked = vehicle::Handover::of(vehicle.asked);
+  vehicle::Driver driver(setup.driver);
+  if (otherDriver) {
+    driver.takeOver(vehicle.driver, asked);
+    vehicle.driver = driver.save();
+  } else {
+    driver.restore(vehicle.driver);
+  }
+  if (!otherHitch) return;
+  if (!vehicle.hitchBooks.empty()) keepWork(state, Towing::workOf(vehicle.hitchBooks));
+  vehicle.hitch.clear(), vehicle.hitchBooks.clear();
+  if (!setup.hitch) return;
+  vehicle::Hitch hitch(*setup.hitch);
+  if (asked.driven) hitch.holdFrom(time - *driver.driveStart());
+  vehicle.hitch = hitch.save();
+  vehicle.hitchBooks = Towing(*setup.hitch).books();
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/sweeps/branches.hpp"
+
+#include "base/error.hpp"
+#include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/session/run_request.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "runs/storage/scene_changes.hpp"
+#include "runs/support/build_info.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace grouser::sweeps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSettled = "settled"; // folder of the run to rest
+
+/// The first run of each seed.
+std::map<std::int64_t, const SweepRun*> firstOfSeeds(const SweepPlan& plan) {
+  std::map<std::int64_t, const SweepRun*> first;
+  for (const SweepRun& run : plan.runs) first.emplace(run.scene.run.seed, &run);
+  return first;
+}
+
+/// Throws where `run` cannot begin with the state that `first` had before its drive.
+void requireOneState(const SweepRun& first, const SweepRun& run) {
+  const auto refuse = [&](const std::string& what) {
+    throw base::InputError(fmt::format("--from-checkpoint: {}, which shapes the state that all runs branch from; vary "
+                                       "keys of the drive and the hitch alone, or leave --from-checkpoint away",
+                                       what));
+  };
+  const setup::Provenance was = setup::provenanceOf(first.scene), is = setup::provenanceOf(run.scene);
+  for (const storage::KeyChange& c : storage::changedKeys(was.resolved, is.resolved))
+    if (!storage::actsInTheDrive(c.key))
+      refuse(fmt::format("{} is {} in run {} and {} in run {}", c.key, c.was.value_or("not given"), first.name,
+                         c.is.value_or("not given"), run.name));
+  if (const std::string file = storage::changedFile(was.inputs, is.inputs); !file.empty())
+    refuse(fmt::format("{} is another file in run {} than in run {}", file, first.name, run.name));
+  const double step = setup::chooseTimeStep(first.scene), other = setup::chooseTimeStep(run.scene);
+  if (step != other)
+    refuse(fmt::format("run.time_step = \"auto\" is {:g} s in run {} and {:g} s in run {} (give it)", step, first.name,
+                       other, run.name));
+}
+
+/// Whether the folder holds a run to rest, by this program, that this run can branch from.
+bool holdsState(const fs::path& folder, const SweepRun& run) {
+  const RunManifest manifest(folder);
+  if (manifest.text("status") != "finished" || manifest.text("ended_by") != session::kUntilRest ||
+      manifest.commit() != support::buildInfo().commit)
+    return false;
+  try {
+    const fs::path file = folder / storage::kCheckpointName;
+    storage::checkSameScene(storage::readOrigin(file), file, setup::provenanceOf(run.scene));
+    return true;
+  } catch (const base::InputError&) {
+    return false; // of another scene, or damaged
+  }
+}
+
+/// Runs to rest, one a seed, those left out that are there. Returns their checkpoints.
+std::map<std::int64_t, fs::path> settledStates(const SweepPlan& plan, const SweepOptions& options) {
+  const auto seeds = firstOfSeeds(plan);
+  SweepPlan base{plan.scene, {}, {}};
+  std::map<std::int64_t, fs::path> files;
+  for (const auto& [seed, first] : seeds) {
+    if (!first->scene.vehicle)
+      throw base::InputError(
+          "--from-checkpoint: the scene has no vehicle that could be lowered; name the checkpoint of "
+          "a run, or leave --from-checkpoint away");
+    SweepRun run = *first;
+    run.name = seeds.size() > 1 ? fmt::format("{},seed={}", kSettled, seed) : kSettled;
+    if (std::any_of(plan.runs.begin(), plan.runs.end(), [&](const SweepRun& r) { return r.name == run.name; }))
+      throw base::InputError(fmt::format("--case {}: with --from-checkpoint the folder of this name is that of the "
+                                         "vehicle at rest; give the case another name",
+                                         kSettled));
+    run.untilRest = true, run.expectedEnd = run.scene.driver.driveBegins();
+    const fs::path folder = options.folder / run.name;
+    files[seed] = folder / storage::kCheckpointName;
+    if (!options.force && holdsState(folder, run)) continue;
+    std::error_code none;
+    if (RunManifest(folder).text("status") == "finished") fs::remove(folder / "manifest.json", none); // run again
+    base.runs.push_back(std::move(run));
+  }
+  if (base.runs.empty()) return files;
+  SweepOptions once = options;
+  once.seconds = 0;
+  const std::vector<SweepOutcome> outcomes =
+      runMissing(base, once, "lowering", [](const std::vector<SweepOutcome>&) {});
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (outcomes[i].status != output::RunStatus::finished)
+      throw base::SimulationError(fmt::format("--from-checkpoint: the run {} has not come to rest: {}",
+                                              (options.folder / base.runs[i].name).string(), outcomes[i].message));
+  return files;
+}
+
+} // namespace
+
+SweepPlan branched(const SweepPlan& plan, const SweepOptions& options) {
+  const auto seeds = firstOfSeeds(plan);
+  for (const SweepRun& run : plan.runs) requireOneState(*seeds.at(run.scene.run.seed), run);
+  std::map<std::int64_t, fs::path> files;
+  if (options.from->empty())
+    files = settledStates(plan, options);
+  else
+    for (const auto& [seed, first] : seeds) files[seed] = *options.from;
+  SweepPlan all = plan;
+  std::map<std::int64_t, storage::BranchPoint> states;
+  for (SweepRun& run : all.runs) {
+    const std::int64_t seed = run.scene.run.seed;
+    if (const auto at = states.find(seed); at == states.end()) {
+      const storage::Checkpoint state = storage::readCheckpoint(files[seed]);
+      storage::checkSameScene(state, files[seed], setup::provenanceOf(run.scene), "--from-checkpoint");
+      states[seed] = storage::branchPoint(files[seed], state);
+    }
+    run.from = states[seed];
+  }
+  return all;
+}
+
+} // namespace grouser::sweeps

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/simulation_setup.hpp"
+#include "runs/session/run_request.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/storage/checkpoint.hpp"
+
+namespace grouser::session {
+
+/// Makes the checkpoint of another run the begin of this one, whose scene may have another driver and hitch: `setup` is
+/// compiled of it. Rows and frames begin here. All ranks call it. Throws base::InputError.
+void branch(storage::Checkpoint& former, const setup::Provenance& provenance, const coupling::SimulationSetup& setup,
+            const RunRequest& request);
+
+} // namespace grouser::session
