@@ -33,8 +33,7 @@ bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 
 /// A finite number >= 0, or refused by name.
 void checkNotNegative(const PartName& what, const char* key, double x, const char* unit) {
-  if (!(std::isfinite(x) && x >= 0))
-    refuse(what, key, "= " + text(x) + " [" + unit + "] must be finite and >= 0");
+  if (!(std::isfinite(x) && x >= 0)) refuse(what, key, "= " + text(x) + " [" + unit + "] must be finite and >= 0");
 }
 
 void checkFinite(const PartName& what, const char* key, double x) {
@@ -45,8 +44,8 @@ void checkPose(const PartName& what, const char* key, const Pose& X) {
   const Quat& q = X.orientation;
   const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
   if (!finite(X.position) || !(std::fabs(n - 1) < 1e-9))
-    refuse(what, key, "needs a finite position and a unit quaternion (its squared norm is " + text(n) +
-                          "); normalise it");
+    refuse(what, key,
+           "needs a finite position and a unit quaternion (its squared norm is " + text(n) + "); normalise it");
 }
 
 /// "1, 2, 3": the principal moments of a symmetric inertia, for messages.
@@ -76,20 +75,22 @@ void checkInertia(const PartName& what, const Mat3d& I) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < i; ++j)
       if (std::fabs(I.m[i][j] - I.m[j][i]) > 1e-9 * std::fabs(trace))
-        refuse(what, "inertia", "[kg m2] is not symmetric: entries (" + std::to_string(i) + ", " + std::to_string(j) +
-                         ") = " + text(I.m[i][j]) + " and " + text(I.m[j][i]) + " must be equal");
+        refuse(what, "inertia",
+               "[kg m2] is not symmetric: entries (" + std::to_string(i) + ", " + std::to_string(j) +
+                   ") = " + text(I.m[i][j]) + " and " + text(I.m[j][i]) + " must be equal");
   if (!positiveDefinite(I))
-    refuse(what, "inertia", "[kg m2] is not positive definite; every principal moment must be > 0, and they are " +
-                     principalMoments(I));
+    refuse(what, "inertia",
+           "[kg m2] is not positive definite; every principal moment must be > 0, and they are " + principalMoments(I));
   // Triangle inequality in any axes: the second moment of mass, tr(I)/2 - I, has no negative eigenvalue. A flat plate
   // has a zero one: the allowance is for its round-off.
   Mat3d second;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) second.m[i][j] = (i == j ? (0.5 + 1e-9) * trace : 0) - I.m[i][j];
   if (!positiveDefinite(second))
-    refuse(what, "inertia", "[kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
-                 "two, and they are " +
-                     principalMoments(I) + "; correct the entries");
+    refuse(what, "inertia",
+           "[kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
+           "two, and they are " +
+               principalMoments(I) + "; correct the entries");
 }
 
 Vec3d perpendicularTo(const Vec3d& z) {
@@ -123,7 +124,8 @@ int Model::addBody(const Body& body) {
   if (body.point && (body.fixed || !(body.w_WB == Vec3d{})))
     refuse(what, "is a point: it can be neither fixed nor turn; leave that out, or give it an inertia");
   if (!body.fixed) {
-    if (!(std::isfinite(body.mass) && body.mass > 0)) refuse(what, "mass", "= " + text(body.mass) + " [kg] must be > 0");
+    if (!(std::isfinite(body.mass) && body.mass > 0))
+      refuse(what, "mass", "= " + text(body.mass) + " [kg] must be > 0");
     if (!body.point) checkInertia(what, body.inertia_B);
   } else if (!(body.v_WB == Vec3d{}) || !(body.w_WB == Vec3d{})) {
     refuse(what, "is fixed, but has a velocity; leave one of the two out");

@@ -15,11 +15,12 @@ struct PartName {
   std::string text() const { return name.empty() ? kind : kind + " '" + name + "'"; }
 };
 
-/// One part of a mechanism is wrong. The message reads `joint 'hip': damping = -1 [N s/m] must be ...`; who reads a file
-/// puts the part's place there before it.
+/// One part of a mechanism is wrong. The message reads `joint 'hip': damping = -1 [N s/m] must be ...`; who reads a
+/// file puts the part's place there before it.
 class PartError : public base::InputError {
 public:
-  /// `key`: the member of the part's struct that is wrong; empty where no single one is. `fault`: what is wrong with it.
+  /// `key`: the member of the part's struct that is wrong; empty where no single one is. `fault`: what is wrong with
+  /// it.
   PartError(PartName part, std::string key, std::string fault)
       : InputError(part.text() + ": " + withKey(key, fault)), part_(std::move(part)), key_(std::move(key)),
         fault_(std::move(fault)) {}

@@ -128,7 +128,8 @@ void checkClosed(const ConstraintSystem& system, const Model& model) {
                         c.kind == ConstraintKind::kCylindrical || c.kind == ConstraintKind::kFixed;
     const bool alongX = c.kind == ConstraintKind::kPrismatic || c.kind == ConstraintKind::kFixed;
     if ((alongZ && dot(f.z_A, f.z_B) < 0) || (alongX && dot(f.x_A, f.x_B) < 0))
-      refuse({"joint", model.joints()[at(c.source)].name}, "the axes of its two frames point in opposite senses at the start; turn one frame by half a turn");
+      refuse({"joint", model.joints()[at(c.source)].name},
+             "the axes of its two frames point in opposite senses at the start; turn one frame by half a turn");
   }
   for (std::size_t c = 0; c < system.couplings().size(); ++c) {
     const CouplingRow& row = system.couplings()[c];

@@ -148,7 +148,9 @@ ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& in
       if (i > 0) result.worst = std::max(result.worst, std::fabs(f / r.exact - 1));
     }
     result.mean = sum / static_cast<double>(steps);
-  } catch (const std::runtime_error& error) {
+  } catch (const base::SimulationError& error) {
+    result.failure = error.what();
+  } catch (const base::InputError& error) {
     result.failure = error.what();
   }
   return result;

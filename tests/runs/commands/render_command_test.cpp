@@ -323,6 +323,20 @@ TEST_F(SharedWork, WhoHasALongPieceLeavesTheOthersToTheRest) {
   EXPECT_TRUE(isThere(0));
 }
 
+TEST_F(SharedWork, FailureOfOneKeepsItsKind) {
+  const auto fails = [](const auto& error) {
+    jobs::shareWork(
+        2, 2,
+        [&](std::size_t i) {
+          if (i) throw error;
+        },
+        [] {});
+  };
+  EXPECT_THROW(fails(base::SimulationError("a")), base::SimulationError);
+  EXPECT_THROW(fails(base::DeviceError("a")), base::DeviceError);
+  EXPECT_THROW(fails(support::NotWritten("a")), support::NotWritten);
+}
+
 TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
   const auto failing = [](std::size_t i) {
     if (i == 1) throw base::InputError("piece 1 is bad");
@@ -337,7 +351,7 @@ TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
                      if (i) std::raise(SIGKILL);
                    },
                    [] {}),
-               std::runtime_error);
+               base::DeviceError);
   EXPECT_THROW(jobs::shareWork(
                    2, 2,
                    [](std::size_t i) {
