@@ -23,6 +23,22 @@ struct Dissipated {
   double total() const { return ofGrains() + parts + joints; }
 };
 
+/// A cause by its word in the names of results, with what the results say of it.
+struct DissipationCause {
+  const char *word, *help;
+  double Dissipated::*heat;
+};
+inline constexpr DissipationCause kDissipationCauses[] = {
+    {"damping", "by dashpots of grains' contacts", &Dissipated::damping},
+    {"friction", "by sliding of grains", &Dissipated::friction},
+    {"micro_slip", "by tangential springs of Hertz' law as their stiffness follows the load", &Dissipated::microSlip},
+    {"rolling", "by rolling resistance of grains", &Dissipated::rolling},
+    {"yielding", "by plastic work of grains' contacts", &Dissipated::yielding},
+    {"crushing", "by grains that crush against parts", &Dissipated::crushing},
+    {"parts", "by contacts of rigid parts with each other, with rigid ground and surfaces", &Dissipated::parts},
+    {"joints", "by dampers and end stops of joints and springs", &Dissipated::joints},
+};
+
 /// Energies [J] and momenta of a whole simulation, counted from its first step. With steps of finite length
 ///
 ///   kinetic + potential + elastic + dissipated + integrationError = driveWork + residual

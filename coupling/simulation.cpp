@@ -2,6 +2,7 @@
 #include "coupling/simulation.hpp"
 
 #include "base/error.hpp"
+#include "coupling/ledger_entries.hpp"
 #include "coupling/placed_on_bed.hpp"
 #include "terrain/grain_faults.hpp"
 #include "terrain/grain_removal.hpp"
@@ -205,17 +206,7 @@ void Simulation::checkAlarm() {
 
 Ledger Simulation::wholeLedger() {
   Ledger l;
-  if (ground_.grains) {
-    const terrain::GrainLedger g = ground_.grains->ledger();
-    l.kinetic = g.kinetic + g.rotational, l.potential = g.potential, l.elastic = l.grainElastic = g.elastic;
-    l.dissipated = {g.damped, g.rubbed, g.slipped, g.rolled, g.yielded, 0, 0, 0};
-    l.work = g.work, l.turnover = g.turnover;
-    l.momentum = g.momentum, l.angularMomentum = g.angularMomentum;
-    l.momentumResidual = g.momentum - g.impulse, l.angularResidual = g.angularMomentum - g.angularImpulse;
-    l.grainContacts = g.contacts, l.boundaryContacts = g.boundaryContacts;
-    l.squeezedPairs = g.squeezed, l.squeezedAtBoundaries = g.squeezedAtBoundaries;
-    l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
-  }
+  if (ground_.grains) enterGrains(l, ground_.grains->ledger());
   if (vehicle_) vehicle_->addTo(l);
   if (surfaces_) surfaces_->addTo(l);
   if (mechanism_) mechanism_->addTo(l);
@@ -290,7 +281,7 @@ void Simulation::afterStep() {
 }
 
 double Simulation::partsElastic() const {
-  return (vehicle_ ? vehicle_->contacts().ledger().elastic : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
+  return (vehicle_ ? vehicle_->contacts().ledger().elastic() : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
 }
 
 void Simulation::checkEnergy() {

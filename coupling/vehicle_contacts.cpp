@@ -278,26 +278,13 @@ void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains
 
 VehicleContacts::Ledger VehicleContacts::ledger() const {
   Ledger ledger;
-  const contact::PatchBuffers::Ledger track = track_->ledger();
-  ledger.elastic = track.elastic, ledger.dissipated = track.dissipated, ledger.patches = track.patches;
-  if (rigidGround_) {
-    const contact::PatchBuffers::Ledger ground = rigidGround_->ledger();
-    ledger.elastic += ground.elastic, ledger.dissipated += ground.dissipated, ledger.patches += ground.patches;
-  }
-  if (obstacles_) {
-    const contact::PatchBuffers::Ledger surfaces = obstacles_->ledger();
-    ledger.elastic += surfaces.elastic, ledger.dissipated += surfaces.dissipated, ledger.patches += surfaces.patches;
-  }
+  ledger.rigid = track_->ledger();
+  if (rigidGround_) ledger.rigid += rigidGround_->ledger();
+  if (obstacles_) ledger.rigid += obstacles_->ledger();
   if (bed_) {
-    const contact::GrainPartContacts::Ledger bed = bed_->ledger();
-    ledger.elastic += bed.elastic;
-    ledger.damped = bed.damped, ledger.rubbed = bed.rubbed, ledger.rolled = bed.rolled;
-    ledger.slipped = bed.slipped;
-    ledger.crushed = bed.crushed, ledger.cutImpulse = bed.cutImpulse, ledger.capped = bed.capped;
-    ledger.angularOnParts = angularOnParts_;
-    ledger.grainContacts = bed.contacts, ledger.squeezed = bed.squeezed;
-    ledger.impulseOnGrains = bed.impulseOnGrains;
+    ledger.bed = bed_->ledger();
     ledger.impulseOnParts = groundForceQuantum_.value(impulseOnParts_) * timeStep_;
+    ledger.angularOnParts = angularOnParts_;
   }
   return ledger;
 }

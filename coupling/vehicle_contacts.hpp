@@ -68,19 +68,13 @@ public:
   base::Vec3l groundForce(std::size_t index) const;
   const base::FixedPoint& groundForceQuantum() const { return groundForceQuantum_; }
 
-  /// Energies of the contacts [J].
+  /// What the contacts hold and have lost.
   struct Ledger {
-    double elastic{};                         ///< held now
-    double dissipated{};                      ///< since the start, of parts with each other and with what is rigid
-    double damped{}, rubbed{}, rolled{};      ///< since the start, of parts with grains
-    double slipped{};                         ///< the same by springs of Hertz' law as they stiffen and soften
-    double crushed{}, cutImpulse{};           ///< the same where grains crush, the latter [N s]
-    std::int64_t capped{};                    ///< contacts at the force at which their grain crushes
-    std::int64_t patches{};                   ///< of parts on parts and on ground
-    std::int64_t grainContacts{}, squeezed{}; ///< the latter deeper than contact::kSqueezed
-    base::Vec3d impulseOnParts;               ///< from the grains since the start [N s]
-    base::Vec3d impulseOnGrains;
+    contact::PatchBuffers::Ledger rigid;    ///< of parts with each other and with what is rigid
+    contact::GrainPartContacts::Ledger bed; ///< of parts with grains
+    base::Vec3d impulseOnParts;             ///< from the grains since the start [N s]
     base::Vec3d angularOnParts; ///< about the origin of the world, from the grains since the start [N m s]
+    double elastic() const { return rigid.elastic + bed.elastic; } ///< held now [J]
   };
   Ledger ledger() const;
 

@@ -6,6 +6,7 @@
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
 #include "runs/render/labels.hpp"
+#include "runs/support/not_written.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
