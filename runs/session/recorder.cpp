@@ -225,7 +225,7 @@ void Recorder::picture(int width) {
       for (output::FramePart& part : parts)
         if (part.name == surfaces->surface(i).name) part.mesh = output::surfaceMesh(planes, surfaces->surface(i), true);
   render::writePng(
-      render::drawLabelledFrame(whole, parts, simulation_.ground().grains ? output::floorMesh(planes) : ground_, width),
+      render::drawFrame(whole, parts, simulation_.ground().grains ? output::floorMesh(planes) : ground_, width),
       writer_.folder() / "picture.png");
 }
 
