@@ -38,6 +38,9 @@ struct PatchBuffers {
   struct Ledger {
     double elastic{}, dissipated{};
     std::int64_t patches{};
+    void operator+=(const Ledger& more) {
+      elastic += more.elastic, dissipated += more.dissipated, patches += more.patches;
+    }
   };
   Ledger ledger(const PatchQuanta& quanta) const;
   /// For hashes and checkpoints. Throws InputError when what was saved is of other pairs; list the samples afterwards.

@@ -2,7 +2,7 @@
 #include "coupling/grains_on_vehicle.hpp"
 
 #include "coupling/grain_part_model.hpp"
-#include "coupling/ledger.hpp"
+#include "coupling/ledger_entries.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "coupling/vehicle_state.hpp"
 
@@ -66,15 +66,7 @@ PressedMost GrainsOnVehicle::pressedMost() const {
   return most ? PressedMost{static_cast<int>(partOf(most->part)), most->grain, most->share} : PressedMost{};
 }
 
-void GrainsOnVehicle::addTo(ContactLedger& ledger) const {
-  const contact::GrainPartContacts::Ledger bed = contacts_.ledger();
-  ledger.elastic += bed.elastic;
-  ledger.damped += bed.damped, ledger.rubbed += bed.rubbed, ledger.rolled += bed.rolled;
-  ledger.slipped += bed.slipped;
-  ledger.crushed += bed.crushed, ledger.cutImpulse += bed.cutImpulse, ledger.capped += bed.capped;
-  ledger.grainContacts += bed.contacts, ledger.squeezed += bed.squeezed;
-  ledger.impulseOnGrains += bed.impulseOnGrains;
-}
+void GrainsOnVehicle::addTo(ContactLedger& ledger) const { ledger.bed = contacts_.ledger(); }
 
 void GrainsOnVehicle::save(VehicleState& state) const { state.bed = contacts_.save(); }
 void GrainsOnVehicle::restore(const VehicleState& state) { contacts_.restore(state.bed); }

@@ -2,7 +2,7 @@
 #include "coupling/granular_ground.hpp"
 
 #include "coupling/grains_under_shoes.hpp"
-#include "coupling/ledger.hpp"
+#include "coupling/ledger_entries.hpp"
 #include "coupling/simulation_state.hpp"
 
 namespace grouser::coupling {
@@ -39,19 +39,7 @@ void GranularGround::setGravity(const base::Vec3d& gravity) {
   grains().replaceLaws(model);
 }
 
-void GranularGround::addTo(Ledger& l) {
-  const terrain::GrainLedger g = grains().ledger();
-  l.kinetic += g.kinetic + g.rotational, l.potential += g.potential;
-  l.elastic += g.elastic, l.grainElastic += g.elastic;
-  l.dissipated.damping += g.damped, l.dissipated.friction += g.rubbed, l.dissipated.microSlip += g.slipped;
-  l.dissipated.rolling += g.rolled, l.dissipated.yielding += g.yielded;
-  l.work += g.work, l.turnover += g.turnover;
-  l.momentum += g.momentum, l.angularMomentum += g.angularMomentum;
-  l.momentumResidual += g.momentum - g.impulse, l.angularResidual += g.angularMomentum - g.angularImpulse;
-  l.grainContacts = g.contacts, l.boundaryContacts = g.boundaryContacts;
-  l.squeezedPairs = g.squeezed, l.squeezedAtBoundaries = g.squeezedAtBoundaries;
-  l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
-}
+void GranularGround::addTo(Ledger& ledger) { enterGrains(ledger, grains().ledger()); }
 
 std::vector<double> GranularGround::surfaceNow() const {
   return laid_.undisturbed ? coupling::surfaceNow(laid_, exec_) : std::vector<double>{};

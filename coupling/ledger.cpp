@@ -10,9 +10,7 @@ namespace {
 /// Calls visit(number) for all that is counted.
 template <class Self, class Visit> void forCounted(Self& l, const Visit& visit) {
   visit(l.driveWork), visit(l.kinetic), visit(l.potential), visit(l.elastic), visit(l.grainElastic);
-  auto& d = l.dissipated;
-  visit(d.damping), visit(d.friction), visit(d.microSlip), visit(d.rolling);
-  visit(d.yielding), visit(d.crushing), visit(d.parts), visit(d.joints);
+  for (const DissipationCause& cause : kDissipationCauses) visit(l.dissipated.*cause.heat);
   visit(l.work), visit(l.turnover);
   for (auto* v : {&l.momentumResidual, &l.angularResidual}) visit(v->x), visit(v->y), visit(v->z);
 }

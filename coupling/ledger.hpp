@@ -23,19 +23,20 @@ struct Dissipated {
   double total() const { return ofGrains() + parts + joints; }
 };
 
-/// Energies of the contacts of a vehicle's parts [J].
-struct ContactLedger {
-  double elastic{};                         ///< held now
-  double dissipated{};                      ///< since the start, of parts with each other and with what is rigid
-  double damped{}, rubbed{}, rolled{};      ///< since the start, of parts with grains
-  double slipped{};                         ///< the same by springs of Hertz' law as they stiffen and soften
-  double crushed{}, cutImpulse{};           ///< the same where grains crush, the latter [N s]
-  std::int64_t capped{};                    ///< contacts at the force at which their grain crushes
-  std::int64_t patches{};                   ///< of parts on parts and on ground
-  std::int64_t grainContacts{}, squeezed{}; ///< the latter deeper than contact::kSqueezed
-  base::Vec3d impulseOnParts;               ///< since the start, from a ground that has momentum of its own [N s]
-  base::Vec3d impulseOnGrains;
-  base::Vec3d angularOnParts; ///< about the origin of the world, from such a ground since the start [N m s]
+/// A cause by its word in the names of results, with what the results say of it.
+struct DissipationCause {
+  const char *word, *help;
+  double Dissipated::*heat;
+};
+inline constexpr DissipationCause kDissipationCauses[] = {
+    {"damping", "by dashpots of grains' contacts", &Dissipated::damping},
+    {"friction", "by sliding of grains", &Dissipated::friction},
+    {"micro_slip", "by tangential springs of Hertz' law as their stiffness follows the load", &Dissipated::microSlip},
+    {"rolling", "by rolling resistance of grains", &Dissipated::rolling},
+    {"yielding", "by plastic work of grains' contacts", &Dissipated::yielding},
+    {"crushing", "by grains that crush against parts", &Dissipated::crushing},
+    {"parts", "by contacts of rigid parts with each other, with rigid ground and surfaces", &Dissipated::parts},
+    {"joints", "by dampers and end stops of joints and springs", &Dissipated::joints},
 };
 
 /// Energies [J] and momenta of a whole simulation, counted from its first step. With steps of finite length

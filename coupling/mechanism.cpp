@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
-#include "multibody/readings.hpp"
+#include "coupling/ledger_entries.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -167,26 +167,11 @@ double Mechanism::axisSpringForce(int index) const {
   return s.preload - s.stiffness * (axis.position - s.freePosition) - s.damping * axis.rate;
 }
 
-Mechanism::Ledger Mechanism::ledger() const {
-  const multibody::Balance b = multibody::balance(model_, state_, loads_);
-  const multibody::Totals& t = b.now;
-  Ledger ledger;
-  ledger.driveWork = b.driveWork + b.externalWork;
-  ledger.kinetic = t.kinetic, ledger.potential = t.gravity, ledger.elastic = t.elastic;
-  ledger.jointDamping = b.jointDamping, ledger.springDamping = b.springDamping, ledger.stopDamping = b.stopDamping;
-  ledger.dissipated = b.dissipated();
-  ledger.integrationError = b.integrationError, ledger.leftOver = b.leftOver, ledger.turnover = b.turnover;
-  ledger.linearMomentum = t.linearMomentum, ledger.angularMomentum = t.angularMomentum;
-  ledger.linearLeftOver = b.linearLeftOver, ledger.angularLeftOver = b.angularLeftOver;
-  return ledger;
-}
-
-void Mechanism::addTo(coupling::Ledger& l) const {
-  const Ledger m = ledger();
-  l.driveWork += m.driveWork, l.kinetic += m.kinetic, l.work += m.kinetic - m.leftOver, l.turnover += m.turnover;
-  l.potential += m.potential, l.elastic += m.elastic, l.dissipated.joints += m.dissipated;
-  l.momentum += m.linearMomentum, l.angularMomentum += m.angularMomentum;
-  l.momentumResidual += m.linearLeftOver, l.angularResidual += m.angularLeftOver;
+void Mechanism::addTo(Ledger& l) const {
+  multibody::Balance bodies = bodiesBalance();
+  bodies.driveWork += bodies.externalWork;
+  enterBodies(l, bodies);
+  l.potential += bodies.now.gravity, l.elastic += bodies.now.elastic;
 }
 
 Mechanism::Drift Mechanism::drift() const {

@@ -8,6 +8,7 @@
 #include "coupling/mechanism_state.hpp"
 #include "coupling/step_controller.hpp"
 #include "coupling/swing_growth.hpp"
+#include "multibody/readings.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 
@@ -50,21 +51,9 @@ public:
   /// Force [N] or torque [N m] of a spring on an axis at its present position and rate, stops left out.
   double axisSpringForce(int index) const;
 
-  /// Energies [J] and momenta [N s, N m s] of now; works and losses since the first step. With gains since the start
-  ///   kinetic + potential + elastic + dissipated + integrationError = driveWork + leftOver.
-  struct Ledger {
-    double driveWork{}, kinetic{}, potential{}, elastic{};
-    double dissipated{};                                   ///< sum of the three causes
-    double jointDamping{}, springDamping{}, stopDamping{}; ///< what dampers of joints, of springs, of end stops took
-    double integrationError{};                             ///< of the step: falls with it
-    double leftOver{};                                     ///< what is not booked: rounding
-    double turnover{};                           ///< sum of absolute works, kinetic energy of the start included
-    base::Vec3d linearMomentum, angularMomentum; ///< about the world's origin
-    base::Vec3d linearLeftOver, angularLeftOver; ///< what no impulse from outside explains: rounding
-  };
-  Ledger ledger() const;
-
-  void addTo(coupling::Ledger& ledger) const;
+  /// Energies and momenta of now; works and losses since the first step.
+  multibody::Balance bodiesBalance() const { return multibody::balance(model_, state_, loads_); }
+  void addTo(Ledger& ledger) const;
 
   /// Kinetic energy that the drives gave in an impact, since the velocities of the scene did not fit theirs [J].
   double startBlow() const { return startBlow_; }

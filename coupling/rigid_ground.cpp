@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/rigid_ground.hpp"
 
-#include "coupling/ledger.hpp"
+#include "coupling/ledger_entries.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "coupling/vehicle_state.hpp"
 
@@ -30,10 +30,7 @@ void RigidGround::compute(const base::Exec&, const base::Array<contact::PartMoti
   shoes_->compute(motion, travelled, loads);
 }
 
-void RigidGround::addContactsTo(ContactLedger& ledger) const {
-  const contact::PatchBuffers::Ledger ground = shoes_->ledger();
-  ledger.elastic += ground.elastic, ledger.dissipated += ground.dissipated, ledger.patches += ground.patches;
-}
+void RigidGround::addContactsTo(ContactLedger& ledger) const { ledger.rigid += shoes_->ledger(); }
 
 void RigidGround::saveContacts(VehicleState& state) const { state.ground = shoes_->save(); }
 void RigidGround::restoreContacts(const VehicleState& state) { shoes_->restore(state.ground); }

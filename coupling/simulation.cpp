@@ -293,7 +293,7 @@ void Simulation::afterStep() {
 }
 
 double Simulation::partsElastic() const {
-  return (vehicle_ ? vehicle_->contacts().ledger().elastic : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
+  return (vehicle_ ? vehicle_->contacts().ledger().elastic() : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
 }
 
 void Simulation::checkEnergy() {

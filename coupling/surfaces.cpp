@@ -2,6 +2,7 @@
 #include "coupling/surfaces.hpp"
 
 #include "base/error.hpp"
+#include "coupling/ledger_entries.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -141,10 +142,8 @@ void Surfaces::restartMeans() {
 void Surfaces::addTo(Ledger& ledger) const {
   if (meshes_) {
     const contact::GrainPartContacts::Ledger m = meshes_->ledger();
-    ledger.elastic += m.elastic, ledger.partContacts += m.contacts, ledger.squeezedByParts += m.squeezed;
-    ledger.dissipated.damping += m.damped, ledger.dissipated.friction += m.rubbed,
-        ledger.dissipated.rolling += m.rolled, ledger.dissipated.microSlip += m.slipped;
-    ledger.dissipated.crushing += m.crushed, ledger.cappedNow += m.capped, ledger.cutImpulse += m.cutImpulse;
+    ledger.elastic += m.elastic;
+    enterGrainParts(ledger, m);
   }
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const SurfaceState& s = states_.surfaces[i];

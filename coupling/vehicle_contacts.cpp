@@ -247,13 +247,9 @@ void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains
 
 ContactLedger VehicleContacts::ledger() const {
   ContactLedger ledger;
-  const contact::PatchBuffers::Ledger track = track_->ledger();
-  ledger.elastic = track.elastic, ledger.dissipated = track.dissipated, ledger.patches = track.patches;
+  ledger.rigid = track_->ledger();
   if (ground_) ground_->addContactsTo(ledger);
-  if (obstacles_) {
-    const contact::PatchBuffers::Ledger surfaces = obstacles_->ledger();
-    ledger.elastic += surfaces.elastic, ledger.dissipated += surfaces.dissipated, ledger.patches += surfaces.patches;
-  }
+  if (obstacles_) ledger.rigid += obstacles_->ledger();
   if (traits_.hasMomentum) {
     ledger.angularOnParts = angularOnParts_;
     ledger.impulseOnParts = groundQuanta_.force.value(impulseOnParts_) * timeStep_;

@@ -7,7 +7,7 @@
 #include "contact/patch_contacts.hpp"
 #include "multibody/state.hpp"
 #include "coupling/ground.hpp"
-#include "coupling/ledger.hpp"
+#include "coupling/ledger_entries.hpp"
 #include "coupling/obstacle_contacts.hpp"
 #include "coupling/step_observer.hpp"
 #include "coupling/vehicle_parts.hpp"

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
+#include "coupling/ledger_entries.hpp"
 
 #include <algorithm>
 #include <array>
@@ -293,21 +294,16 @@ std::string VehicleRig::alarm(std::int64_t step) {
 }
 
 void VehicleRig::addTo(Ledger& ledger) const {
-  const multibody::Balance b = bodiesBalance();
-  const ContactLedger c = contacts_->ledger();
-  ledger.kinetic += b.now.kinetic, ledger.work += b.now.kinetic - b.leftOver, ledger.turnover += b.turnover;
-  ledger.driveWork += b.driveWork + (towing_ ? towing_->work() : 0) + applied_.work();
-  ledger.potential += b.potentialGain, ledger.elastic += b.elasticGain + c.elastic;
-  ledger.dissipated.damping += c.damped, ledger.dissipated.friction += c.rubbed, ledger.dissipated.rolling += c.rolled;
-  ledger.dissipated.microSlip += c.slipped, ledger.dissipated.crushing += c.crushed;
-  ledger.cappedNow += c.capped, ledger.cutImpulse += c.cutImpulse;
-  ledger.dissipated.parts += c.dissipated, ledger.dissipated.joints += b.dissipated();
-  ledger.momentum += b.now.linearMomentum, ledger.angularMomentum += b.now.angularMomentum;
+  multibody::Balance bodies = bodiesBalance();
+  const ContactLedger contacts = contacts_->ledger();
+  bodies.driveWork += (towing_ ? towing_->work() : 0) + applied_.work();
   // The grains' own residual still lacks what the parts gave them.
-  ledger.momentumResidual += b.linearLeftOver - c.impulseOnGrains;
-  ledger.angularResidual += b.angularLeftOver + c.angularOnParts;
-  ledger.partContacts += c.grainContacts, ledger.patches += c.patches, ledger.squeezedByParts += c.squeezed;
-  ledger.impulseResidual += c.impulseOnParts + c.impulseOnGrains;
+  bodies.linearLeftOver -= contacts.bed.impulseOnGrains, bodies.angularLeftOver += contacts.angularOnParts;
+  enterBodies(ledger, bodies);
+  enterGrainParts(ledger, contacts.bed);
+  ledger.potential += bodies.potentialGain, ledger.elastic += bodies.elasticGain + contacts.elastic();
+  ledger.dissipated.parts += contacts.rigid.dissipated, ledger.patches += contacts.rigid.patches;
+  ledger.impulseResidual += contacts.impulseOnParts + contacts.bed.impulseOnGrains;
 }
 
 VehicleState VehicleRig::save() const {

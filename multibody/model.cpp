@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/model.hpp"
 
+#include "multibody/part_error.hpp"
+
 #include "base/error.hpp"
 #include "multibody/detail/rotation.hpp"
 
@@ -15,7 +17,10 @@ namespace {
 
 const std::string kWorldName = "world";
 
-[[noreturn]] void refuse(const std::string& what, const std::string& why) { throw base::InputError(what + ": " + why); }
+[[noreturn]] void refuse(const PartName& part, const char* key, const std::string& fault) {
+  throw PartError(part, key, fault);
+}
+[[noreturn]] void refuse(const PartName& part, const std::string& fault) { refuse(part, "", fault); }
 
 std::string text(double x) {
   std::ostringstream out;
@@ -27,21 +32,20 @@ std::string text(double x) {
 bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// A finite number >= 0, or refused by name.
-void checkNotNegative(const std::string& what, const char* key, double x, const char* unit) {
-  if (!(std::isfinite(x) && x >= 0))
-    refuse(what, std::string(key) + " = " + text(x) + " [" + unit + "] must be finite and >= 0");
+void checkNotNegative(const PartName& what, const char* key, double x, const char* unit) {
+  if (!(std::isfinite(x) && x >= 0)) refuse(what, key, "= " + text(x) + " [" + unit + "] must be finite and >= 0");
 }
 
-void checkFinite(const std::string& what, const char* key, double x) {
-  if (!std::isfinite(x)) refuse(what, std::string(key) + " is not a finite number");
+void checkFinite(const PartName& what, const char* key, double x) {
+  if (!std::isfinite(x)) refuse(what, key, "is not a finite number");
 }
 
-void checkPose(const std::string& what, const char* key, const Pose& X) {
+void checkPose(const PartName& what, const char* key, const Pose& X) {
   const Quat& q = X.orientation;
   const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
   if (!finite(X.position) || !(std::fabs(n - 1) < 1e-9))
-    refuse(what, std::string(key) + " needs a finite position and a unit quaternion (its squared norm is " + text(n) +
-                     "); normalise it");
+    refuse(what, key,
+           "needs a finite position and a unit quaternion (its squared norm is " + text(n) + "); normalise it");
 }
 
 /// "1, 2, 3": the principal moments of a symmetric inertia, for messages.
@@ -64,27 +68,29 @@ bool positiveDefinite(const Mat3d& a) {
   return d1 > 0 && d2 > 0 && d3 > 0;
 }
 
-void checkInertia(const std::string& what, const Mat3d& I) {
+void checkInertia(const PartName& what, const Mat3d& I) {
   const double trace = I.m[0][0] + I.m[1][1] + I.m[2][2];
   for (const auto& row : I.m)
     for (const double x : row) checkFinite(what, "inertia", x);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < i; ++j)
       if (std::fabs(I.m[i][j] - I.m[j][i]) > 1e-9 * std::fabs(trace))
-        refuse(what, "inertia [kg m2] is not symmetric: entries (" + std::to_string(i) + ", " + std::to_string(j) +
-                         ") = " + text(I.m[i][j]) + " and " + text(I.m[j][i]) + " must be equal");
+        refuse(what, "inertia",
+               "[kg m2] is not symmetric: entries (" + std::to_string(i) + ", " + std::to_string(j) +
+                   ") = " + text(I.m[i][j]) + " and " + text(I.m[j][i]) + " must be equal");
   if (!positiveDefinite(I))
-    refuse(what, "inertia [kg m2] is not positive definite; every principal moment must be > 0, and they are " +
-                     principalMoments(I));
+    refuse(what, "inertia",
+           "[kg m2] is not positive definite; every principal moment must be > 0, and they are " + principalMoments(I));
   // Triangle inequality in any axes: the second moment of mass, tr(I)/2 - I, has no negative eigenvalue. A flat plate
   // has a zero one: the allowance is for its round-off.
   Mat3d second;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) second.m[i][j] = (i == j ? (0.5 + 1e-9) * trace : 0) - I.m[i][j];
   if (!positiveDefinite(second))
-    refuse(what, "inertia [kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
-                 "two, and they are " +
-                     principalMoments(I) + "; correct the entries");
+    refuse(what, "inertia",
+           "[kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
+           "two, and they are " +
+               principalMoments(I) + "; correct the entries");
 }
 
 Vec3d perpendicularTo(const Vec3d& z) {
@@ -98,27 +104,28 @@ template <class Named>
 int indexByName(const std::vector<Named>& parts, const std::string& kind, const std::string& name) {
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (parts[i].name == name) return static_cast<int>(i);
-  refuse(kind + " '" + name + "'", "there is none of this name");
+  refuse({kind, name}, "there is none of this name");
 }
 
 template <class Named>
 void checkName(const std::vector<Named>& parts, const std::string& kind, const std::string& name) {
-  if (name.empty()) refuse(kind + " " + std::to_string(parts.size()), "has no name; every part needs one");
+  if (name.empty()) refuse({kind + " " + std::to_string(parts.size()), ""}, "has no name; every part needs one");
   for (const auto& part : parts)
-    if (part.name == name) refuse(kind + " '" + name + "'", "the name is taken; names must differ");
+    if (part.name == name) refuse({kind, name}, "the name is taken; names must differ");
 }
 
 } // namespace
 
 int Model::addBody(const Body& body) {
-  const std::string what = "body '" + body.name + "'";
+  const PartName what{"body", body.name};
   checkName(bodies_, "body", body.name);
   checkPose(what, "pose", body.pose);
-  if (!finite(body.v_WB) || !finite(body.w_WB)) refuse(what, "velocity is not finite");
+  if (!finite(body.v_WB) || !finite(body.w_WB)) refuse(what, "velocity", "is not finite");
   if (body.point && (body.fixed || !(body.w_WB == Vec3d{})))
     refuse(what, "is a point: it can be neither fixed nor turn; leave that out, or give it an inertia");
   if (!body.fixed) {
-    if (!(std::isfinite(body.mass) && body.mass > 0)) refuse(what, "mass = " + text(body.mass) + " [kg] must be > 0");
+    if (!(std::isfinite(body.mass) && body.mass > 0))
+      refuse(what, "mass", "= " + text(body.mass) + " [kg] must be > 0");
     if (!body.point) checkInertia(what, body.inertia_B);
   } else if (!(body.v_WB == Vec3d{}) || !(body.w_WB == Vec3d{})) {
     refuse(what, "is fixed, but has a velocity; leave one of the two out");
@@ -130,7 +137,7 @@ int Model::addBody(const Body& body) {
   return static_cast<int>(bodies_.size()) - 1;
 }
 
-void Model::checkBodies(const std::string& what, int bodyA, int bodyB) const {
+void Model::checkBodies(const PartName& what, int bodyA, int bodyB) const {
   const int count = static_cast<int>(bodies_.size());
   for (const int b : {bodyA, bodyB})
     if (b < kWorld || b >= count)
@@ -143,7 +150,7 @@ void Model::checkBodies(const std::string& what, int bodyA, int bodyB) const {
 }
 
 /// Resolves kOnly to the axis there is.
-void Model::checkAxis(const std::string& what, int joint, JointAxis& axis) const {
+void Model::checkAxis(const PartName& what, int joint, JointAxis& axis) const {
   if (joint < 0 || joint >= static_cast<int>(joints_.size()))
     refuse(what, "joint index " + std::to_string(joint) + " is outside [0, " + std::to_string(joints_.size()) + ")");
   const Joint& j = joints_[static_cast<std::size_t>(joint)];
@@ -159,7 +166,7 @@ void Model::checkAxis(const std::string& what, int joint, JointAxis& axis) const
   if (axis == JointAxis::kOnly) axis = turns ? JointAxis::kAngle : JointAxis::kSlide;
 }
 
-void Model::checkPoint(const std::string& what, int body, const Vec3d& point_B, bool mayTurnFreely) const {
+void Model::checkPoint(const PartName& what, int body, const Vec3d& point_B, bool mayTurnFreely) const {
   if (body == kWorld || !bodies_[static_cast<std::size_t>(body)].point) return;
   if (!mayTurnFreely || !(point_B == Vec3d{}))
     refuse(what, "'" + bodyName(body) +
@@ -169,7 +176,7 @@ void Model::checkPoint(const std::string& what, int body, const Vec3d& point_B, 
 
 int Model::addJoint(const Joint& given) {
   Joint joint = given;
-  const std::string what = "joint '" + joint.name + "'";
+  const PartName what{"joint", joint.name};
   checkName(joints_, "joint", joint.name);
   checkBodies(what, joint.bodyA, joint.bodyB);
   checkPose(what, "frame_A", joint.frame_A);
@@ -180,10 +187,10 @@ int Model::addJoint(const Joint& given) {
   const bool cylindrical = joint.type == JointType::kCylindrical, rod = joint.type == JointType::kDistance;
   const bool axis = joint.type == JointType::kRevolute || joint.type == JointType::kPrismatic || cylindrical;
   if (joint.damping > 0 && !axis)
-    refuse(what, "damping acts on the free axis of a revolute, prismatic or cylindrical joint; set it to 0 here");
+    refuse(what, "damping", "acts on the free axis of a revolute, prismatic or cylindrical joint; set it to 0 here");
   if (joint.slideDamping > 0 && !cylindrical)
-    refuse(what, "slideDamping acts on the slide of a cylindrical joint; set it to 0 here");
-  if (joint.length > 0 && !rod) refuse(what, "length belongs to a distance joint; set it to 0 here");
+    refuse(what, "slideDamping", "acts on the slide of a cylindrical joint; set it to 0 here");
+  if (joint.length > 0 && !rod) refuse(what, "length", "belongs to a distance joint; set it to 0 here");
   const bool ball = rod || joint.type == JointType::kSpherical;
   checkPoint(what, joint.bodyA, joint.frame_A.position, ball);
   checkPoint(what, joint.bodyB, joint.frame_B.position, ball);
@@ -200,7 +207,7 @@ int Model::addJoint(const Joint& given) {
 }
 
 int Model::addJointAt(const std::string& name, JointType type, int bodyA, int bodyB, const Pose& X_WJ, double damping) {
-  checkBodies("joint '" + name + "'", bodyA, bodyB);
+  checkBodies({"joint", name}, bodyA, bodyB);
   const auto inBody = [&](int b) {
     return b == kWorld ? X_WJ : compose(inverse(bodies_[static_cast<std::size_t>(b)].pose), X_WJ);
   };
@@ -208,7 +215,7 @@ int Model::addJointAt(const std::string& name, JointType type, int bodyA, int bo
 }
 
 int Model::addAxisSpring(const AxisSpring& s) {
-  const std::string what = "spring '" + s.name + "'";
+  const PartName what{"spring", s.name};
   checkName(axisSprings_, "spring", s.name);
   AxisSpring spring = s;
   checkAxis(what, s.joint, spring.axis);
@@ -227,7 +234,7 @@ int Model::addAxisSpring(const AxisSpring& s) {
 }
 
 int Model::addPointSpring(const PointSpring& s) {
-  const std::string what = "spring '" + s.name + "'";
+  const PartName what{"spring", s.name};
   checkName(pointSprings_, "spring", s.name);
   checkBodies(what, s.bodyA, s.bodyB);
   checkNotNegative(what, "stiffness", s.stiffness, "N/m");
@@ -242,7 +249,7 @@ int Model::addPointSpring(const PointSpring& s) {
 }
 
 int Model::addBushing(const Bushing& bushing) {
-  const std::string what = "bushing '" + bushing.name + "'";
+  const PartName what{"bushing", bushing.name};
   checkName(bushings_, "bushing", bushing.name);
   checkBodies(what, bushing.bodyA, bushing.bodyB);
   checkPose(what, "frame_A", bushing.frame_A);
@@ -261,11 +268,11 @@ int Model::addBushing(const Bushing& bushing) {
 
 int Model::addDrive(const Drive& given) {
   Drive drive = given;
-  const std::string what = "drive '" + drive.name + "'";
+  const PartName what{"drive", drive.name};
   checkName(drives_, "drive", drive.name);
   checkAxis(what, drive.joint, drive.axis);
   checkFinite(what, "speed", drive.speed);
-  checkTimeLaw(what.c_str(), drive.law);
+  if (const std::string fault = timeLawFault(drive.law); !fault.empty()) refuse(what, fault);
   if (drive.kind == DriveKind::kPosition && drive.law.empty())
     refuse(what, "imposes a position, but has no law; give the position over time");
   if (drive.kind == DriveKind::kPosition && !drive.law.ramps.times.empty())
@@ -280,7 +287,7 @@ int Model::addDrive(const Drive& given) {
 
 int Model::addCoupling(const Coupling& given) {
   Coupling coupling = given;
-  const std::string what = "coupling '" + coupling.name + "'";
+  const PartName what{"coupling", coupling.name};
   checkName(couplings_, "coupling", coupling.name);
   checkAxis(what, coupling.joint1, coupling.axis1);
   checkAxis(what, coupling.joint2, coupling.axis2);
@@ -288,8 +295,8 @@ int Model::addCoupling(const Coupling& given) {
     refuse(what, "couples an axis of joint '" + joints_[static_cast<std::size_t>(coupling.joint1)].name +
                      "' to itself; name two axes");
   if (!(std::isfinite(coupling.ratio) && coupling.ratio != 0))
-    refuse(what, "ratio = " + text(coupling.ratio) + " must be finite and not 0");
-  if (std::isinf(coupling.offset)) refuse(what, "offset is infinite");
+    refuse(what, "ratio", "= " + text(coupling.ratio) + " must be finite and not 0");
+  if (std::isinf(coupling.offset)) refuse(what, "offset", "is infinite");
   couplings_.push_back(coupling);
   return static_cast<int>(couplings_.size()) - 1;
 }

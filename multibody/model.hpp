@@ -18,6 +18,8 @@ using base::Pose;
 using base::Quat;
 using base::Vec3d;
 
+struct PartName; // part_error.hpp
+
 /// Index of the world (an immovable body whose frame is the world frame) in joints and springs.
 inline constexpr int kWorld = -1;
 
@@ -156,7 +158,7 @@ struct Coupling {
   double offset = std::numeric_limits<double>::quiet_NaN(); ///< [rad] or [m]; not a number: as the bodies are placed
 };
 
-/// The mechanism. Every add... checks what it is given, throws base::InputError naming the part, and returns an index.
+/// The mechanism. Every add... checks what it is given, throws PartError, and returns an index.
 class Model {
 public:
   int addBody(const Body& body);
@@ -178,16 +180,16 @@ public:
   const std::vector<Drive>& drives() const { return drives_; }
   const std::vector<Coupling>& couplings() const { return couplings_; }
 
-  /// Index by name; throws base::InputError if there is none.
+  /// Index by name; throws PartError if there is none.
   int bodyIndex(const std::string& name) const;
   int jointIndex(const std::string& name) const;
   /// "world" or the body's name.
   const std::string& bodyName(int body) const;
 
 private:
-  void checkBodies(const std::string& what, int bodyA, int bodyB) const;
-  void checkAxis(const std::string& what, int joint, JointAxis& axis) const;
-  void checkPoint(const std::string& what, int body, const Vec3d& point_B, bool mayTurnFreely) const;
+  void checkBodies(const PartName& what, int bodyA, int bodyB) const;
+  void checkAxis(const PartName& what, int joint, JointAxis& axis) const;
+  void checkPoint(const PartName& what, int body, const Vec3d& point_B, bool mayTurnFreely) const;
 
   std::vector<Body> bodies_;
   std::vector<Joint> joints_;

@@ -311,19 +311,6 @@ double Solver::velocityError(const State& state) const {
   return largest;
 }
 
-std::vector<std::string> Solver::singularRowNames() const {
-  std::vector<std::string> names;
-  const ConstraintSystem& system = impl_->system;
-  for (int k = 0; k < static_cast<int>(system.constraints().size()); ++k) {
-    // Where rows are redundant as many are left out as follow from the others; more than those are without a pivot.
-    unsigned lost = system.activeRows(k) & ~system.elimination().keptRows(k);
-    if (__builtin_popcount(lost) <= system.redundantRowsIn(k)) continue;
-    for (int r = 0; r < 6; ++r)
-      if (lost >> r & 1u) names.push_back(system.describe(k, r));
-  }
-  return names;
-}
-
 std::vector<std::string> Solver::redundantRowNames() const {
   std::vector<std::string> names;
   for (const auto& [k, row] : impl_->redundancy.rows) names.push_back(impl_->system.describe(k, row));
@@ -344,9 +331,6 @@ std::vector<JointReaction> Solver::reactions(const State& state) const {
 
 const StepReport& Solver::lastStep() const { return impl_->last; }
 const std::string& Solver::report() const { return impl_->text; }
-int Solver::redundantRows() const {
-  return static_cast<int>(impl_->redundancy.rows.size() + impl_->redundancy.couplings.size());
-}
 int Solver::degreesOfFreedom() const { return impl_->freedom; }
 
 } // namespace grouser::multibody

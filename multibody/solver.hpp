@@ -70,18 +70,13 @@ public:
   std::vector<JointReaction> reactions(const State& state) const;
 
   const StepReport& lastStep() const;
-  /// Rows without a pivot, by name, in the last matrix of the last step (kSymplecticEuler: of its start, kRattle: of
-  /// its end); empty but in singular positions.
-  std::vector<std::string> singularRowNames() const;
   /// max |J v| over the hard rows at a state's poses [m/s, rad/s]. With kRattle it is met to round-off. With
   /// kSymplecticEuler the twist is the mean over the step that led there and meets the constraints over that step to
   /// positionTolerance / dt; at its end it leaves them by O(dt |w|^2 size).
   double velocityError(const State& state) const;
   /// Size of the problem, independent parts, fill of the factor, and what was done about redundant rows.
   const std::string& report() const;
-  /// Rows dropped because others imply them.
-  int redundantRows() const;
-  /// Their names: "joint 'pin 7': rotation about x".
+  /// Rows dropped because others imply them: "joint 'pin 7': rotation about x".
   std::vector<std::string> redundantRowNames() const;
   /// Degrees of freedom that joints and couplings leave (drives not counted), redundancy taken into account.
   int degreesOfFreedom() const;

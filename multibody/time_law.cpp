@@ -78,18 +78,20 @@ double tableIntegral(const TimeLaw::Table& table, bool smooth, double t) {
   return t < 0 ? -sum : sum;
 }
 
-void checkTable(const std::string& what, const char* key, const TimeLaw::Table& t, bool jumps) {
-  if (t.times.empty() && t.values.empty()) return;
+std::string tableFault(const char* key, const TimeLaw::Table& t, bool jumps) {
+  const std::string name = key;
+  if (t.times.empty() && t.values.empty()) return "";
   if (t.times.size() != t.values.size() || t.times.size() < 2)
-    throw base::InputError(what + ": " + key + " has " + std::to_string(t.times.size()) + " times and " +
-                           std::to_string(t.values.size()) + " values; give as many of both, at least 2");
+    return name + " has " + std::to_string(t.times.size()) + " times and " + std::to_string(t.values.size()) +
+           " values; give as many of both, at least 2";
   for (std::size_t i = 0; i < t.times.size(); ++i) {
     if (!std::isfinite(t.times[i]) || !std::isfinite(t.values[i]))
-      throw base::InputError(what + ": " + key + " has an entry that is not a finite number");
+      return name + " has an entry that is not a finite number";
   }
   if (const std::size_t i = firstOutOfOrder(t.times, jumps); i > 0)
-    throw base::InputError(what + ": the times of its " + key + " must increase, but " + std::to_string(t.times[i]) +
-                           " s follows " + std::to_string(t.times[i - 1]) + " s");
+    return "the times of its " + name + " must increase, but " + std::to_string(t.times[i]) + " s follows " +
+           std::to_string(t.times[i - 1]) + " s";
+  return "";
 }
 
 } // namespace
@@ -149,15 +151,14 @@ double TimeLaw::integral(double t) const {
   return sum;
 }
 
-void checkTimeLaw(const char* what, const TimeLaw& law) {
-  const std::string name = what;
+std::string timeLawFault(const TimeLaw& law) {
   for (const double c : law.polynomial)
-    if (!std::isfinite(c)) throw base::InputError(name + ": a coefficient of its polynomial is not a finite number");
+    if (!std::isfinite(c)) return "a coefficient of its polynomial is not a finite number";
   for (const TimeLaw::Harmonic& h : law.harmonics)
     if (!std::isfinite(h.amplitude) || !std::isfinite(h.frequency) || !std::isfinite(h.phase))
-      throw base::InputError(name + ": amplitude, frequency or phase of a harmonic is not a finite number");
-  checkTable(name, "table", law.table, false);
-  checkTable(name, "ramps", law.ramps, true);
+      return "amplitude, frequency or phase of a harmonic is not a finite number";
+  const std::string fault = tableFault("table", law.table, false);
+  return fault.empty() ? tableFault("ramps", law.ramps, true) : fault;
 }
 
 } // namespace grouser::multibody

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace grouser::multibody {
@@ -49,8 +50,8 @@ inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps)
   return 0;
 }
 
-/// Throws base::InputError naming `what` if a number is not finite, a table's times do not increase, or a table has
-/// fewer than two points or not as many values as times.
-void checkTimeLaw(const char* what, const TimeLaw& law);
+/// What is wrong with a law, empty where nothing is: a number is not finite, a table's times do not increase, or a
+/// table has fewer than two points or not as many values as times.
+std::string timeLawFault(const TimeLaw& law);
 
 } // namespace grouser::multibody

@@ -234,16 +234,4 @@ void MeshQuery::overlapping(const Vec3d& low, const Vec3d& high, std::vector<std
   std::sort(triangles.begin(), triangles.end());
 }
 
-double solidAngleWinding(const TriangleMesh& mesh, const Vec3d& p) {
-  double sum = 0;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const Vec3d a = mesh.vertices[mesh.indices[i]] - p, b = mesh.vertices[mesh.indices[i + 1]] - p,
-                c = mesh.vertices[mesh.indices[i + 2]] - p;
-    const double la = norm(a), lb = norm(b), lc = norm(c);
-    // tan(angle / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
-    sum += 2 * base::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-  }
-  return sum / (4 * base::kPi);
-}
-
 } // namespace grouser::spheredecomp

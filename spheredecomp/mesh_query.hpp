@@ -73,8 +73,4 @@ private:
   std::vector<Node> nodes_;
 };
 
-/// Generalised winding number by solid angles, sum / (4 pi) [-] (van Oosterom and Strackee 1983, eq. 8). Costs a sum
-/// over all triangles: the reference for MeshQuery::winding.
-double solidAngleWinding(const TriangleMesh& mesh, const Vec3d& p);
-
 } // namespace grouser::spheredecomp

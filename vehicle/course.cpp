@@ -56,11 +56,6 @@ void Course::follow(const HullMotion& m) {
   travelled_ = found;
 }
 
-double Course::crossTrack(const HullMotion& m) const {
-  const Place p = placeAt(travelled_);
-  return p.alongX * (m.y - p.y) - p.alongY * (m.x - p.x);
-}
-
 std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, double dt, double from) {
   const CourseOptions& o = options_;
   double speed = std::min(std::fabs(o.speed - from), o.acceleration * std::max(0.0, time)), curvature = o.curvature;

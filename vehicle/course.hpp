@@ -53,8 +53,6 @@ public:
   /// Way along the path of the place nearest to the hull that it has come to; never falls [m].
   double travelled() const { return travelled_; }
   double length() const; ///< of the path [m]
-  /// How far the hull is beside the path, to the left positive [m].
-  double crossTrack(const HullMotion& motion) const;
 
   /// All that changes.
   std::vector<double> save() const { return {speedSum_, turnSum_, travelled_}; }

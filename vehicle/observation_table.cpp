@@ -90,8 +90,6 @@ constexpr ShoeField kForceFields[] = {
 
 } // namespace
 
-std::string firstQuantity() { return std::string("vehicle/") + kVectorFields[0].name; }
-
 std::vector<Quantity> quantitiesOfHull() {
   std::vector<Quantity> list;
   for (const VectorField& f : kVectorFields)

@@ -23,8 +23,6 @@ std::vector<Quantity> quantities(const Assembly& vehicle, bool shoeForces = fals
 /// The same in parts: of the whole vehicle, and of each track; `side` is "left" or "right".
 std::vector<Quantity> quantitiesOfHull();
 std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes, int wheels, bool shoeForces = false);
-/// Path of the first of them.
-std::string firstQuantity();
 
 /// The numbers of an observation, each quantity's `width` numbers in turn.
 std::vector<double> flatten(const Observation& observation, bool shoeForces = false);

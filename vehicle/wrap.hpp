@@ -50,11 +50,6 @@ struct Wrap {
   PlanePoint shoeCentre(int i) const;
   /// Direction of shoe i's x axis, from +x towards +z [rad].
   double shoeAngle(int i) const;
-  /// Shoes with both pins on the ground run: [first, last].
-  int firstGroundShoe() const {
-    return sprocketInFront ? counts.top + counts.idler + counts.frontStrand : counts.sprocket + counts.rearStrand;
-  }
-  int lastGroundShoe() const { return firstGroundShoe() + counts.ground - 1; }
 };
 
 /// Place the shoes exactly. Tries every split of the shoes over the stretches, solves idler x and first pin angle by

@@ -44,9 +44,6 @@ public:
   unsigned hardRowsOf(int constraint) const { return hard_[static_cast<std::size_t>(constraint)]; }
   /// States that `row` of a constraint, or another in its place, follows from others wherever the mechanism goes.
   void noteRedundant(int constraint, int row);
-  int redundantRowsIn(int constraint) const {
-    return __builtin_popcount(redundant_[static_cast<std::size_t>(constraint)]);
-  }
 
   /// Sets up and factors one part at `frames`. `laws`: one an axis. Returns the rows left out as singular.
   int linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);

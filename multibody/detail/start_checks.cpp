@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multibody/detail/start_checks.hpp"
 
-#include "base/error.hpp"
 #include "multibody/detail/axis_laws.hpp"
 #include "multibody/detail/index.hpp"
 #include "multibody/detail/vector6.hpp"
 #include "multibody/detail/velocity_projection.hpp"
+#include "multibody/part_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +29,10 @@ constexpr double kLockedAxis = 1e-13;
 /// Ratios nearer to each other than this are taken as written with a few digits.
 constexpr double kSameRatio = 1e-6;
 
-template <class... Parts> [[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw base::InputError(message.str());
+template <class... Words> [[noreturn]] void refuse(const PartName& part, const Words&... words) {
+  std::ostringstream fault;
+  (fault << ... << words);
+  throw PartError(part, "", fault.str());
 }
 
 /// Pivot-free axes: nothing but hard rows.
@@ -92,7 +92,7 @@ std::string namesOf(const Model& model, const std::vector<int>& couplings) {
     const std::optional<Train> train = trainBetween(system.couplings(), row.axis1, row.axis2, c);
     if (!train || std::fabs(train->ratio - row.ratio) <= kSameRatio * std::fabs(row.ratio)) continue;
     const Coupling& coupling = model.couplings()[at(c)];
-    refuse("coupling '", coupling.name, "': joint '", model.joints()[at(coupling.joint2)].name, "' cannot move ",
+    refuse({"coupling", coupling.name}, "joint '", model.joints()[at(coupling.joint2)].name, "' cannot move ",
            row.ratio, " times as far as joint '", model.joints()[at(coupling.joint1)].name, "', since by ",
            namesOf(model, train->couplings), " it moves ", train->ratio,
            " times as far; leave one of them out, or correct a ratio");
@@ -100,13 +100,13 @@ std::string namesOf(const Model& model, const std::vector<int>& couplings) {
   for (std::size_t i = 0; i < canMove.size(); ++i) {
     if (canMove[i].first && canMove[i].second) continue;
     const Coupling& coupling = model.couplings()[at(part.couplings[i])];
-    refuse("coupling '", coupling.name, "': the axis of joint '",
+    refuse({"coupling", coupling.name}, "the axis of joint '",
            model.joints()[at(canMove[i].first ? coupling.joint2 : coupling.joint1)].name,
            "' cannot move even without it, since other joints hold it, and nothing that is coupled to it can; leave it "
            "out, or free that axis");
   }
   const Coupling& first = model.couplings()[at(part.couplings.front())];
-  refuse("coupling '", first.name, "': joints '", model.joints()[at(first.joint1)].name, "' and '",
+  refuse({"coupling", first.name}, "joints '", model.joints()[at(first.joint1)].name, "' and '",
          model.joints()[at(first.joint2)].name, "' cannot move, since the couplings (", namesOf(model, part.couplings),
          ") contradict each other through the joints; leave one of them out, or correct a ratio");
 }
@@ -122,21 +122,21 @@ void checkClosed(const ConstraintSystem& system, const Model& model) {
     positionError(c, f, error);
     for (int r = 0; r < 6; ++r)
       if (!(std::fabs(error[r]) <= kStartGap))
-        refuse(system.describe(static_cast<int>(k), r), " is open by ", error[r],
+        refuse({"joint", model.joints()[at(c.source)].name}, rowName(c.kind, r), " is open by ", error[r],
                " [m or rad] at the start; allowed are ", kStartGap, "; place the bodies so that it closes");
     const bool alongZ = c.kind == ConstraintKind::kRevolute || c.kind == ConstraintKind::kPrismatic ||
                         c.kind == ConstraintKind::kCylindrical || c.kind == ConstraintKind::kFixed;
     const bool alongX = c.kind == ConstraintKind::kPrismatic || c.kind == ConstraintKind::kFixed;
     if ((alongZ && dot(f.z_A, f.z_B) < 0) || (alongX && dot(f.x_A, f.x_B) < 0))
-      refuse("joint '", model.joints()[at(c.source)].name,
-             "': the axes of its two frames point in opposite senses at the start; turn one frame by half a turn");
+      refuse({"joint", model.joints()[at(c.source)].name},
+             "the axes of its two frames point in opposite senses at the start; turn one frame by half a turn");
   }
   for (std::size_t c = 0; c < system.couplings().size(); ++c) {
     const CouplingRow& row = system.couplings()[c];
     const double gap =
         system.positionOfAxis(row.axis2, frames) - row.ratio * system.positionOfAxis(row.axis1, frames) - row.offset;
     if (!(std::fabs(gap) <= kStartGap))
-      refuse("coupling '", model.couplings()[c].name, "' is open by ", gap, " [m or rad] at the start; allowed are ",
+      refuse({"coupling", model.couplings()[c].name}, "is open by ", gap, " [m or rad] at the start; allowed are ",
              kStartGap, "; place the bodies so that it closes, or leave its offset out");
   }
 }
@@ -236,7 +236,7 @@ void checkMobility(const ConstraintSystem& system, const Model& model, const Con
       }
       const Drive& drive = model.drives()[at(drives[i])];
       if (!(s > kFixedAxis * free))
-        refuse("drive '", drive.name, "': the axis of joint '", model.joints()[at(drive.joint)].name,
+        refuse({"drive", drive.name}, "the axis of joint '", model.joints()[at(drive.joint)].name,
                "' cannot move on its own: it is already determined by ", others(model, drive.name),
                "; leave one of them out, or start away from a dead centre");
       L[i][i] = std::sqrt(s);
@@ -252,7 +252,7 @@ void checkLawStarts(const ConstraintSystem& system, const Model& model) {
     if (drive.kind != DriveKind::kPosition) continue;
     const double wanted = drive.law.value(0);
     if (!(std::fabs(wanted - start[d]) <= kStartGap))
-      refuse("drive '", drive.name, "': its law begins at ", wanted, " [rad or m], but the axis of joint '",
+      refuse({"drive", drive.name}, "its law begins at ", wanted, " [rad or m], but the axis of joint '",
              model.joints()[at(drive.joint)].name, "' starts at ", start[d],
              "; begin the law there, or place the bodies so");
   }
@@ -294,7 +294,7 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
         if (!(hardRows(c.kind) >> r & 1u)) continue;
         const double rate = system.rate(k, r, twist);
         if (!(std::fabs(rate) <= allowed))
-          refuse(system.describe(k, r), ": the start velocities of '",
+          refuse({"joint", model.joints()[at(c.source)].name}, rowName(c.kind, r), ": the start velocities of '",
                  model.bodyName(model.joints()[at(c.source)].bodyA), "' and '",
                  model.bodyName(model.joints()[at(c.source)].bodyB), "' would open it at ", rate,
                  " [m/s or rad/s]; allowed are ", allowed, remedy);
@@ -303,7 +303,7 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
         if (!laws[at(a)].driven) continue;
         const double rate = system.rateOfAxis(a, twist);
         if (!(std::fabs(rate - laws[at(a)].speed) <= allowed))
-          refuse("joint '", model.joints()[at(c.source)].name, "': its axis starts at a rate of ", rate,
+          refuse({"joint", model.joints()[at(c.source)].name}, "its axis starts at a rate of ", rate,
                  " [m/s or rad/s], but its drive imposes ", laws[at(a)].speed, remedy);
       }
     }
@@ -311,7 +311,7 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
       const CouplingRow& row = system.couplings()[at(i)];
       const double rate = system.rateOfAxis(row.axis2, twist) - row.ratio * system.rateOfAxis(row.axis1, twist);
       if (!(std::fabs(rate) <= allowed))
-        refuse("coupling '", model.couplings()[at(i)].name, "': the start velocities would open it at ", rate,
+        refuse({"coupling", model.couplings()[at(i)].name}, "the start velocities would open it at ", rate,
                " [m/s or rad/s]; allowed are ", allowed, remedy);
     }
   }

@@ -5,7 +5,7 @@
 
 namespace grouser::multibody::detail {
 
-/// What a model must be before it can start. Each throws base::InputError naming the part.
+/// What a model must be before it can start. Each throws PartError.
 
 /// Joints and couplings are closed, and their frames do not stand opposite to one another.
 void checkClosed(const ConstraintSystem& system, const Model& model);

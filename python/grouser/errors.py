@@ -26,7 +26,7 @@ class SimulationError(GrouserError):
 
 
 class DeviceError(GrouserError):
-    """Exit code 4: the device failed, or memory ran out."""
+    """Exit code 4: the device failed, or the machine has no memory or process left."""
 
 
 class StoppedError(GrouserError):

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <string>
-#include <utility>
 
 namespace grouser::commands {
 
@@ -19,17 +18,10 @@ void describeLedger(coupling::Simulation& simulation) {
       "ledger    since the start [J]: drive work {:.4g}{} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
       "dissipated {:+.4g}, integration error {:+.3g}; left over {:.2g}\n",
       l.driveWork, hitch, l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.integrationError, l.residual);
-  const coupling::Dissipated& d = l.dissipated;
   std::string causes;
-  for (const auto& [cause, loss] : {std::pair{"damping", d.damping},
-                                    {"friction", d.friction},
-                                    {"micro-slip", d.microSlip},
-                                    {"rolling", d.rolling},
-                                    {"yielding", d.yielding},
-                                    {"crushing", d.crushing},
-                                    {"parts", d.parts},
-                                    {"joints", d.joints}})
-    if (loss != 0) causes += fmt::format("{}{} {:.4g}", causes.empty() ? "" : ", ", cause, loss);
+  for (const coupling::DissipationCause& cause : coupling::kDissipationCauses)
+    if (const double heat = l.dissipated.*cause.heat; heat != 0)
+      causes += fmt::format("{}{} {:.4g}", causes.empty() ? "" : ", ", cause.word, heat);
   if (!causes.empty()) fmt::print("          dissipated by {}\n", causes);
   const auto shown = [](const base::Vec3d& v) { return fmt::format("({:.2g}, {:.2g}, {:.2g})", v.x, v.y, v.z); };
   fmt::print("momentum  left over {} N s, angular {} N m s\n", shown(l.momentumResidual), shown(l.angularResidual));

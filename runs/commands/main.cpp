@@ -5,6 +5,7 @@
 #include "runs/commands/manual.hpp"
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/failure.hpp"
 #include "runs/support/option_checks.hpp"
 #include "runs/support/shell_word.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -20,16 +21,12 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <new>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace {
 
 using namespace grouser;
-
-enum ExitCode { kOther = 1, kInput = 2, kSimulation = 3, kDevice = 4 };
 
 /// A standard stream that was closed would give its number to the next file that is opened, which would then get what
 /// is meant for the stream. What nobody wants to read is lost; where results are printed, printing them fails.
@@ -49,7 +46,8 @@ void waitBriefly(char** argv) {
 
 /// Says why, and ends the other ranks too. What all ranks find out alike is said by the first; the others wait a moment
 /// for it to end them.
-int fail(const base::Ranks& ranks, int code, const char* message) {
+int fail(const base::Ranks& ranks, support::FailureKind kind, const std::string& message) {
+  const int code = support::exitCode(kind);
   std::fflush(stdout);
   if (!ranks.comm().first()) sleep(2);
   const std::string who = ranks.comm().alone() ? "" : fmt::format("rank {}: ", ranks.comm().rank());
@@ -59,8 +57,6 @@ int fail(const base::Ranks& ranks, int code, const char* message) {
   ranks.abort(code);
   return code;
 }
-
-constexpr const char* kNotPrinted = "the standard output could not be written; is the disk full?";
 
 /// Whether all that was printed has arrived.
 bool printedAll() {
@@ -79,6 +75,10 @@ void addCommands(CLI::App& app, const std::vector<commands::CommandEntry>& all,
                                            command.name, comm.size(), command.insteadOfRanks));
     });
   }
+}
+
+int failToPrint(const base::Ranks& ranks) {
+  return fail(ranks, support::FailureKind::notWritten, "the standard output could not be written; is the disk full?");
 }
 
 /// The command that goes on with what this one has left, or begins again where it has left nothing.
@@ -137,45 +137,38 @@ int main(int argc, char** argv) {
   std::signal(SIGCHLD, SIG_DFL); // ignored, as some supervisors leave it, it would take the ends of processes away
   const base::Ranks ranks(argc, argv);
   // One rank speaks for all.
-  if (!ranks.comm().first() && !std::freopen("/dev/null", "w", stdout)) return kOther;
+  if (!ranks.comm().first() && !std::freopen("/dev/null", "w", stdout))
+    return support::exitCode(support::FailureKind::stray);
   CLI::App app("grouser drives a tracked vehicle over granular terrain, and says how wrong its answer is.", "grouser");
   app.formatter(commands::helpFormatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", support::versionText());
   app.footer(
       "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound or its results could not be written, "
-      "4 device, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM, 1 anything else.\nSettled beds and the "
+      "4 device or memory, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM, 1 internal error.\nSettled beds and "
+      "the "
       "spheres of parts are kept in GROUSER_CACHE, or else in "
       "$XDG_CACHE_HOME/grouser, or else in ~/.cache/grouser, up to GROUSER_CACHE_GIB (2) GiB.");
   try {
     obey(app, argc, argv, ranks);
-    return printedAll() ? 0 : fail(ranks, kSimulation, kNotPrinted);
+    return printedAll() ? 0 : failToPrint(ranks);
   } catch (const CLI::Success& e) {
     const int code = app.exit(e); // --help and --version
-    return printedAll() ? code : fail(ranks, kSimulation, kNotPrinted);
+    return printedAll() ? code : failToPrint(ranks);
   } catch (const CLI::ParseError& e) {
-    return fail(ranks, kInput,
+    return fail(ranks, support::FailureKind::input,
                 fmt::format("{}{}; see grouser --help, or grouser COMMAND --help", e.what(),
-                            support::nearestOptionHint(app, argc, argv))
-                    .c_str());
-  } catch (const base::InputError& e) {
-    return fail(ranks, kInput, e.what());
-  } catch (const base::SimulationError& e) {
-    return fail(ranks, kSimulation, e.what());
+                            support::nearestOptionHint(app, argc, argv)));
   } catch (const support::Stopped& e) {
     std::fflush(stdout);
     const std::string next = nextCommand(app, {argv, argv + argc}, ranks, e);
     if (ranks.comm().first()) std::fputs(fmt::format("grouser: {}; {}\n", e.what(), next).c_str(), stderr);
     return 128 + e.signal();
-  } catch (const base::DeviceError& e) {
-    return fail(ranks, kDevice, e.what());
-  } catch (const std::runtime_error& e) { // what could not be written
-    return fail(ranks, kSimulation, std::ferror(stdout) ? kNotPrinted : e.what());
-  } catch (const std::bad_alloc&) {
-    return fail(ranks, kDevice,
-                "out of host memory; use larger or fewer grains, or more ranks on "
-                "several hosts (grouser plan says what a scene needs)");
-  } catch (const std::exception& e) {
-    return fail(ranks, kOther, e.what());
+  } catch (...) {
+    using Kind = support::FailureKind;
+    const support::Failure failure = support::failureOf(std::current_exception());
+    if ((failure.kind == Kind::stray || failure.kind == Kind::notWritten) && std::ferror(stdout))
+      return failToPrint(ranks); // fmt throws an exception of its own
+    return fail(ranks, failure.kind, support::textOf(failure, support::shellLine({argv, argv + argc})));
   }
 }

@@ -24,7 +24,7 @@ std::string optionsDocument(const CLI::App& app);
 std::string bashCompletion(const CLI::App& app);
 
 /// Writes all pages to folder/man/man1 and the completion to folder/bash-completion/completions. Throws
-/// std::runtime_error where a file cannot be written.
+/// support::NotWritten where a file cannot be written.
 void writeManual(const CLI::App& app, const std::filesystem::path& folder);
 
 /// The words that an option takes, where there is a list of them.

@@ -81,11 +81,11 @@ std::string stickingLine(const scene::Scene& scene) {
   bool meet = false, cohere = false, yield = false;
   double pull = 0;
   for (const setup::MeetingPair& p : setup::meetingPairs(scene)) {
-    if (p.what == "grain on grain" && p.grain == p.partner) {
+    if (p.touched == setup::Touched::grain && p.grain == p.partner) {
       cohere |= p.cohesion > 0;
       yield |= p.law.plastic.pull > 0 || p.law.plastic.pullGrowth > 0 || p.law.plastic.adhesion > 0;
     }
-    if (p.what == "grain on the vehicle") meet = true, pull = std::max(pull, p.cohesion);
+    if (p.touched == setup::Touched::vehicle) meet = true, pull = std::max(pull, p.cohesion);
   }
   if (!meet)
     return scene.vehicle && scene.vehicle->adhesion > 0

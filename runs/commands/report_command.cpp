@@ -5,6 +5,7 @@
 #include "runs/campaigns/sweeps/run_figures.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/locations.hpp"
+#include "runs/support/not_written.hpp"
 #include "runs/support/output_place.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
@@ -98,7 +99,7 @@ void reportCommand(const ReportCommand& command) {
     throw base::InputError(lastLine(outcome.output));
   if (outcome.status == kNoProgram)
     throw base::InputError("a report needs Python; install python3, python3-numpy and python3-h5py");
-  if (outcome.status == kNotWritten) throw std::runtime_error(lastLine(outcome.output));
+  if (outcome.status == kNotWritten) throw support::NotWritten(lastLine(outcome.output));
   if (outcome.status != 0) throw std::logic_error(fmt::format("{}: {}", script.string(), lastLine(outcome.output)));
   fmt::print("{}", outcome.output);
 }

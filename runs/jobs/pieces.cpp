@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "runs/support/json_text.hpp"
+#include "runs/support/not_written.hpp"
 #include "runs/support/option_checks.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -13,7 +14,6 @@
 #include <cstdio>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <tuple>
 
 namespace grouser::jobs {
@@ -115,7 +115,7 @@ Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOpt
     if (!goesOn) fs::remove_all(folder_ / "runs");
     try {
       support::replaceTextFile(file, text);
-    } catch (const std::runtime_error&) {
+    } catch (const support::NotWritten&) {
       if (contentsOf(file) != text) throw; // else another part was quicker
     }
   }

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/shared_memory.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/failure.hpp"
 #include "runs/support/stop_signals.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -25,8 +28,9 @@ namespace grouser::jobs {
 
 namespace {
 
-// What a child says: one letter for each piece done; where one fails, its kind and then the message to the end.
-constexpr char kDone = '.', kInput = 'i', kOther = 'o';
+// What a child says: one letter for each piece done; where one fails, the letter of its kind and then the message to
+// the end.
+constexpr char kDone = '.', kFirstKind = 'a';
 constexpr int kPause = 100; ///< between looks at the signals [ms]
 
 [[noreturn]] void stopped(int signal) {
@@ -45,7 +49,7 @@ void say(int pipe, const std::string& text) {
 class NextPiece {
 public:
   NextPiece() : block_(base::createShared(sizeof(Number))) {
-    if (!block_.memory) throw std::runtime_error("no memory to share among processes; take --jobs 1 or --processes 1");
+    if (!block_.memory) throw base::DeviceError("no memory to share among processes; take --jobs 1 or --processes 1");
     number_ = new (block_.memory) Number(0);
   }
   ~NextPiece() { base::closeShared(block_.memory, sizeof(Number)), base::endSharing(block_); }
@@ -73,10 +77,9 @@ private:
       work(i);
       say(pipe, {kDone});
     }
-  } catch (const base::InputError& e) {
-    say(pipe, kInput + std::string(e.what()));
-  } catch (const std::exception& e) {
-    say(pipe, kOther + std::string(e.what()));
+  } catch (...) {
+    const support::Failure failure = support::failureOf(std::current_exception());
+    say(pipe, static_cast<char>(kFirstKind + static_cast<int>(failure.kind)) + failure.message);
   }
   _exit(0); // nothing of the parent's may be flushed or tidied up twice
 }
@@ -107,7 +110,7 @@ public:
 void start(Children& children, NextPiece& next, std::size_t count, const std::function<void(std::size_t)>& work) {
   const std::string gpu = support::firstGpuOf(static_cast<int>(children.all.size()));
   int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error(fmt::format("no pipe to a process: {}", std::strerror(errno)));
+  if (pipe(ends) != 0) throw base::DeviceError(fmt::format("no pipe to a process: {}", std::strerror(errno)));
   const pid_t process = fork();
   if (process == 0) {
     close(ends[0]);
@@ -115,7 +118,7 @@ void start(Children& children, NextPiece& next, std::size_t count, const std::fu
   }
   close(ends[1]);
   children.all.push_back({process, ends[0], ""});
-  if (process < 0) throw std::runtime_error(fmt::format("no process could be started: {}", std::strerror(errno)));
+  if (process < 0) throw base::DeviceError(fmt::format("no process could be started: {}", std::strerror(errno)));
 }
 
 /// Takes what a child has said. False when it has ended.
@@ -134,11 +137,12 @@ bool listen(Child& c, const std::function<void()>& done) {
 
 /// What the end of a child means.
 void judge(const Child& c, int status) {
-  if (!c.message.empty() && c.message[0] == kInput) throw base::InputError(c.message.substr(1));
-  if (!c.message.empty()) throw std::runtime_error(c.message.substr(1));
+  if (!c.message.empty())
+    support::rethrow({static_cast<support::FailureKind>(c.message[0] - kFirstKind), c.message.substr(1)});
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    throw base::DeviceError("one of the processes was killed; out of memory? Take fewer --processes");
   if (WIFSIGNALED(status))
-    throw std::runtime_error(fmt::format("one of the processes was ended by signal {}{}", WTERMSIG(status),
-                                         WTERMSIG(status) == SIGKILL ? "; out of memory? Take fewer --processes" : ""));
+    throw std::runtime_error(fmt::format("one of the processes was ended by signal {}", WTERMSIG(status)));
 }
 
 } // namespace

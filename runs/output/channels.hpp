@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/vec.hpp"
+#include "coupling/gear_contacts.hpp"
+#include "coupling/ledger.hpp"
+#include "coupling/pressed_grain.hpp"
+#include "coupling/surfaces.hpp"
+#include "coupling/towing.hpp"
 #include "runs/output/records.hpp"
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 /// The quantities of a time series: one list for who writes results.h5 and who reads it.
@@ -17,39 +27,73 @@ inline std::string shoeSinkage(const std::string& side) { return "vehicle/" + si
 /// A quantity that another room describes (vehicle::Quantity has the same members).
 template <class Quantity> Channel channelOf(const Quantity& q) { return {q.path, q.unit, q.help, q.width, q.columns}; }
 
-/// State of the bed and its contacts.
-std::vector<Channel> terrainChannels();
-/// Loads on a rigid surface and what moves it, under surfaces/NAME. `hasPivot`: its torque about that too.
-std::vector<Channel> surfaceChannels(const std::string& name, bool hasPivot = false);
-/// What a vehicle does to a surface at rest, under obstacles/NAME.
-std::vector<Channel> obstacleChannels(const std::string& name);
-/// What a vehicle pulls at its hitch.
-std::vector<Channel> hitchChannels();
-/// What grains touch of a vehicle.
-std::vector<Channel> gearChannels();
-/// Energy and momentum.
-std::vector<Channel> ledgerChannels();
+inline void appendTo(std::vector<double>& values, double number) { values.push_back(number); }
+inline void appendTo(std::vector<double>& values, const base::Vec3d& v) {
+  values.insert(values.end(), {v.x, v.y, v.z});
+}
+inline void appendTo(std::vector<double>& values, const base::Quat& q) {
+  values.insert(values.end(), {q.w, q.x, q.y, q.z});
+}
 
-/// Fills a row by channel path, in any order. What is not set stays NaN.
-class RowBuilder {
+/// Channels whose values are read from one `Source`: a row gets them in the same order.
+template <class Source> class Columns {
 public:
-  explicit RowBuilder(const std::vector<Channel>& channels);
-  void begin(std::int64_t step, double time);
-  /// Throws std::logic_error for a path that is no channel or a count that is not its width.
-  void set(const std::string& path, double value) { set(path, &value, 1); }
-  void set(const std::string& path, const base::Vec3d& v) { set(path, &v.x, 3); }
-  void set(const std::string& path, const std::vector<double>& values) { set(path, values.data(), values.size()); }
-  /// Fills several channels in a row, of which `first` is the first.
-  void setFrom(const std::string& first, const std::vector<double>& values);
-  const Row& row() const { return row_; }
+  /// `group`: begins all paths, such as "ledger/".
+  explicit Columns(std::string group = "") : group_(std::move(group)) {}
+
+  /// `read`: a number, vector or quaternion of a source, as a member or a function of it. `columns`: names of a
+  /// vector's components.
+  template <class Read> void add(const std::string& name, const std::string& unit, const std::string& help, Read read,
+                                 std::vector<std::string> columns = kAxes) {
+    using Value = std::decay_t<std::invoke_result_t<Read, const Source&>>;
+    if constexpr (std::is_arithmetic_v<Value>) {
+      channels_.push_back({group_ + name, unit, help, 1, {}});
+      readers_.push_back([read](const Source& source, std::vector<double>& values) {
+        values.push_back(static_cast<double>(std::invoke(read, source)));
+      });
+    } else {
+      channels_.push_back({group_ + name, unit, help, static_cast<int>(columns.size()), std::move(columns)});
+      readers_.push_back(
+          [read](const Source& source, std::vector<double>& values) { appendTo(values, std::invoke(read, source)); });
+    }
+  }
+
+  const std::vector<Channel>& channels() const { return channels_; }
+  /// Adds the numbers of all channels to a row's.
+  void append(const Source& source, std::vector<double>& values) const {
+    for (const auto& read : readers_) read(source, values);
+  }
 
 private:
-  void set(const std::string& path, const double* values, std::size_t count);
-  struct Slot {
-    std::size_t first, width;
-  };
-  std::map<std::string, Slot> slots_;
-  Row row_;
+  std::string group_;
+  std::vector<Channel> channels_;
+  std::vector<std::function<void(const Source&, std::vector<double>&)>> readers_;
 };
+
+/// The bed at the time of a row.
+struct TerrainReading {
+  coupling::Ledger ledger;
+  double radius{};                                  ///< that of the grains' model, in which overlaps are told [m]
+  double crushed{};                                 ///< grains taken out since the start
+  std::int64_t rebuilds{};                          ///< of the neighbour list
+  std::optional<coupling::PressedMost> pressedMost; ///< empty where grains meet no part
+};
+/// State of the bed and its contacts.
+Columns<TerrainReading> terrainColumns();
+/// Loads on a rigid surface and what moves it, under surfaces/NAME. `hasPivot`: its torque about that too.
+Columns<coupling::Surfaces::Observation> surfaceColumns(const std::string& name, bool hasPivot = false);
+/// The mean force of a vehicle on a surface at rest, under obstacles/NAME.
+Columns<base::Vec3d> obstacleColumns(const std::string& name);
+
+struct HitchReading {
+  coupling::HitchObservation hitch;
+  double drawbarPull{}; ///< [N]
+};
+/// What a vehicle pulls at its hitch.
+Columns<HitchReading> hitchColumns();
+/// What grains touch of a vehicle.
+Columns<coupling::GearContacts> gearColumns();
+/// Energy and momentum. `touching`: whether vehicle and bed may exchange impulses.
+Columns<coupling::Ledger> ledgerColumns(bool touching = true);
 
 } // namespace grouser::output

@@ -13,37 +13,46 @@ namespace grouser::output {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Reads the rows that the checkpoint counted. Returns what is wrong with them, or nothing.
+std::string readCounted(const fs::path& path, const std::vector<Channel>& channels, std::int64_t step,
+                        std::int64_t count, std::vector<Row>& rows) {
+  const support::Hdf5File file = support::Hdf5File::open(path);
+  const std::vector<std::int64_t> steps = file.read<std::int64_t>("/series/step");
+  const std::vector<double> times = file.read<double>("/series/time");
+  const std::size_t most = std::min({steps.size(), times.size(), static_cast<std::size_t>(count)});
+  for (std::size_t i = 0; i < most && steps[i] <= step; ++i) rows.push_back({steps[i], times[i], {}});
+  if (static_cast<std::int64_t>(rows.size()) != count)
+    return fmt::format("holds {} rows up to step {}, where the checkpoint counted {}", rows.size(), step, count);
+  for (const Channel& c : channels) {
+    const std::vector<double> values = file.read<double>("/" + c.path + "/value");
+    const auto width = static_cast<std::size_t>(c.width);
+    if (values.size() < rows.size() * width) return fmt::format("holds too few rows of {}", c.path);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].values.insert(rows[i].values.end(), values.begin() + static_cast<std::ptrdiff_t>(i * width),
+                            values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
+  }
+  return "";
+}
+
+} // namespace
+
 std::vector<Row> readRows(const fs::path& folder, const std::vector<Channel>& channels, std::int64_t step,
                           std::int64_t count) {
   const fs::path path = folder / "results.h5";
-  const auto refuse = [&](const std::string& what) {
+  std::vector<Row> rows;
+  std::string fault;
+  try {
+    fault = readCounted(path, channels, step, count, rows);
+  } catch (const base::InputError& error) {
+    fault = fmt::format("cannot be read ({})", error.what());
+  }
+  if (!fault.empty())
     throw base::InputError(fmt::format("{}: {}, so the rows before the checkpoint cannot be kept; bring back the file "
                                        "that the run wrote, or go on without them by --force",
-                                       path.string(), what));
-  };
-  try {
-    const support::Hdf5File file = support::Hdf5File::open(path);
-    std::vector<Row> rows;
-    const std::vector<std::int64_t> steps = file.read<std::int64_t>("/series/step");
-    const std::vector<double> times = file.read<double>("/series/time");
-    const std::size_t most = std::min({steps.size(), times.size(), static_cast<std::size_t>(count)});
-    for (std::size_t i = 0; i < most && steps[i] <= step; ++i) rows.push_back({steps[i], times[i], {}});
-    if (static_cast<std::int64_t>(rows.size()) != count)
-      refuse(fmt::format("holds {} rows up to step {}, where the checkpoint counted {}", rows.size(), step, count));
-    for (const Channel& c : channels) {
-      const std::vector<double> values = file.read<double>("/" + c.path + "/value");
-      const auto width = static_cast<std::size_t>(c.width);
-      if (values.size() < rows.size() * width) refuse(fmt::format("holds too few rows of {}", c.path));
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i].values.insert(rows[i].values.end(), values.begin() + static_cast<std::ptrdiff_t>(i * width),
-                              values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
-    }
-    return rows;
-  } catch (const base::InputError& error) {
-    if (std::string(error.what()).find("--force") != std::string::npos) throw;
-    refuse(fmt::format("cannot be read ({})", error.what()));
-  }
-  return {};
+                                       path.string(), fault));
+  return rows;
 }
 
 std::int64_t keptFrames(const fs::path& folder, std::int64_t step, std::int64_t count, bool atEnd) {

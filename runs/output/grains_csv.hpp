@@ -26,7 +26,7 @@ public:
   static bool isWanted(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval);
 
   /// Begins the file anew, or goes on with it: then what came after the last row that is `kept` of the time series [its
-  /// step; -1: none is] is cut off. Throws std::runtime_error. On several ranks all of them have one, and the first
+  /// step; -1: none is] is cut off. Throws support::NotWritten. On several ranks all of them have one, and the first
   /// writes.
   GrainsCsv(const std::filesystem::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm);
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/mechanism_output.hpp"
 
+#include "base/math.hpp"
 #include "multibody/readings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace grouser::output {
 
@@ -103,150 +105,153 @@ double sizeOf(const multibody::Model& model) {
   return size > 0 ? size : 1;
 }
 
+/// The columns of one mechanism, kind by kind.
+class MechanismColumns {
+public:
+  MechanismColumns(const multibody::Model& model, const std::vector<std::string>& record)
+      : model_(model), record_(record) {
+    addBodies(), addJoints(), addSprings(), addBushings(), addDrives(), addCouplings(), addWhole();
+  }
+  const Columns<MechanismReading>& all() const { return columns_; }
+
+private:
+  using Reading = MechanismReading;
+
+  /// Calls add(i, "bodies/NAME/", part) for the parts of a kind that are recorded.
+  template <class Part, class Add> void forKept(const std::vector<Part>& parts, const char* group, const Add& add) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (isKept(record_, parts[i].name)) add(i, fmt::format("{}/{}/", group, parts[i].name), parts[i]);
+  }
+  /// A number or vector that is found in a step: not known before the first.
+  template <class Read>
+  void addOfStep(const std::string& path, const std::string& unit, const std::string& help, Read read) {
+    columns_.add(path, unit, help, [read](const Reading& r) {
+      using Value = std::decay_t<decltype(read(r))>;
+      return r.mechanism.state().time > 0 ? Value(read(r)) : unknown<Value>();
+    });
+  }
+  template <class Value> static Value unknown() {
+    if constexpr (std::is_same_v<Value, double>)
+      return base::kNaN;
+    else
+      return {base::kNaN, base::kNaN, base::kNaN};
+  }
+  bool turnsAbout(int joint, multibody::JointAxis axis) const { return turns(jointOf(model_, joint), axis); }
+
+  void addBodies() {
+    forKept(model_.bodies(), "bodies", [&](std::size_t i, const std::string& path, const auto&) {
+      const auto pose = [i](const Reading& r) -> const base::Pose& { return r.mechanism.state().pose[i]; };
+      const auto twist = [i](const Reading& r) -> const multibody::Twist& { return r.mechanism.state().twist[i]; };
+      columns_.add(path + "position", "m", "of the centre of mass", [=](const Reading& r) { return pose(r).position; });
+      columns_.add(path + "orientation", "-", "quaternion from body to world",
+                   [=](const Reading& r) { return pose(r).orientation; }, {"w", "x", "y", "z"});
+      columns_.add(path + "velocity", "m/s", "of the centre of mass", [=](const Reading& r) { return twist(r).v; });
+      columns_.add(path + "spin", "rad/s", "angular velocity, world components",
+                   [=](const Reading& r) { return twist(r).w; });
+    });
+  }
+
+  void addJoints() {
+    forKept(model_.joints(), "joints", [&](std::size_t i, const std::string& path, const multibody::Joint& joint) {
+      addOfStep(path + "force", "N",
+                "on the second body from the first, with springs and drives of the axis, without couplings; world "
+                "components",
+                [i](const Reading& r) { return r.reactions[i].force; });
+      addOfStep(path + "torque", "N m", "the same, about the joint",
+                [i](const Reading& r) { return r.reactions[i].torque; });
+      for (const NamedAxis& a : axesOf(joint)) addAxis(static_cast<int>(i), path + a.prefix, a);
+    });
+  }
+  void addAxis(int joint, const std::string& path, const NamedAxis& a) {
+    const auto axis = [joint, which = a.axis](const Reading& r) {
+      return multibody::axisReading(r.mechanism.model(), r.mechanism.state(), joint, which);
+    };
+    columns_.add(path + "position", a.turns ? "rad" : "m", "of the free axis",
+                 [=](const Reading& r) { return axis(r).position; });
+    columns_.add(path + "rate", a.turns ? "rad/s" : "m/s", "of the free axis",
+                 [=](const Reading& r) { return axis(r).rate; });
+    addOfStep(path + "force_along", a.turns ? "N m" : "N", "of damping, springs, stops and drive along the free axis",
+              [=](const Reading& r) { return axis(r).axisForce; });
+  }
+
+  void addSprings() {
+    forKept(model_.pointSprings(), "springs", [&](std::size_t i, const std::string& path, const auto&) {
+      addOfStep(path + "force", "N", "positive pushes apart",
+                [i](const Reading& r) { return r.mechanism.state().spring[i].force; });
+      columns_.add(path + "length", "m", "between its ends",
+                   [i](const Reading& r) { return r.mechanism.state().spring[i].length; });
+    });
+    forKept(model_.axisSprings(), "springs", [&](std::size_t i, const std::string& path, const auto& spring) {
+      if (!isSpring(spring)) return;
+      columns_.add(path + "force", turnsAbout(spring.joint, spring.axis) ? "N m" : "N",
+                   "on the second body along the axis",
+                   [i](const Reading& r) { return r.mechanism.axisSpringForce(static_cast<int>(i)); });
+    });
+  }
+
+  void addBushings() {
+    forKept(model_.bushings(), "bushings", [&](std::size_t i, const std::string& path, const auto&) {
+      const auto bushing = [i](const Reading& r) { return r.mechanism.state().bushing[i]; };
+      addOfStep(path + "force", "N", "on the second body, world components",
+                [=](const Reading& r) { return bushing(r).force; });
+      addOfStep(path + "torque", "N m", "on the second body, world components",
+                [=](const Reading& r) { return bushing(r).torque; });
+      columns_.add(path + "translation", "m", "in the bushing's axes on the first body",
+                   [=](const Reading& r) { return bushing(r).translation; });
+      columns_.add(path + "rotation", "rad", "rotation vector in the same axes",
+                   [=](const Reading& r) { return bushing(r).rotation; });
+    });
+  }
+
+  void addDrives() {
+    forKept(model_.drives(), "drives", [&](std::size_t i, const std::string& path, const multibody::Drive& d) {
+      const bool turning = turnsAbout(d.joint, d.axis);
+      const auto drive = [i](const Reading& r) { return r.mechanism.drive(static_cast<int>(i)); };
+      columns_.add(path + "value", driveUnit(d.kind, turning), "what it imposes",
+                   [=](const Reading& r) { return drive(r).value; });
+      addOfStep(path + "torque", turning ? "N m" : "N", "that it takes",
+                [=](const Reading& r) { return drive(r).torque; });
+      addOfStep(path + "power", "W", "that it gives to the mechanism",
+                [=](const Reading& r) { return drive(r).power; });
+    });
+  }
+
+  void addCouplings() {
+    forKept(model_.couplings(), "couplings", [&](std::size_t i, const std::string& path, const auto& coupling) {
+      addOfStep(path + "force", turnsAbout(coupling.joint2, coupling.axis2) ? "N m" : "N",
+                "on the second axis, beside what the joint's force and torque hold; the first feels minus the ratio "
+                "times it",
+                [i](const Reading& r) { return r.mechanism.state().coupling[i].force; });
+    });
+  }
+
+  void addWhole() {
+    columns_.add("momentum/linear", "kg m/s", "of all bodies", [](const Reading& r) { return r.now.linearMomentum; });
+    columns_.add("momentum/angular", "kg m2/s", "of all bodies about the world's origin",
+                 [](const Reading& r) { return r.now.angularMomentum; });
+    columns_.add("constraints/position_error", "m", "widest gap of a joint since the last row [m, rad]",
+                 [](const Reading& r) { return r.drift.position; });
+    columns_.add("constraints/velocity_error", "m/s", "fastest opening of a joint now [m/s, rad/s]",
+                 [](const Reading& r) { return r.drift.velocity; });
+    columns_.add("constraints/iterations", "-", "most of a step since the last row",
+                 [](const Reading& r) { return r.drift.iterations; });
+    columns_.add("constraints/singular_steps", "-", "steps through a singular position since the last row",
+                 [](const Reading& r) { return r.drift.singularSteps; });
+  }
+
+  const multibody::Model& model_;
+  const std::vector<std::string>& record_;
+  Columns<MechanismReading> columns_;
+};
+
 } // namespace
 
-std::vector<Channel> mechanismChannels(const multibody::Model& model, const std::vector<std::string>& record) {
-  std::vector<Channel> c;
-  for (const multibody::Body& b : model.bodies()) {
-    if (!isKept(record, b.name)) continue;
-    const std::string path = "bodies/" + b.name + "/";
-    c.push_back({path + "position", "m", "of the centre of mass", 3, kAxes});
-    c.push_back({path + "orientation", "-", "quaternion from body to world", 4, {"w", "x", "y", "z"}});
-    c.push_back({path + "velocity", "m/s", "of the centre of mass", 3, kAxes});
-    c.push_back({path + "spin", "rad/s", "angular velocity, world components", 3, kAxes});
-  }
-  for (const multibody::Joint& j : model.joints()) {
-    if (!isKept(record, j.name)) continue;
-    const std::string path = "joints/" + j.name + "/";
-    c.push_back({path + "force", "N",
-                 "on the second body from the first, with springs and drives of the axis, without couplings; world "
-                 "components",
-                 3, kAxes});
-    c.push_back({path + "torque", "N m", "the same, about the joint", 3, kAxes});
-    for (const NamedAxis& a : axesOf(j)) {
-      c.push_back({path + a.prefix + "position", a.turns ? "rad" : "m", "of the free axis", 1, {}});
-      c.push_back({path + a.prefix + "rate", a.turns ? "rad/s" : "m/s", "of the free axis", 1, {}});
-      c.push_back({path + a.prefix + "force_along",
-                   a.turns ? "N m" : "N",
-                   "of damping, springs, stops and drive along the free axis",
-                   1,
-                   {}});
-    }
-  }
-  for (const multibody::PointSpring& s : model.pointSprings()) {
-    if (!isKept(record, s.name)) continue;
-    c.push_back({"springs/" + s.name + "/force", "N", "positive pushes apart", 1, {}});
-    c.push_back({"springs/" + s.name + "/length", "m", "between its ends", 1, {}});
-  }
-  for (const multibody::AxisSpring& s : model.axisSprings()) {
-    if (!isSpring(s) || !isKept(record, s.name)) continue;
-    c.push_back({"springs/" + s.name + "/force",
-                 turns(jointOf(model, s.joint), s.axis) ? "N m" : "N",
-                 "on the second body along the axis",
-                 1,
-                 {}});
-  }
-  for (const multibody::Bushing& b : model.bushings()) {
-    if (!isKept(record, b.name)) continue;
-    const std::string path = "bushings/" + b.name + "/";
-    c.push_back({path + "force", "N", "on the second body, world components", 3, kAxes});
-    c.push_back({path + "torque", "N m", "on the second body, world components", 3, kAxes});
-    c.push_back({path + "translation", "m", "in the bushing's axes on the first body", 3, kAxes});
-    c.push_back({path + "rotation", "rad", "rotation vector in the same axes", 3, kAxes});
-  }
-  for (const multibody::Drive& d : model.drives()) {
-    if (!isKept(record, d.name)) continue;
-    const bool turning = turns(jointOf(model, d.joint), d.axis);
-    const std::string path = "drives/" + d.name + "/";
-    c.push_back({path + "value", driveUnit(d.kind, turning), "what it imposes", 1, {}});
-    c.push_back({path + "torque", turning ? "N m" : "N", "that it takes", 1, {}});
-    c.push_back({path + "power", "W", "that it gives to the mechanism", 1, {}});
-  }
-  for (std::size_t i = 0; i < model.couplings().size(); ++i) {
-    const multibody::Coupling& coupling = model.couplings()[i];
-    if (!isKept(record, coupling.name)) continue;
-    c.push_back({"couplings/" + coupling.name + "/force",
-                 turns(jointOf(model, coupling.joint2), coupling.axis2) ? "N m" : "N",
-                 "on the second axis, beside what the joint's force and torque hold; the first feels minus the ratio "
-                 "times it",
-                 1,
-                 {}});
-  }
-  c.push_back({"momentum/linear", "kg m/s", "of all bodies", 3, kAxes});
-  c.push_back({"momentum/angular", "kg m2/s", "of all bodies about the world's origin", 3, kAxes});
-  c.push_back({"constraints/position_error", "m", "widest gap of a joint since the last row [m, rad]", 1, {}});
-  c.push_back({"constraints/velocity_error", "m/s", "fastest opening of a joint now [m/s, rad/s]", 1, {}});
-  c.push_back({"constraints/iterations", "-", "most of a step since the last row", 1, {}});
-  c.push_back({"constraints/singular_steps", "-", "steps through a singular position since the last row", 1, {}});
-  return c;
-}
+MechanismReading::MechanismReading(const coupling::Mechanism& m)
+    : mechanism(m), reactions(m.solver().reactions(m.state())), now(m.bodiesBalance().now), drift(m.drift()) {}
 
-void setMechanismRow(RowBuilder& row, const coupling::Mechanism& mechanism, const std::vector<std::string>& record) {
-  const multibody::Model& model = mechanism.model();
-  const multibody::State& state = mechanism.state();
-  const bool stepped = state.time > 0; // what acts on the bodies is found in a step: nothing is known before the first
-  for (std::size_t i = 0; i < model.bodies().size(); ++i) {
-    if (!isKept(record, model.bodies()[i].name)) continue;
-    const std::string path = "bodies/" + model.bodies()[i].name + "/";
-    const base::Quat& q = state.pose[i].orientation;
-    row.set(path + "position", state.pose[i].position);
-    row.set(path + "orientation", std::vector<double>{q.w, q.x, q.y, q.z});
-    row.set(path + "velocity", state.twist[i].v);
-    row.set(path + "spin", state.twist[i].w);
-  }
-  const std::vector<multibody::JointReaction> reactions = mechanism.solver().reactions(state);
-  for (std::size_t i = 0; i < model.joints().size(); ++i) {
-    const multibody::Joint& j = model.joints()[i];
-    if (!isKept(record, j.name)) continue;
-    const std::string path = "joints/" + j.name + "/";
-    if (stepped) row.set(path + "force", reactions[i].force);
-    if (stepped) row.set(path + "torque", reactions[i].torque);
-    for (const NamedAxis& a : axesOf(j)) {
-      const multibody::AxisReading axis = multibody::axisReading(model, state, static_cast<int>(i), a.axis);
-      row.set(path + a.prefix + "position", axis.position);
-      row.set(path + a.prefix + "rate", axis.rate);
-      if (stepped) row.set(path + a.prefix + "force_along", axis.axisForce);
-    }
-  }
-  for (std::size_t i = 0; i < model.pointSprings().size(); ++i) {
-    const std::string& name = model.pointSprings()[i].name;
-    if (!isKept(record, name)) continue;
-    if (stepped) row.set("springs/" + name + "/force", state.spring[i].force);
-    row.set("springs/" + name + "/length", state.spring[i].length);
-  }
-  for (std::size_t i = 0; i < model.axisSprings().size(); ++i) {
-    const multibody::AxisSpring& s = model.axisSprings()[i];
-    if (!isSpring(s) || !isKept(record, s.name)) continue;
-    row.set("springs/" + s.name + "/force", mechanism.axisSpringForce(static_cast<int>(i)));
-  }
-  for (std::size_t i = 0; i < model.bushings().size(); ++i) {
-    if (!isKept(record, model.bushings()[i].name)) continue;
-    const std::string path = "bushings/" + model.bushings()[i].name + "/";
-    const multibody::BushingReading& r = state.bushing[i];
-    if (stepped) row.set(path + "force", r.force);
-    if (stepped) row.set(path + "torque", r.torque);
-    row.set(path + "translation", r.translation);
-    row.set(path + "rotation", r.rotation);
-  }
-  for (std::size_t i = 0; i < model.drives().size(); ++i) {
-    const std::string& name = model.drives()[i].name;
-    if (!isKept(record, name)) continue;
-    const coupling::Mechanism::DriveReading r = mechanism.drive(static_cast<int>(i));
-    row.set("drives/" + name + "/value", r.value);
-    if (stepped) row.set("drives/" + name + "/torque", r.torque);
-    if (stepped) row.set("drives/" + name + "/power", r.power);
-  }
-  for (std::size_t i = 0; i < model.couplings().size(); ++i)
-    if (stepped && isKept(record, model.couplings()[i].name))
-      row.set("couplings/" + model.couplings()[i].name + "/force", state.coupling[i].force);
-  const coupling::Mechanism::Ledger ledger = mechanism.ledger();
-  row.set("momentum/linear", ledger.linearMomentum);
-  row.set("momentum/angular", ledger.angularMomentum);
-  const coupling::Mechanism::Drift drift = mechanism.drift();
-  row.set("constraints/position_error", drift.position);
-  row.set("constraints/velocity_error", drift.velocity);
-  row.set("constraints/iterations", drift.iterations);
-  row.set("constraints/singular_steps", drift.singularSteps);
+Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<std::string>& record) {
+  const MechanismColumns columns(model, record);
+  return columns.all();
 }
 
 std::string integratorText(const multibody::SolverOptions& options) {
@@ -268,7 +273,8 @@ std::string mechanismSize(const coupling::Mechanism& mechanism) {
        fmt::format("{}", model.axisSprings().size() + model.pointSprings().size() + model.bushings().size()));
   line("drives and couplings", fmt::format("{}", model.drives().size() + model.couplings().size()));
   line("degrees of freedom", fmt::format("{}, drives left out", solver.degreesOfFreedom()));
-  if (std::fabs(mechanism.startBlow()) > kBlowShown * (std::fabs(mechanism.startBlow()) + mechanism.ledger().kinetic))
+  if (std::fabs(mechanism.startBlow()) >
+      kBlowShown * (std::fabs(mechanism.startBlow()) + mechanism.bodiesBalance().now.kinetic))
     line("at the start",
          fmt::format("the drives jump to their speed: {:.4g} J in a blow; give the bodies that velocity, or "
                      "let the drives come up to it",

@@ -11,12 +11,16 @@
 /// What a run writes of a mechanism.
 namespace grouser::output {
 
-/// The quantities of a mechanism's rows. `record`: names of the bodies, joints, springs and drives that are written;
-/// empty: all.
-std::vector<Channel> mechanismChannels(const multibody::Model& model, const std::vector<std::string>& record);
-
-/// Fills a row of these channels but for the ledger's changes, which the simulation knows.
-void setMechanismRow(RowBuilder& row, const coupling::Mechanism& mechanism, const std::vector<std::string>& record);
+/// A mechanism at the time of a row. What acts on its bodies is found in a step: before the first it is NaN.
+struct MechanismReading {
+  explicit MechanismReading(const coupling::Mechanism& m);
+  const coupling::Mechanism& mechanism;
+  std::vector<multibody::JointReaction> reactions;
+  multibody::Totals now;
+  coupling::Mechanism::Drift drift;
+};
+/// `record`: names of the bodies, joints, springs and drives that are written; empty: all.
+Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<std::string>& record);
 
 /// "RATTLE of order 2, springs implicit".
 std::string integratorText(const multibody::SolverOptions& options);

@@ -38,7 +38,7 @@ struct FormerOutput {
 /// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.
 /// On several ranks all of them have one and call the same; each gives its own grains to frame().
 /// With `force` the files of a former run are removed first; other files stay.
-/// Calls that fail (disk full) throw std::runtime_error with the file's name.
+/// Calls that fail (disk full) throw support::NotWritten with the file's name.
 class RunWriter {
 public:
   struct Options {

@@ -119,13 +119,10 @@ std::vector<FileField> resultFields() {
   for (const BedCurve& c : kBedCurves) fields.push_back(fieldOf(c.curve, "[n]"));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfHull()) add(fields, channelOf(q));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfTrack("SIDE", 2, 0, true)) add(fields, channelOf(q));
-  for (const Channel& c : terrainChannels()) add(fields, c);
-  for (const Channel& c : surfaceChannels("NAME", true)) add(fields, c);
-  for (const Channel& c : obstacleChannels("NAME")) add(fields, c);
-  for (const Channel& c : hitchChannels()) add(fields, c);
-  for (const Channel& c : gearChannels()) add(fields, c);
-  for (const Channel& c : ledgerChannels()) add(fields, c);
-  for (const Channel& c : mechanismChannels(modelOfAll(), {})) add(fields, c);
+  for (const auto& channels : {terrainColumns().channels(), surfaceColumns("NAME", true).channels(),
+                               obstacleColumns("NAME").channels(), hitchColumns().channels(), gearColumns().channels(),
+                               ledgerColumns().channels(), mechanismColumns(modelOfAll(), {}).channels()})
+    for (const Channel& c : channels) add(fields, c);
   return fields;
 }
 

@@ -2,6 +2,7 @@
 #include "runs/render/film.hpp"
 
 #include "base/error.hpp"
+#include "runs/support/not_written.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -71,7 +73,7 @@ std::pair<pid_t, int> start(std::vector<std::string> words, const fs::path& log)
   for (std::string& w : words) arguments.push_back(w.data());
   arguments.push_back(nullptr);
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe to ffmpeg");
+  if (pipe2(ends, O_CLOEXEC) != 0) throw base::DeviceError(fmt::format("no pipe to ffmpeg: {}", std::strerror(errno)));
   const pid_t process = fork();
   if (process == 0) {
     const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -135,7 +137,7 @@ void makeFilm(const std::vector<fs::path>& pictures, double framesPerSecond, con
                                       "+faststart",
                                       part.string()},
                                      log);
-  if (process < 0) throw std::runtime_error("ffmpeg could not be started");
+  if (process < 0) throw base::DeviceError(fmt::format("ffmpeg could not be started: {}", std::strerror(errno)));
   for (const fs::path& picture : pictures)
     if (!send(pipe, contents(picture))) break;
   close(pipe);
@@ -146,8 +148,8 @@ void makeFilm(const std::vector<fs::path>& pictures, double framesPerSecond, con
   fs::remove(log, error);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     fs::remove(part, error);
-    throw std::runtime_error(fmt::format("{}: ffmpeg could not make the film: {}", film.string(),
-                                         words.empty() ? "it was ended by a signal" : words));
+    throw support::NotWritten(fmt::format("{}: ffmpeg could not make the film: {}", film.string(),
+                                          words.empty() ? "it was ended by a signal" : words));
   }
   fs::rename(part, film);
 }

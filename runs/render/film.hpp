@@ -15,8 +15,8 @@ void checkFilm(const std::filesystem::path& film);
 void checkFilmProgram(const std::string& word);
 
 /// Makes PNG pictures of the same size, in this order, into a film (H.264; MP4, MKV or MOV by the file's name) by the
-/// program ffmpeg. The file is put in place by renaming when it is whole. Throws std::runtime_error with ffmpeg's
-/// words.
+/// program ffmpeg. The file is put in place by renaming when it is whole. Throws support::NotWritten with ffmpeg's
+/// words, base::DeviceError where the machine has no process for it.
 void makeFilm(const std::vector<std::filesystem::path>& pictures, double framesPerSecond,
               const std::filesystem::path& film);
 

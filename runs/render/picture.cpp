@@ -170,14 +170,9 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
 } // namespace
 
 Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
-                const base::TriangleMesh& ground, int width) {
-  return drawn(frame, parts, ground, width).image;
-}
-
-Image drawLabelledFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
-                        const base::TriangleMesh& ground, int width) {
+                const base::TriangleMesh& ground, int width, bool labels) {
   auto [image, camera] = drawn(frame, parts, ground, width);
-  if (width < kNarrowestLabelled) return image;
+  if (!labels || width < kNarrowestLabelled) return image;
   try {
     const Font font;
     drawCaption(image, font, fmt::format("t = {:.4g} s", frame.time));

@@ -25,15 +25,11 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 
 /// A frame as one looks at it: grains coloured by height, parts by kind, the vehicle filling the picture, or where
 /// there is none all grains but a few strays; seen from the front right above. Height of the picture: nine sixteenths
-/// of its width.
+/// of its width. With `labels` its time, the scale of the grains' heights, and a bar of a round length as it is seen at
+/// the distance of what the camera looks at. Pictures narrower than kNarrowestLabelled have none of it, nor where the
+/// font is missing.
 Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
-                const base::TriangleMesh& ground, int width);
-
-/// The same with its time, the scale of the grains' heights, and a bar of a round length as it is seen at the distance
-/// of what the camera looks at. Pictures narrower than kNarrowestLabelled have none of it, nor where the font is
-/// missing.
-Image drawLabelledFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
-                        const base::TriangleMesh& ground, int width);
+                const base::TriangleMesh& ground, int width, bool labels = true);
 inline constexpr int kNarrowestLabelled = 480; // [pixels]
 
 } // namespace grouser::render

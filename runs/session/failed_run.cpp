@@ -48,7 +48,7 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message) co
   writer.setParts({}, ground_);
   writer.frame(frame);
   if (output_.picture)
-    render::writePng(render::drawLabelledFrame(frame, {}, {}, output_.pictureWidth), options_.folder / "picture.png");
+    render::writePng(render::drawFrame(frame, {}, {}, output_.pictureWidth), options_.folder / "picture.png");
   writer.abandon(message); // with all files
 }
 

@@ -10,7 +10,6 @@
 #include "runs/render/picture.hpp"
 #include "runs/session/frame_of.hpp"
 #include "runs/support/tell.hpp"
-#include "vehicle/observation_table.hpp"
 
 #include <fmt/format.h>
 
@@ -66,74 +65,6 @@ std::optional<output::UndisturbedSurface> undisturbedSurface(const coupling::Lai
   return s;
 }
 
-/// Of a vehicle on grains, where the scene asks for it.
-bool countsGear(const coupling::Simulation& simulation, const setup::OutputSetup& output) {
-  return simulation.vehicle() && simulation.ground().grains && output.gearContacts;
-}
-
-std::vector<output::Channel> channelsOf(const coupling::Simulation& simulation, const setup::OutputSetup& wanted) {
-  std::vector<output::Channel> channels;
-  if (simulation.mechanism()) channels = output::mechanismChannels(simulation.mechanism()->model(), wanted.record);
-  if (simulation.vehicle())
-    for (const vehicle::Quantity& q : vehicle::quantities(simulation.vehicle()->assembly(), wanted.shoeForces))
-      channels.push_back(output::channelOf(q));
-  if (simulation.ground().grains)
-    for (const output::Channel& c : output::terrainChannels()) channels.push_back(c);
-  if (const coupling::Surfaces* surfaces = simulation.surfaces())
-    for (std::size_t i = 0; i < surfaces->count(); ++i)
-      for (const output::Channel& c : output::surfaceChannels(surfaces->surface(i).name, surfaces->surface(i).hasPivot))
-        channels.push_back(c);
-  for (const coupling::Obstacle& o : simulation.setup().ground.obstacles)
-    for (const output::Channel& c : output::obstacleChannels(o.surface.name)) channels.push_back(c);
-  if (simulation.vehicle() && simulation.vehicle()->towing())
-    for (const output::Channel& c : output::hitchChannels()) channels.push_back(c);
-  if (countsGear(simulation, wanted))
-    for (const output::Channel& c : output::gearChannels()) channels.push_back(c);
-  for (const output::Channel& c : output::ledgerChannels()) channels.push_back(c);
-  if (simulation.mechanism()) channels.pop_back(); // nothing touches, so there are no impulses to balance
-  return channels;
-}
-
-void setGearRow(output::RowBuilder& row, const coupling::GearContacts& c) {
-  const std::pair<const char*, std::int64_t> counts[] = {{"grains_on_shoes", c.shoes},
-                                                         {"grains_on_sprockets", c.sprockets},
-                                                         {"grains_on_road_wheels", c.roadWheels},
-                                                         {"grains_on_rollers", c.rollers},
-                                                         {"grains_on_idlers", c.idlers},
-                                                         {"grains_on_hull", c.hull},
-                                                         {"stones", c.stones},
-                                                         {"pinched_stones", c.pinched}};
-  for (const auto& [name, count] : counts) row.set(fmt::format("gear/{}", name), static_cast<double>(count));
-}
-
-/// `pull`: the drawbar pull [N].
-void setHitchRow(output::RowBuilder& row, const coupling::HitchObservation& o, double pull) {
-  row.set("hitch/force", o.force), row.set("hitch/pull", pull);
-  row.set("hitch/speed", o.speed), row.set("hitch/power", o.power), row.set("hitch/work", o.work);
-  row.set("hitch/towed_way", o.towedWay), row.set("hitch/towed_speed", o.towedSpeed);
-}
-
-/// `touching`: whether vehicle and bed may exchange impulses.
-void setLedgerRow(output::RowBuilder& row, const coupling::Ledger& l, bool touching) {
-  row.set("ledger/drive_work", l.driveWork);
-  row.set("ledger/kinetic", l.kinetic), row.set("ledger/potential", l.potential), row.set("ledger/elastic", l.elastic);
-  row.set("ledger/dissipated", l.dissipated.total());
-  row.set("ledger/dissipated_damping", l.dissipated.damping);
-  row.set("ledger/dissipated_friction", l.dissipated.friction);
-  row.set("ledger/dissipated_micro_slip", l.dissipated.microSlip);
-  row.set("ledger/dissipated_rolling", l.dissipated.rolling);
-  row.set("ledger/dissipated_yielding", l.dissipated.yielding);
-  row.set("ledger/dissipated_crushing", l.dissipated.crushing);
-  row.set("ledger/dissipated_parts", l.dissipated.parts);
-  row.set("ledger/dissipated_joints", l.dissipated.joints);
-  row.set("ledger/integration_error", l.integrationError);
-  row.set("ledger/residual", l.residual);
-  row.set("ledger/turnover", l.turnover);
-  row.set("ledger/momentum", l.momentum), row.set("ledger/angular_momentum", l.angularMomentum);
-  row.set("ledger/momentum_residual", l.momentumResidual), row.set("ledger/angular_residual", l.angularResidual);
-  if (touching) row.set("ledger/impulse_residual", l.impulseResidual);
-}
-
 output::RunWriter::Options writerOptions(bool frames, const RunRequest& options, const base::Exec& exec,
                                          const std::vector<output::Channel>& channels,
                                          const storage::Checkpoint* former, std::int64_t total) {
@@ -187,9 +118,9 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 Recorder::Recorder(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& options,
                    const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total)
     : simulation_(simulation), record_(record), begunAt_(simulation.steps()),
-      channels_(channelsOf(simulation, record.output)), row_(channels_),
-      writer_(options.folder, record.provenance, channels_,
-              writerOptions(record.output.frames, options, exec, channels_, former, total)) {
+      columns_(simulation, record.output),
+      writer_(options.folder, record.provenance, columns_.channels(),
+              writerOptions(record.output.frames, options, exec, columns_.channels(), former, total)) {
   try {
     begin(options, former);
     if (former && writer_.frames() > former->frames) framedAt_ = begunAt_;
@@ -221,8 +152,8 @@ void Recorder::begin(const RunRequest& options, const storage::Checkpoint* forme
   std::vector<std::string> names;
   for (const output::FramePart& part : parts_) names.push_back(part.name);
   if (simulation_.ground().grains) writer_.namesOfParts(names);
-  squeezed_ = SqueezedRecord(channels_, names);
-  drive_ = DriveRecord(channels_);
+  squeezed_ = SqueezedRecord(columns_.channels(), names);
+  drive_ = DriveRecord(columns_.channels());
   for (const output::Row& row : writer_.formerRows()) squeezed_.add(row), drive_.add(row);
   if (const auto& grains = simulation_.ground().grains;
       grains &&
@@ -238,51 +169,9 @@ std::vector<coupling::Obstacle> Recorder::drawnObstacles() const {
 }
 
 void Recorder::row() {
-  row_.begin(simulation_.steps(), simulation_.time());
-  double drawbarPull = 0;
-  if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
-    const vehicle::Observation seen = rig->observe();
-    drawbarPull = seen.drawbarPull;
-    row_.setFrom(vehicle::firstQuantity(), vehicle::flatten(seen, record_.output.shoeForces));
-  }
-  const coupling::Ledger l = simulation_.ledger();
-  if (const auto& grains = simulation_.ground().grains) {
-    row_.set("terrain/contacts", static_cast<double>(l.grainContacts));
-    row_.set("terrain/boundary_contacts", static_cast<double>(l.boundaryContacts));
-    row_.set("terrain/part_contacts", static_cast<double>(l.partContacts));
-    row_.set("terrain/max_overlap", l.deepestOverlap / grains->model().radius);
-    row_.set("terrain/max_speed", l.fastestGrain);
-    row_.set("terrain/capped", static_cast<double>(l.cappedNow)), row_.set("terrain/cut_impulse", l.cutImpulse);
-    row_.set("terrain/crushed", simulation_.takenOut().grains);
-    row_.set("terrain/squeezed", static_cast<double>(l.squeezedPairs));
-    row_.set("terrain/squeezed_at_boundaries", static_cast<double>(l.squeezedAtBoundaries));
-    row_.set("terrain/squeezed_by_parts", static_cast<double>(l.squeezedByParts));
-    if (const auto most = simulation_.pressedMost()) {
-      row_.set("terrain/part_overlap", most->share);
-      row_.set("terrain/part_overlap_by", most->part);
-    }
-    row_.set("terrain/rebuilds", static_cast<double>(grains->system().rebuilds));
-  }
-  if (const coupling::Surfaces* surfaces = simulation_.surfaces())
-    for (std::size_t i = 0; i < surfaces->count(); ++i) {
-      const coupling::Surfaces::Observation o = surfaces->observe(i, simulation_.steps());
-      const std::string group = "surfaces/" + surfaces->surface(i).name + "/";
-      row_.set(group + "force", o.force), row_.set(group + "torque", o.torque);
-      row_.set(group + "power", o.power), row_.set(group + "position", o.position);
-      if (surfaces->surface(i).hasPivot) row_.set(group + "pivot_torque", o.pivotTorque);
-    }
-  const std::vector<coupling::Obstacle>& obstacles = simulation_.setup().ground.obstacles;
-  for (std::size_t i = 0; i < obstacles.size(); ++i)
-    row_.set("obstacles/" + obstacles[i].surface.name + "/force", simulation_.vehicle()->meanForceOn(i));
-  if (const coupling::VehicleRig* rig = simulation_.vehicle(); rig && rig->towing())
-    setHitchRow(row_, rig->towing()->observe(), drawbarPull);
-  if (countsGear(simulation_, record_.output))
-    setGearRow(row_, simulation_.granularGround()->onVehicle()->gearContacts());
-  if (const coupling::Mechanism* mechanism = simulation_.mechanism())
-    output::setMechanismRow(row_, *mechanism, record_.output.record);
-  setLedgerRow(row_, l, !simulation_.mechanism());
-  writer_.row(row_.row());
-  squeezed_.add(row_.row()), drive_.add(row_.row());
+  const output::Row row = columns_.row();
+  writer_.row(row);
+  squeezed_.add(row), drive_.add(row);
   if (grainsCsv_) grainsCsv_->add(simulation_.steps(), simulation_.time(), *simulation_.ground().grains);
   simulation_.restartMeans();
 }
@@ -336,7 +225,7 @@ void Recorder::picture(int width) {
       for (output::FramePart& part : parts)
         if (part.name == surfaces->surface(i).name) part.mesh = output::surfaceMesh(planes, surfaces->surface(i), true);
   render::writePng(
-      render::drawLabelledFrame(whole, parts, simulation_.ground().grains ? output::floorMesh(planes) : ground_, width),
+      render::drawFrame(whole, parts, simulation_.ground().grains ? output::floorMesh(planes) : ground_, width),
       writer_.folder() / "picture.png");
 }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "coupling/simulation.hpp"
-#include "runs/output/channels.hpp"
 #include "runs/output/grains_csv.hpp"
 #include "runs/output/output.hpp"
 #include "runs/session/drive_record.hpp"
+#include "runs/session/row_columns.hpp"
 #include "runs/session/run_request.hpp"
 #include "runs/session/squeezed_record.hpp"
 #include "runs/setup/record_setup.hpp"
@@ -47,8 +47,7 @@ private:
   coupling::Simulation& simulation_;
   const setup::RecordSetup& record_;
   const std::int64_t begunAt_; ///< step of the start, or of the checkpoint that the run goes on from
-  std::vector<output::Channel> channels_;
-  output::RowBuilder row_;
+  RowColumns columns_;
   std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
   output::RunWriter writer_;

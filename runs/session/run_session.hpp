@@ -45,7 +45,6 @@ public:
 
   coupling::Simulation& simulation() { return simulation_; }
   Recorder& recorder() { return recorder_; }
-  Checkpoints& checkpoints() { return checkpoints_; }
   output::RunWriter& writer() { return recorder_.writer(); }
   std::int64_t total() const { return total_; }
 

@@ -2,6 +2,7 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/table.hpp"
+#include "multibody/part_error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/grain_kinds.hpp"
@@ -20,23 +21,24 @@ using base::Section;
 
 namespace {
 
-/// Has the solver look at the whole: joints that do not close, drives that contradict each other through a loop. Its
-/// messages begin with kind and name of a part, whose place in the file is put before.
+/// Throws the fault of a part with that part's place in the file, if the file has the part.
+void failAtPart(const Section& root, const multibody::PartError& error) {
+  const multibody::PartName& part = error.part();
+  for (const Section& section : root.list(part.kind)) {
+    const base::Node* given = section.node().find("name");
+    if (given && std::get<std::string>(given->value) == part.name)
+      section.fail("", fmt::format("(\"{}\"): {}", part.name, error.text()));
+  }
+}
+
+/// Has the solver check the mechanism as a whole: joints that do not close, drives that contradict each other through a
+/// loop.
 void checkWhole(const Section& root, const multibody::Model& model, const scene::Scene& scene) {
   try {
     const multibody::Solver solver(model, solverOptions(scene.run));
   } catch (const base::InputError& error) {
-    const std::string message = error.what();
-    const std::size_t open = message.find(" '"), close = message.find("': ");
-    if (open == std::string::npos || close == std::string::npos || close < open)
-      throw base::InputError(fmt::format("{}: {}", scene.file.string(), message));
-    const std::string kind = message.substr(0, open), name = message.substr(open + 2, close - open - 2);
-    for (const Section& section : root.list(kind)) {
-      const base::Node* given = section.node().find("name");
-      if (given && std::get<std::string>(given->value) == name)
-        section.fail("", fmt::format("(\"{}\"): {}", name, message.substr(close + 3)));
-    }
-    throw base::InputError(fmt::format("{}: {}", scene.file.string(), message));
+    if (const auto* fault = dynamic_cast<const multibody::PartError*>(&error)) failAtPart(root, *fault);
+    throw base::InputError(fmt::format("{}: {}", scene.file.string(), error.what()));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "base/table.hpp"
+#include "multibody/part_error.hpp"
 #include "runs/setup/mechanism_frames.hpp"
 #include "runs/support/orientation.hpp"
 #include "runs/support/result_names.hpp"
@@ -63,26 +64,15 @@ multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   return law;
 }
 
-/// A message of the model begins with the name of the part, then often with a key.
-[[noreturn]] void hand(const base::InputError& error, const std::vector<std::string>& keys) {
-  const std::string whole = error.what();
-  const std::size_t colon = whole.find(": ");
-  const std::string rest = colon == std::string::npos ? whole : whole.substr(colon + 2);
-  for (const std::string& key : keys)
-    if (rest.rfind(key, 0) == 0) {
-      std::string message = rest.substr(key.size());
-      message.erase(0, message.find_first_not_of(' '));
-      throw support::SectionFault(key, message);
-    }
-  throw support::SectionFault("", rest);
-}
-
-/// Adds to the model; what it refuses becomes a fault of the key that its message begins with.
+/// Adds to the model. What it refuses becomes a fault of the section: of the key at fault where that is one of `keys`,
+/// which the section and the model's struct share.
 template <class Add> int handed(const std::vector<std::string>& keys, Add add) {
   try {
     return add();
-  } catch (const base::InputError& error) {
-    hand(error, keys);
+  } catch (const multibody::PartError& error) {
+    if (std::find(keys.begin(), keys.end(), error.key()) != keys.end())
+      throw support::SectionFault(error.key(), error.fault());
+    throw support::SectionFault("", error.text());
   }
 }
 

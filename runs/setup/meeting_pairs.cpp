@@ -41,23 +41,25 @@ public:
   explicit Pairs(const scene::Scene& scene) : scene_(scene), kinds_(grainKinds(scene)) {}
 
   /// All grains against `partner`; an empty name: against their own material.
-  void add(const std::string& what, const std::string& partner, const std::optional<VehicleSurface>& surface = {}) {
+  void add(Touched touched, const std::string& what, const std::string& partner,
+           const std::optional<VehicleSurface>& surface = {}) {
     for (const GrainKinds::Kind& kind : kinds_.kinds)
-      addOne(kind, partner.empty() ? kind.material : partner, what, 1, surface);
+      addOne(kind, partner.empty() ? kind.material : partner, touched, what, surface);
   }
   void addGrains() {
     for (std::size_t a = 0; a < kinds_.kinds.size(); ++a)
       for (std::size_t b = a; b < kinds_.kinds.size(); ++b)
-        addOne(kinds_.kinds[a], kinds_.kinds[b].material, "grain on grain", 0.5, {});
+        addOne(kinds_.kinds[a], kinds_.kinds[b].material, Touched::grain, "grain on grain", {});
   }
   std::vector<MeetingPair> take() { return std::move(pairs_); }
 
 private:
-  void addOne(const GrainKinds::Kind& kind, const std::string& partner, const std::string& what, double share,
+  void addOne(const GrainKinds::Kind& kind, const std::string& partner, Touched touched, const std::string& what,
               const std::optional<VehicleSurface>& surface) {
     if (!seen_.insert({kind.material, partner, what}).second) return;
+    const double share = touched == Touched::grain ? 0.5 : 1; // effective mass and radius over the grain's
     const double mass = share * base::sphereMass(scene_.material(kind.material).density, kind.smallest);
-    MeetingPair pair{kind.material, partner, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
+    MeetingPair pair{kind.material, partner, touched, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
     if (surface) pair.law = surface->with(pair.law);
     pair.stiffness = pair.law.hertz ? 0.75 * pair.law.stiffness : pair.law.stiffness;
     pair.restitution = restitutionOf(pair.law, mass, mass);
@@ -79,16 +81,17 @@ std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
   Pairs pairs(scene);
   pairs.addGrains();
   if (scene.terrain)
-    pairs.add(scene.terrain->granular() ? "grain on the floor" : "grain on rigid ground",
+    pairs.add(Touched::ground, scene.terrain->granular() ? "grain on the floor" : "grain on rigid ground",
               scene.terrain->groundMaterial);
   std::set<std::size_t> named;
   for (const SceneSurface& s : surfacesOf(scene)) {
     if (s.geometry.shape == terrain::SurfaceShape::plane && !s.mesh) named.insert(s.number);
-    pairs.add("grain on " + s.name, s.section.material);
+    pairs.add(Touched::surface, "grain on " + s.name, s.section.material);
   }
   for (std::size_t k = 0; k < scene.planes.size(); ++k)
-    if (!named.contains(k)) pairs.add("grain on a plane", scene.planes[k].material);
-  if (scene.vehicle) pairs.add("grain on the vehicle", scene.vehicle->material, vehicleSurface(scene));
+    if (!named.contains(k)) pairs.add(Touched::surface, "grain on a plane", scene.planes[k].material);
+  if (scene.vehicle)
+    pairs.add(Touched::vehicle, "grain on the vehicle", scene.vehicle->material, vehicleSurface(scene));
   return pairs.take();
 }
 

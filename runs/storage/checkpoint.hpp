@@ -46,7 +46,7 @@ struct Checkpoint {
 };
 
 /// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
-/// Throws std::runtime_error.
+/// Throws support::NotWritten.
 /// On several ranks all of them call it, each with its rows of the grains; all return when the file is in place.
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
 

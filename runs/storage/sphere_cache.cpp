@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/storage/sphere_cache.hpp"
 
+#include "base/error.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/not_written.hpp"
 #include "runs/support/sealed_file.hpp"
@@ -11,7 +12,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
-#include <stdexcept>
 #include <thread>
 
 namespace grouser::storage {
@@ -53,7 +53,7 @@ void SphereCache::write(const fs::path& path, const std::string& origin, const F
 SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::string& origin) {
   const char *at = bytes.data(), *end = at + bytes.size();
   const auto take = [&](void* to, std::size_t count) {
-    if (static_cast<std::size_t>(end - at) < count) throw std::runtime_error("is cut short");
+    if (static_cast<std::size_t>(end - at) < count) throw base::InputError("is cut short");
     std::memcpy(to, at, count);
     at += count;
   };
@@ -61,14 +61,14 @@ SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::stri
   take(&length, sizeof length);
   if (length != origin.size() || static_cast<std::size_t>(end - at) < length ||
       origin.compare(0, length, at, length) != 0)
-    throw std::runtime_error("holds another set than its name says");
+    throw base::InputError("holds another set than its name says");
   at += length;
   base::SphereSetFigures figures{};
   take(&figures, sizeof figures);
   Found found;
   take(&found.protrusion, sizeof found.protrusion);
   if (static_cast<std::size_t>(end - at) != figures.spheres * sizeof(base::SetSphere))
-    throw std::runtime_error("is cut short");
+    throw base::InputError("is cut short");
   base::SphereSet& set = found.set;
   set.spheres.resize(figures.spheres);
   take(set.spheres.data(), figures.spheres * sizeof(base::SetSphere));

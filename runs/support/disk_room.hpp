@@ -8,7 +8,7 @@ namespace grouser::support {
 
 /// Makes sure that the file can grow by `bytes`, without making it longer: allots them on the disk behind its end,
 /// where the file system can, and compares with the limit to the size of files (ulimit -f). So a full disk is met
-/// before the first byte of what belongs together is written, and not in the middle. Throws std::runtime_error with the
+/// before the first byte of what belongs together is written, and not in the middle. Throws NotWritten with the
 /// file's name.
 void requireRoom(const std::filesystem::path& path, std::uint64_t bytes);
 /// Of a file that is open for writing, whatever its name is by now; `path` is for the message.

@@ -47,7 +47,7 @@ private:
 class Hdf5File {
 public:
   /// Creates or replaces the file, with room for `userBlock` bytes of others before HDF5's own (0, 512, 1024...).
-  /// Throws std::runtime_error with the path.
+  /// Throws NotWritten with the path.
   static Hdf5File create(const std::filesystem::path& path, std::size_t userBlock = 0);
   /// Opens for reading. Throws base::InputError where it is missing or no HDF5 file.
   static Hdf5File open(const std::filesystem::path& path);
@@ -137,7 +137,7 @@ private:
 };
 
 /// Before `bytes` more are written that belong together. HDF5 leaves a file that nobody can open where its writes fail
-/// in the middle; where this throws std::runtime_error nothing has changed since flush().
+/// in the middle; where this throws NotWritten nothing has changed since flush().
 void requireRoom(const Hdf5File& file, std::uint64_t bytes);
 
 } // namespace grouser::support

@@ -16,7 +16,7 @@ namespace grouser::support {
 inline constexpr std::size_t kSealBytes = 512;
 
 /// Calls `write` with the name of a file to be made beside `path`, seals what it wrote as `kind` of `version`, and
-/// brings it to the disk before it takes `path`'s place. Throws std::runtime_error, with `path` as it was, when any of
+/// brings it to the disk before it takes `path`'s place. Throws NotWritten, with `path` as it was, when any of
 /// it fails. On several ranks all of them write, and one seals; all return when the file is in place.
 void writeSealed(const std::filesystem::path& path, const char* kind, int version,
                  const std::function<void(const std::filesystem::path& part)>& write, const base::Comm& comm = {});

@@ -8,17 +8,17 @@
 namespace grouser::support {
 
 /// Writes a whole text file. Throws base::InputError where it cannot be opened, naming `option` as the way to another
-/// place, and std::runtime_error where it cannot be ended, as on a full disk: no part of it is left then.
+/// place, and NotWritten where it cannot be ended, as on a full disk: no part of it is left then.
 void writeTextFile(const std::filesystem::path& path, const std::string& text, const std::string& option);
 
 /// Writes a text file of a run under another name (path + ".part") and puts it in place by renaming: whoever reads
-/// `path` finds the former file or the new one, whole. Throws std::runtime_error, with `path` as it was, where that
+/// `path` finds the former file or the new one, whole. Throws NotWritten, with `path` as it was, where that
 /// fails.
 /// With `room` [bytes] the new file can grow by so much even when the disk is full.
 void replaceTextFile(const std::filesystem::path& path, const std::string& text, std::uint64_t room = 0);
 
 /// Where the disk has no place for a second file: writes over the one that is there, within the room it was given. A
-/// kill in the middle leaves neither text. Throws std::runtime_error.
+/// kill in the middle leaves neither text. Throws NotWritten.
 void overwriteTextFile(const std::filesystem::path& path, const std::string& text);
 
 } // namespace grouser::support

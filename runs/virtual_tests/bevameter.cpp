@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "runs/jobs/shared_work.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/not_written.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/tell.hpp"
@@ -21,7 +22,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 
 namespace grouser::virtual_tests {
 
@@ -61,7 +61,7 @@ void prepare(TestPlan& plan, jobs::Pieces& pieces, Device& device, int jobs, std
       });
       try {
         pieces.keep(name, trials);
-      } catch (const std::runtime_error&) {
+      } catch (const support::NotWritten&) {
         if (!pieces.has(name)) throw; // else another part was quicker, with the same answer
       }
       std::filesystem::remove_all(folder);

@@ -138,12 +138,6 @@ std::optional<Quantity> quantityOf(const std::string& symbol) {
   return {};
 }
 
-std::vector<std::string> soilNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, file] : scene::knownSoils("")) names.push_back(name);
-  return names;
-}
-
 double numberOf(const TestedSoil& soil, const std::string& key, double otherwise) {
   for (const auto& [name, text] : soil.keys)
     if (name == key) return std::strtod(text.c_str(), nullptr);

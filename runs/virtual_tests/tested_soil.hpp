@@ -63,9 +63,6 @@ struct TestedSoil {
   }
 };
 
-/// The names of the soils under assets/soils, sorted.
-std::vector<std::string> soilNames();
-
 /// Reads a soil by its name, or by a file that ends in .toml, with numbers for grains of `grainRadius` [m] (0: the
 /// file's own): stiffness, cohesion and surface energy grow in proportion to the radius, damping rates fall with it,
 /// all else stays. Throws base::InputError: an unknown name (names the nearest and lists all), file:line and key of

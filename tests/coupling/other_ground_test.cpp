@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A kind of ground that the library does not have, behind the interface that its own kinds have: what
 // docs/adding_a_ground.md promises to who adds one.
+#include "coupling/ledger_entries.hpp"
 #include "coupling/ground_kinds.hpp"
 #include "coupling/simulation.hpp"
 #include "tests/message_of.hpp"
@@ -59,7 +60,7 @@ public:
     }
   }
   void addContactsTo(ContactLedger& ledger) const override {
-    ledger.elastic += elastic_, ledger.dissipated += state_.back();
+    ledger.rigid.elastic += elastic_, ledger.rigid.dissipated += state_.back();
   }
   double elastic() const { return elastic_; }
 

@@ -26,7 +26,7 @@ TEST(Chains, SpinningRingHoldsItsTension) {
     m.loads.gravity = {};
     Solver solver(m.model, rattle());
     EXPECT_EQ(solver.degreesOfFreedom(), 46 - 3 + 6);
-    EXPECT_EQ(solver.redundantRows(), joints == RingJoints::kAllRevolute ? 3 : 0);
+    EXPECT_EQ(solver.redundantRowNames().size(), joints == RingJoints::kAllRevolute ? 3u : 0u);
     double worst = 0, gap = 0;
     for (int i = 0; i < 500; ++i) {
       solver.step(m.state, m.loads, 1e-3);

@@ -37,8 +37,7 @@ void expectMoves(Mechanism& m, const char* what, int freedom, int redundant, dou
   o.startVelocities = StartVelocities::kAccept;
   Solver solver(m.model, o);
   EXPECT_EQ(solver.degreesOfFreedom(), freedom) << what;
-  EXPECT_EQ(solver.redundantRows(), redundant) << what;
-  EXPECT_EQ(solver.redundantRowNames().size(), static_cast<std::size_t>(redundant));
+  EXPECT_EQ(solver.redundantRowNames().size(), static_cast<std::size_t>(redundant)) << what;
   m.loads.gravity = {};
   for (int b = 0; b < static_cast<int>(m.model.bodies().size()); ++b)
     setTwist(m.model, m.state, b, {{0.3, -0.5, 0.7}, {1.1 - b, 0.4 + b, -0.8}});
@@ -168,7 +167,7 @@ TEST(Overconstrained, RodsOfAPlanarParallelogramByDistanceJoints) {
   o.startVelocities = StartVelocities::kAccept;
   Solver solver(m.model, o);
   EXPECT_EQ(solver.degreesOfFreedom(), 6);
-  EXPECT_EQ(solver.redundantRows(), 1);
+  EXPECT_EQ(solver.redundantRowNames().size(), 1u);
 }
 
 TEST(Overconstrained, AStartInLineIsReportedAsSingularAndMovesOn) {
@@ -189,14 +188,10 @@ TEST(Overconstrained, AStartInLineIsReportedAsSingularAndMovesOn) {
     o.integrator = integrator;
     Solver solver(m.model, o);
     EXPECT_EQ(solver.degreesOfFreedom(), 1);
-    EXPECT_EQ(solver.redundantRows(), 3);
+    EXPECT_EQ(solver.redundantRowNames().size(), 3u);
     EXPECT_NE(solver.report().find("singular position"), std::string::npos);
     solver.step(m.state, m.loads, 1e-3);
     EXPECT_EQ(solver.lastStep().singularRows, 1);
-    if (integrator == Integrator::kSymplecticEuler) {
-      ASSERT_FALSE(solver.singularRowNames().empty()); // the last matrix is that of the start
-      EXPECT_NE(solver.singularRowNames().front().find("joint 'head 2'"), std::string::npos);
-    }
     double apart = 0;
     for (int i = 0; i < 3000; ++i) {
       solver.step(m.state, m.loads, 1e-3);

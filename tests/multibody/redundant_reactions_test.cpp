@@ -216,8 +216,8 @@ TEST(RedundantReactions, ADrivenFourBarKeepsWhatItsPlaneDetermines) {
   SolverOptions o = rattle();
   o.startVelocities = StartVelocities::kAccept;
   Solver solver(m.model, o), reference(plain.model, o);
-  ASSERT_EQ(solver.redundantRows(), 3);
-  ASSERT_EQ(reference.redundantRows(), 0);
+  ASSERT_EQ(solver.redundantRowNames().size(), 3u);
+  ASSERT_EQ(reference.redundantRowNames().size(), 0u);
   solver.projectVelocities(m.state, m.loads), reference.projectVelocities(plain.state, plain.loads);
   for (int i = 0; i < 300; ++i) {
     solver.step(m.state, m.loads, 1e-3);

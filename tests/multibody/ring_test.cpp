@@ -100,7 +100,7 @@ TEST(MultibodyRingRedundancy, DroppedRowsStayClosedWhenTheRingTumblesInSpace) {
     setTwist(m.model, m.state, static_cast<int>(b), {V.v + cross(w, m.state.pose[b].position), V.w + w});
   }
   Solver solver(m.model);
-  ASSERT_EQ(solver.redundantRows(), 3);
+  ASSERT_EQ(solver.redundantRowNames().size(), 3u);
   const detail::ConstraintSystem all(m.model); // with all rows
   std::vector<detail::Frame> frames;
   m.loads.external[5] = {{2e3, 1e3, 2e3}, {5, 3, 5}};
@@ -126,7 +126,7 @@ TEST(MultibodyRingRedundancy, AllRevoluteRingHasThreeRedundantRowsNamedInTheRepo
   RingSpec spec;
   Mechanism m = ring(spec);
   const Solver solver(m.model);
-  EXPECT_EQ(solver.redundantRows(), 3) << solver.report();
+  EXPECT_EQ(solver.redundantRowNames().size(), 3u) << solver.report();
   EXPECT_NE(solver.report().find("joint 'link pin "), std::string::npos) << solver.report();
 }
 
@@ -135,7 +135,7 @@ TEST(MultibodyRingRedundancy, OneSphericalAndOneUniversalLeaveNone) {
   spec.joints = RingJoints::kOneSphericalOneUniversal;
   Mechanism m = ring(spec);
   const Solver solver(m.model);
-  EXPECT_EQ(solver.redundantRows(), 0) << solver.report();
+  EXPECT_EQ(solver.redundantRowNames().size(), 0u) << solver.report();
 }
 
 TEST(MultibodyRingRedundancy, BothWaysGiveTheSameMotion) {

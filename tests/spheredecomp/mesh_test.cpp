@@ -24,6 +24,19 @@ Vec3d spread(int i) {
   return {part(0.8191725133961645), part(0.6710436067037893), part(0.5497004779019703)};
 }
 
+/// Generalised winding number by solid angles, sum / (4 pi) [-] (van Oosterom and Strackee 1983, eq. 8).
+double solidAngleWinding(const TriangleMesh& mesh, const Vec3d& p) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3d a = mesh.vertices[mesh.indices[i]] - p, b = mesh.vertices[mesh.indices[i + 1]] - p,
+                c = mesh.vertices[mesh.indices[i + 2]] - p;
+    const double la = norm(a), lb = norm(b), lc = norm(c);
+    // tan(angle / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
+    sum += 2 * base::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+  }
+  return sum / (4 * base::kPi);
+}
+
 /// A file that is gone with the test.
 struct File {
   std::string path;

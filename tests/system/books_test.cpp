@@ -196,12 +196,12 @@ TEST(LedgerOfAVehicle, OnRigidGroundCountsWhatItsPartsHoldAndLose) {
   const std::vector<std::string> coarse = {"vehicle.sphere_radius=0.02"};
   // Its shoes press on its wheels from the start: that is nothing that the first step has made.
   const auto begun = vehicleOf("rigid.toml", coarse, 1e-4);
-  EXPECT_GT(begun->vehicle()->contacts().ledger().elastic, 0.05);
+  EXPECT_GT(begun->vehicle()->contacts().ledger().elastic(), 0.05);
   EXPECT_LT(std::fabs(begun->ledger().elastic), 1e-3);
   // 0.2 s on, the track is taut and its weight comes on.
   const auto s = vehicleOf("rigid.toml", coarse, 0.2);
   const Ledger l = s->ledger();
-  const double held = s->vehicle()->contacts().ledger().elastic;
+  const double held = s->vehicle()->contacts().ledger().elastic();
   EXPECT_GT(held, 1);
   EXPECT_GT(l.dissipated.parts, 0.5);
   EXPECT_LT(std::fabs(l.integrationError), 0.02 * (held + l.dissipated.parts)) << "at 1e-4 s";

@@ -39,20 +39,19 @@ TEST(MechanismLedger, ClosesToRoundingAndItsIntegrationErrorFallsWithTheOrder) {
       const SimulationSetup setup = setupOf(std::string("runs/mechanisms/") + c.name + ".toml",
                                             {std::string("run.integrator=\"") + c.integrator + '"'});
       Mechanism mechanism(*setup.mechanism, step);
-      const Mechanism::Ledger start = mechanism.ledger();
+      const multibody::Totals start = mechanism.bodiesBalance().now;
       error[half] = 0;
       for (long i = 0; i < std::lround(c.duration / step); ++i) {
         mechanism.advance();
-        error[half] = std::max(error[half], std::fabs(mechanism.ledger().integrationError));
+        error[half] = std::max(error[half], std::fabs(mechanism.bodiesBalance().integrationError));
       }
-      const Mechanism::Ledger l = mechanism.ledger();
+      const multibody::Balance l = mechanism.bodiesBalance();
       EXPECT_GT(l.turnover, 0);
       EXPECT_LE(std::fabs(l.leftOver), kRounding * l.turnover) << c.name;
-      EXPECT_NEAR((l.kinetic - start.kinetic) + (l.potential - start.potential) + (l.elastic - start.elastic) +
-                      l.dissipated + l.integrationError,
+      EXPECT_NEAR((l.now.kinetic - start.kinetic) + (l.now.gravity - start.gravity) + (l.now.elastic - start.elastic) +
+                      l.dissipated() + l.integrationError,
                   l.driveWork, kRounding * l.turnover)
           << c.name;
-      EXPECT_EQ(l.dissipated, l.jointDamping + l.springDamping + l.stopDamping);
     }
     std::printf("%-14s %-17s integration error %.2e J, order %.2f\n", c.name, c.integrator, error[1],
                 std::log2(error[0] / error[1]));
@@ -67,7 +66,7 @@ TEST(MechanismLedger, GoesOnFromACheckpointWithTheSameBitsAndIsNotHashed) {
   MechanismState saved = straight.save();
   resumed.restore(saved);
   for (int i = 0; i < 50; ++i) straight.advance(), resumed.advance();
-  const Mechanism::Ledger a = straight.ledger(), b = resumed.ledger();
+  const multibody::Balance a = straight.bodiesBalance(), b = resumed.bodiesBalance();
   EXPECT_NE(a.integrationError, 0);
   EXPECT_EQ(a.integrationError, b.integrationError);
   EXPECT_EQ(a.leftOver, b.leftOver);

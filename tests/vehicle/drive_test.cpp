@@ -2,6 +2,7 @@
 // The whole vehicle on level rigid ground with analytic contact: what it must do before any sphere set is made.
 #include "base/math.hpp"
 #include "ride.hpp"
+#include "tests/vehicle/ground_shoes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ TEST(Drive, WeightlessTensionedTrack_HoldsTheIdlerByTwoStrands) {
   ride.until(0.25, [&] {
     const vehicle::Track& track = ride.vehicle().tracks[0];
     // A pin in the middle of the upper strand's last free stretch, and one of the front strand.
-    for (const int pin : {30, ride.vehicle().wrap.lastGroundShoe() + 2})
+    for (const int pin : {30, test::lastGroundShoe(ride.vehicle().wrap) + 2})
       tension += 0.5 * base::norm(ride.state.joint[track.shoeJoints[pin]].force);
     force += ride.state.joint[track.slideJoint].springForce;
     ++samples;

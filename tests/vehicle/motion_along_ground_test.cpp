@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "tests/vehicle/attitude.hpp"
+#include "tests/vehicle/ground_shoes.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -45,8 +46,8 @@ protected:
   GroundLoads loads(const Vec3d& sum) const {
     GroundLoads ground;
     ground.force.resize(v.model.bodies().size());
-    ground.force[left.shoes[v.wrap.firstGroundShoe()]] = sum * 0.25;
-    ground.force[right.shoes[v.wrap.firstGroundShoe() + 2]] = sum * 0.75;
+    ground.force[left.shoes[test::firstGroundShoe(v.wrap)]] = sum * 0.25;
+    ground.force[right.shoes[test::firstGroundShoe(v.wrap) + 2]] = sum * 0.75;
     return ground;
   }
 };

@@ -6,6 +6,7 @@
 
 #include "base/math.hpp"
 #include "tests/vehicle/attitude.hpp"
+#include "tests/vehicle/ground_shoes.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -140,7 +141,7 @@ TEST_F(ObserverValues, GroundPressureIsTheForceAlongThePadsNormalOverItsArea) {
   const double pitch = 0.3; // nose up: the pad's upward normal leans back
   place({{}, attitude(0, pitch, 0)});
   GroundLoads ground = noLoads();
-  const int first = v.wrap.firstGroundShoe();
+  const int first = test::firstGroundShoe(v.wrap);
   for (int k = 0; k < 3; ++k) {
     ground.force[left.shoes[first + k]] = {100.0 * k, 35, 2000.0 + 500 * k};
     ground.force[right.shoes[first + k]] = {-50, 0, 1000.0 * k};
@@ -163,7 +164,7 @@ TEST_F(ObserverValues, ForcesOnAShoeAreInItsOwnAxes) {
   const double pitch = 0.3;
   place({{}, attitude(0, pitch, 0)});
   GroundLoads ground = noLoads();
-  const int shoe = v.wrap.firstGroundShoe();
+  const int shoe = test::firstGroundShoe(v.wrap);
   ground.force[left.shoes[shoe]] = {300, 40, 2000};
   const auto o = Observer(v).observe(state, ground, nullptr).tracks[0];
   const double area = 0.136 * 0.28, s = base::sin(pitch), c = base::cos(pitch);
@@ -215,7 +216,7 @@ TEST_F(ObserverValues, CarryingLoadIsAHundredthOfTheWeightOverBothGroundRuns) {
   EXPECT_NEAR(vehicle::carryingLoad(v, 9.80665), 0.01 * v.mass * 9.80665 / 24, 1e-12);
   const double half = 0.99 * vehicle::carryingLoad(v, 9.80665), more = 1.01 * vehicle::carryingLoad(v, 9.80665);
   GroundLoads ground = noLoads();
-  const int shoe = v.wrap.firstGroundShoe();
+  const int shoe = test::firstGroundShoe(v.wrap);
   ground.force[left.shoes[shoe]].z = half, ground.force[right.shoes[shoe]].z = more;
   const auto o = Observer(v).observe(state, ground, nullptr);
   EXPECT_EQ(o.tracks[0].onGround[shoe], 0);
@@ -225,7 +226,7 @@ TEST_F(ObserverValues, CarryingLoadIsAHundredthOfTheWeightOverBothGroundRuns) {
 /// The run's gravity sets the load by its magnitude, and the carrying component of a force by its direction.
 TEST_F(ObserverValues, CarryingIsAgainstTheGravityOfTheRun) {
   GroundLoads ground = noLoads();
-  const int shoe = v.wrap.firstGroundShoe();
+  const int shoe = test::firstGroundShoe(v.wrap);
   const auto carries = [&](const Vec3d& gravity, const Vec3d& force) {
     ground.force[left.shoes[shoe]] = force;
     return Observer(v, {.gravity = gravity}).observe(state, ground, nullptr).tracks[0].onGround[shoe];
@@ -257,7 +258,7 @@ TEST_F(ObserverValues, HeightsShiftsAndLiftsBelongToTheirTrack) {
     EXPECT_NEAR(o.tracks[1].padHeight[i] - before.tracks[1].padHeight[i], -0.002 * static_cast<double>(i), 1e-14);
   }
   // In the order of the wrap: the run on the ground lies lowest, 40 mm below its pins.
-  const auto ground = static_cast<std::size_t>(v.wrap.firstGroundShoe());
+  const auto ground = static_cast<std::size_t>(test::firstGroundShoe(v.wrap));
   EXPECT_NEAR(before.tracks[0].padHeight[ground], v.spec.groundPinHeight() - 0.040, 1e-14);
   EXPECT_GT(before.tracks[0].padHeight[(ground + 23) % 46], v.spec.groundPinHeight() + 0.2);
 }

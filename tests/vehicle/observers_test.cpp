@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "tests/vehicle/ground_shoes.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ protected:
     GroundLoads ground;
     ground.force.resize(v.model.bodies().size());
     for (const vehicle::Track& track : v.tracks)
-      for (int i = v.wrap.firstGroundShoe(); i <= v.wrap.lastGroundShoe(); ++i)
+      for (int i = test::firstGroundShoe(v.wrap); i <= test::lastGroundShoe(v.wrap); ++i)
         ground.force[track.shoes[i]].z = 5018 * 9.81 / 24;
     return ground;
   }
@@ -53,17 +54,19 @@ TEST_F(Observers, PadHeight_IsTheLowestCornerOfAPitchedShoe) {
 
 TEST_F(Observers, GroundRun_IsTheTwelveShoesUnderTheWheels) {
   for (int i = 0; i < 46; ++i)
-    EXPECT_EQ(vehicle::onGroundRun(v, 0, i, state), i >= v.wrap.firstGroundShoe() && i <= v.wrap.lastGroundShoe()) << i;
+    EXPECT_EQ(vehicle::onGroundRun(v, 0, i, state),
+              i >= test::firstGroundShoe(v.wrap) && i <= test::lastGroundShoe(v.wrap))
+        << i;
 }
 
 TEST_F(Observers, Sinkage_IsSurfaceMinusPadWhereLoadIsCarried) {
   const Observer observer(v);
   GroundLoads ground = standing();
-  const int idle = v.wrap.firstGroundShoe() + 3;
+  const int idle = test::firstGroundShoe(v.wrap) + 3;
   ground.force[left.shoes[idle]].z = 0.5 * vehicle::carryingLoad(v, vehicle::kStandardGravity);
   const auto o = observer.observe(state, ground, [](double x, double) { return 0.01 * x - 0.4; });
   for (int i = 0; i < 46; ++i) {
-    const bool carries = i >= v.wrap.firstGroundShoe() && i <= v.wrap.lastGroundShoe() && i != idle;
+    const bool carries = i >= test::firstGroundShoe(v.wrap) && i <= test::lastGroundShoe(v.wrap) && i != idle;
     EXPECT_EQ(o.tracks[0].onGround[i], carries ? 1 : 0);
     if (carries)
       EXPECT_NEAR(o.tracks[0].sinkage[i], (0.01 * v.wrap.shoeCentre(i).x - 0.4 + 0.44) / std::sqrt(1 + 0.01 * 0.01),
@@ -71,14 +74,14 @@ TEST_F(Observers, Sinkage_IsSurfaceMinusPadWhereLoadIsCarried) {
     else
       EXPECT_TRUE(std::isnan(o.tracks[0].sinkage[i]));
   }
-  EXPECT_NEAR(o.tracks[0].groundPressure[v.wrap.firstGroundShoe()], 5018 * 9.81 / 24 / (0.136 * 0.28), 1e-9);
+  EXPECT_NEAR(o.tracks[0].groundPressure[test::firstGroundShoe(v.wrap)], 5018 * 9.81 / 24 / (0.136 * 0.28), 1e-9);
   EXPECT_EQ(o.alarm, "");
 }
 
 TEST_F(Observers, WithoutGroundLoads_NothingIsClaimed) {
   const auto o = Observer(v).observe(state, {}, nullptr);
   EXPECT_TRUE(std::isnan(o.groundForce.z));
-  EXPECT_TRUE(std::isnan(o.tracks[1].sinkage[v.wrap.firstGroundShoe()]));
+  EXPECT_TRUE(std::isnan(o.tracks[1].sinkage[test::firstGroundShoe(v.wrap)]));
   EXPECT_TRUE(std::isnan(o.tracks[1].groundPressure[0]));
   EXPECT_TRUE(std::isnan(o.tracks[1].slip));
 }

@@ -2,6 +2,7 @@
 // The vehicles of assets/vehicles: each closes, weighs what it should, stands, and drives on rigid ground.
 #include "base/math.hpp"
 #include "ride.hpp"
+#include "tests/vehicle/ground_shoes.hpp"
 #include "vehicle/wrap.hpp"
 
 #include <gtest/gtest.h>
@@ -87,11 +88,11 @@ TEST(FrontSprocket, LoopIsTheMirrorImage) {
     EXPECT_EQ(b.pins[i].z, a.pins[(46 - i) % 46].z);
   }
   EXPECT_EQ(b.idlerX, -a.idlerX);
-  for (int i = b.firstGroundShoe(); i <= b.lastGroundShoe(); ++i) {
+  for (int i = test::firstGroundShoe(b); i <= test::lastGroundShoe(b); ++i) {
     EXPECT_NEAR(b.shoeCentre(i).z, front.groundPinHeight(), 1e-15);
     EXPECT_EQ(b.shoeAngle(i), 0) << "forwards";
   }
-  EXPECT_EQ(b.lastGroundShoe() - b.firstGroundShoe(), a.lastGroundShoe() - a.firstGroundShoe());
+  EXPECT_EQ(test::lastGroundShoe(b) - test::firstGroundShoe(b), test::lastGroundShoe(a) - test::firstGroundShoe(a));
   const vehicle::PlanePoint onIdler = b.pins[static_cast<std::size_t>(b.counts.top)];
   EXPECT_NEAR(base::atan2(onIdler.z - front.idler.z, onIdler.x - b.idlerX), b.idlerFirstAngle, 1e-12);
 }

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "tests/vehicle/attitude.hpp"
+#include "tests/vehicle/ground_shoes.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -54,12 +55,12 @@ TEST(Wrap, LightVehicle_MatchesTheKnownSolution) {
 TEST(Wrap, GroundRun_LiesUnderAllRoadWheels) {
   const VehicleSpec spec = vehicle::readVehicleSpec(kVehicle);
   const Wrap wrap = vehicle::wrapTrack(spec);
-  for (int i = wrap.firstGroundShoe(); i <= wrap.lastGroundShoe(); ++i) {
+  for (int i = test::firstGroundShoe(wrap); i <= test::lastGroundShoe(wrap); ++i) {
     EXPECT_EQ(wrap.shoeCentre(i).z, spec.groundPinHeight());
     EXPECT_EQ(wrap.shoeAngle(i), 0.0);
   }
-  EXPECT_LE(wrap.pins[wrap.firstGroundShoe()].x, spec.roadWheel.firstX);
-  EXPECT_GE(wrap.pins[wrap.lastGroundShoe() + 1].x, spec.roadWheel.firstX + 4 * spec.roadWheel.spacing);
+  EXPECT_LE(wrap.pins[test::firstGroundShoe(wrap)].x, spec.roadWheel.firstX);
+  EXPECT_GE(wrap.pins[test::lastGroundShoe(wrap) + 1].x, spec.roadWheel.firstX + 4 * spec.roadWheel.spacing);
 }
 
 TEST(Wrap, EngagedPins_LieInTheSprocketsGaps) {
@@ -75,7 +76,7 @@ TEST(Wrap, EngagedPins_LieInTheSprocketsGaps) {
 TEST(Wrap, PlatesOnTheIdler_TouchItsRim) {
   const VehicleSpec spec = vehicle::readVehicleSpec(kVehicle);
   const Wrap wrap = vehicle::wrapTrack(spec);
-  const int first = wrap.lastGroundShoe() + 1 + wrap.counts.frontStrand;
+  const int first = test::lastGroundShoe(wrap) + 1 + wrap.counts.frontStrand;
   for (int i = first; i < first + wrap.counts.idler; ++i) {
     const vehicle::PlanePoint c = wrap.shoeCentre(i);
     const double middle =
@@ -101,7 +102,7 @@ TEST(Wrap, WheelFurtherBack_StillStandsOnTheGroundRun) {
   spec.roadWheel.firstX = 0.50;
   const Wrap wrap = vehicle::wrapTrack(spec);
   EXPECT_EQ(wrap.counts.rearStrand, 3);
-  EXPECT_LE(wrap.pins[wrap.firstGroundShoe()].x, 0.50);
+  EXPECT_LE(wrap.pins[test::firstGroundShoe(wrap)].x, 0.50);
 }
 
 TEST(Wrap, OddTeeth_TurnTheSprocketByHalfATooth) {

@@ -12,6 +12,7 @@
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/json_text.hpp"
+#include "runs/support/not_written.hpp"
 #include "runs/support/program_call.hpp"
 #include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
@@ -88,7 +89,7 @@ void keepCall(const fs::path& folder, const EventOptions& options) {
   fs::create_directories(folder);
   try {
     support::replaceTextFile(folder / kCall, callText(options));
-  } catch (const std::runtime_error&) {
+  } catch (const support::NotWritten&) {
     if (!isOfThisCall(folder, options)) throw; // else another part was quicker
   }
 }

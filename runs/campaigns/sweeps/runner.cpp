@@ -101,7 +101,7 @@ pid_t start(std::vector<std::string> words, const fs::path& log, int place, bool
   const std::string gpu = support::firstGpuOf(place);
   const pid_t parent = getpid();
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error(fmt::format("no process could be started: {}", std::strerror(errno)));
+  if (child < 0) throw base::DeviceError(fmt::format("no process could be started: {}", std::strerror(errno)));
   if (child > 0) return child;
   prctl(PR_SET_PDEATHSIG, SIGTERM); // a killed sweep leaves no runs behind
   if (getppid() != parent) _exit(1);
@@ -243,7 +243,7 @@ private:
     for (auto it = running_.begin(); it != running_.end();) {
       int status = 0;
       const pid_t ended = waitpid(it->first, &status, WNOHANG);
-      if (ended < 0) throw std::runtime_error(fmt::format("a run was lost: {}", std::strerror(errno)));
+      if (ended < 0) throw base::DeviceError(fmt::format("a run was lost: {}", std::strerror(errno)));
       if (ended != it->first) {
         ++it;
         continue;

@@ -5,7 +5,6 @@
 #include "base/math.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
-#include "runs/output/channels.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/drive_length.hpp"
 #include "runs/setup/scene_surfaces.hpp"

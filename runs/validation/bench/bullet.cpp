@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/validation/bench/bullet.hpp"
 
-#include <stdexcept>
+#include "base/error.hpp"
 
 #if defined(GROUSER_BULLET)
 
@@ -84,7 +84,7 @@ namespace grouser::bench {
 std::string bulletVersion() { return ""; }
 
 BulletFigures benchBullet(const std::vector<base::Vec3f>&, float, int) {
-  throw std::runtime_error("this program was built without Bullet");
+  throw base::InputError("this program was built without Bullet");
 }
 
 } // namespace grouser::bench

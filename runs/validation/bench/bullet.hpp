@@ -21,7 +21,7 @@ struct BulletFigures {
 std::string bulletVersion();
 
 /// Collision detection by btCollisionWorld with a btDbvtBroadphase, one thread, single precision. `positions` and
-/// `diameter` in any unit. Throws std::runtime_error where there is no Bullet.
+/// `diameter` in any unit. Throws base::InputError where there is no Bullet.
 BulletFigures benchBullet(const std::vector<base::Vec3f>& positions, float diameter, int repeats);
 
 } // namespace grouser::bench

@@ -65,8 +65,6 @@ double highestFrequency(const ContactNetwork& network) {
   return std::sqrt(value);
 }
 
-double columnFrequency(int n) { return 2 * std::cos(base::kPi / (2 * n + 1)); }
-
 double gershgorinFrequency(const ContactNetwork& network) {
   // Rows of K summed by blocks: the largest eigenvalue of sum_c w_c n n^T for each sphere, by its own power iteration.
   std::vector<std::array<Vec3d, 3>> rows(network.spheres);

@@ -24,9 +24,6 @@ struct ContactNetwork {
 /// 2/5 m R^2. Power iteration on M^-1 K; its Rayleigh quotient, which comes from below.
 double highestFrequency(const ContactNetwork& network);
 
-/// The same for a column of n spheres on a plane, in closed form: 2 cos(pi / (2 n + 1)).
-double columnFrequency(int n);
-
 /// Gershgorin's bound: the largest sum over a sphere's contacts of what each adds, 2 (n n^T) among spheres and n n^T at
 /// a plane [-]; frictionless.
 double gershgorinFrequency(const ContactNetwork& network);

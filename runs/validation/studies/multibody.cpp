@@ -66,8 +66,8 @@ Measured measure(const StudyCase& c, const scene::Scene& scene, double step, std
                  std::int64_t samples) {
   coupling::Mechanism mechanism(setup::mechanismSetup(scene), step);
   const auto energy = [&] {
-    const coupling::Mechanism::Ledger l = mechanism.ledger();
-    return l.kinetic + l.potential + l.elastic + l.dissipated - l.driveWork;
+    const multibody::Balance b = mechanism.bodiesBalance();
+    return b.now.kinetic + b.now.gravity + b.now.elastic + b.dissipated() - b.driveWork;
   };
   const double start = energy();
   Measured m;
@@ -148,7 +148,9 @@ ReactionResult measureReaction(const ReactionCase& r, const IntegratorChoice& in
       if (i > 0) result.worst = std::max(result.worst, std::fabs(f / r.exact - 1));
     }
     result.mean = sum / static_cast<double>(steps);
-  } catch (const std::runtime_error& error) {
+  } catch (const base::SimulationError& error) {
+    result.failure = error.what();
+  } catch (const base::InputError& error) {
     result.failure = error.what();
   }
   return result;

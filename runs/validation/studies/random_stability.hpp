@@ -54,8 +54,8 @@ struct RandomStability {
   bool resume = false;
 };
 
-/// `grouser study stability --random N`. Throws std::runtime_error, after all is written, where a scene raises an alarm
-/// at the step that a run chooses or blows up at the longest that it takes.
+/// `grouser study stability --random N`. Throws base::SimulationError, after all is written, where a scene raises an
+/// alarm at the step that a run chooses or blows up at the longest that it takes.
 void studyRandomStability(const RandomStability& command, const jobs::StudyPlace& place);
 
 } // namespace grouser::studies

@@ -16,7 +16,6 @@
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <stdexcept>
 
 namespace grouser::studies {
 
@@ -154,7 +153,8 @@ void studyRandomStability(const RandomStability& command, const jobs::StudyPlace
                          {{"random", command.scenes}, {"seed", command.seed}});
   output::drawPicture("study_random_stability.py", {table}, folder / "random.png");
   fmt::print("tables    {}\n", folder.string());
-  if (!sound) throw std::runtime_error("a random scene is unsound at the step that a run chooses or allows: see above");
+  if (!sound)
+    throw base::SimulationError("a random scene is unsound at the step that a run chooses or allows: see above");
 }
 
 } // namespace grouser::studies

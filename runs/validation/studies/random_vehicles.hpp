@@ -53,7 +53,7 @@ struct RandomVehicles {
   jobs::PieceOptions pieces;
   jobs::StudyPlace place;
 };
-/// `grouser study random-vehicles`. Throws std::runtime_error, after all is written, where one is silently wrong or
+/// `grouser study random-vehicles`. Throws base::SimulationError, after all is written, where one is silently wrong or
 /// stopped for a wrong cause.
 void studyRandomVehicles(const RandomVehicles& command);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study random-vehicles`: pieces, table and files of random vehicles.
 #include "runs/storage/sphere_cache.hpp"
+#include "base/error.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
@@ -14,7 +15,6 @@
 
 #include <array>
 #include <chrono>
-#include <stdexcept>
 
 namespace grouser::studies {
 
@@ -94,7 +94,7 @@ void studyRandomVehicles(const RandomVehicles& c) {
   const int wrong = counts[static_cast<std::size_t>(MapVerdict::wrongCause)] +
                     counts[static_cast<std::size_t>(MapVerdict::silentlyWrong)];
   if (wrong > 0)
-    throw std::runtime_error(
+    throw base::SimulationError(
         fmt::format("{} vehicles are silently wrong, or stopped for a wrong cause: see above", wrong));
 }
 

@@ -197,7 +197,8 @@ void inertiaRatios(std::vector<StabilityPoint>& points) {
         StabilityPoint p{fmt::format("moments 1 to {:g}", ratio), choice.name, limit, step};
         tryStep(
             sceneOf(m, choice, {}), p,
-            [start](const coupling::Mechanism& now) { return std::fabs(now.ledger().kinetic / start - 1); }, 0.5);
+            [start](const coupling::Mechanism& now) { return std::fabs(now.bodiesBalance().now.kinetic / start - 1); },
+            0.5);
         points.push_back(p);
       }
   }

@@ -15,7 +15,7 @@ struct VehicleStability {
   jobs::PieceOptions pieces;
   std::vector<std::string> maps; ///< names; empty: all
 };
-/// Throws std::runtime_error, after all is written, where a point is silently wrong or stopped for a wrong cause.
+/// Throws base::SimulationError, after all is written, where a point is silently wrong or stopped for a wrong cause.
 void studyVehicleStability(const VehicleStability& command, const jobs::StudyPlace& place);
 
 /// A point and what became of it.

@@ -21,7 +21,6 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <stdexcept>
 
 namespace grouser::studies {
 
@@ -143,7 +142,7 @@ void studyVehicleStability(const VehicleStability& command, const jobs::StudyPla
   fmt::print("tables    {}\n", pieces.folder().string());
   if (const int wrong = pointsOf(points, "", MapVerdict::silentlyWrong) + pointsOf(points, "", MapVerdict::wrongCause);
       wrong > 0)
-    throw std::runtime_error(
+    throw base::SimulationError(
         fmt::format("{} points are silently wrong, or stopped for a wrong cause: see above", wrong));
 }
 

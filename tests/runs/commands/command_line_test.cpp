@@ -107,6 +107,19 @@ TEST_F(CommandLine, SpheresAreNotWrittenOverAFileUnlessForced) {
   EXPECT_EQ(contents(folder_ / "s.csv").rfind("x [m],y [m],z [m],radius [m]\n", 0), 0u);
 }
 
+TEST_F(CommandLine, AnInternalErrorAsksToBeReported) {
+  // A script of the program's own that fails for no cause it knows.
+  fs::create_directories(folder_ / "share/runs/report");
+  std::ofstream(folder_ / "share/runs/report/report.py") << "raise SystemExit('a fault of the script')\n";
+  fs::create_directory(folder_ / "results");
+  const Outcome o = call("report results --out page.html", "GROUSER_SHARE=share ");
+  EXPECT_EQ(o.code, 1) << o.errors;
+  EXPECT_EQ(o.error().rfind("internal error: ", 0), 0u) << o.errors;
+  EXPECT_NE(o.error().find("a fault of the script"), std::string::npos) << o.errors;
+  EXPECT_NE(o.error().find("report it with the command line: "), std::string::npos) << o.errors;
+  EXPECT_TRUE(o.error().ends_with("grouser report results --out page.html")) << o.errors;
+}
+
 TEST_F(CommandLine, FullDiskIsSaidAndLeavesNoPart) {
   writeCube();
   // Files of at most 512 bytes: the write fails in the middle, as on a full disk.

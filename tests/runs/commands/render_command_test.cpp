@@ -6,6 +6,7 @@
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
 #include "runs/render/labels.hpp"
+#include "runs/support/not_written.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -323,6 +324,20 @@ TEST_F(SharedWork, WhoHasALongPieceLeavesTheOthersToTheRest) {
   EXPECT_TRUE(isThere(0));
 }
 
+TEST_F(SharedWork, FailureOfOneKeepsItsKind) {
+  const auto fails = [](const auto& error) {
+    jobs::shareWork(
+        2, 2,
+        [&](std::size_t i) {
+          if (i) throw error;
+        },
+        [] {});
+  };
+  EXPECT_THROW(fails(base::SimulationError("a")), base::SimulationError);
+  EXPECT_THROW(fails(base::DeviceError("a")), base::DeviceError);
+  EXPECT_THROW(fails(support::NotWritten("a")), support::NotWritten);
+}
+
 TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
   const auto failing = [](std::size_t i) {
     if (i == 1) throw base::InputError("piece 1 is bad");
@@ -337,7 +352,7 @@ TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
                      if (i) std::raise(SIGKILL);
                    },
                    [] {}),
-               std::runtime_error);
+               base::DeviceError);
   EXPECT_THROW(jobs::shareWork(
                    2, 2,
                    [](std::size_t i) {

@@ -3,11 +3,11 @@
 // velocities of the same row.
 #include "runs/output/mechanism_output.hpp"
 
-#include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/mechanism.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_setup.hpp"
+#include "tests/message_of.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,6 +19,7 @@ namespace grouser::output {
 namespace {
 
 using base::Vec3d;
+using namespace test; // messageOf()
 
 const std::string kHead = "version = 1\n[run]\nduration = 1\ntime_step = 1e-3\n";
 
@@ -30,13 +31,12 @@ public:
 
   void advance(int steps) {
     for (int i = 0; i < steps; ++i) mechanism_.advance();
-    const std::vector<Channel> channels = mechanismChannels(mechanism_.model(), {});
-    RowBuilder row(channels);
-    row.begin(0, 0);
-    setMechanismRow(row, mechanism_, {});
+    const Columns<MechanismReading> columns = mechanismColumns(mechanism_.model(), {});
+    std::vector<double> values;
+    columns.append(MechanismReading(mechanism_), values);
     std::size_t at = 0;
-    for (const Channel& c : channels) {
-      const auto first = row.row().values.begin() + static_cast<std::ptrdiff_t>(at);
+    for (const Channel& c : columns.channels()) {
+      const auto first = values.begin() + static_cast<std::ptrdiff_t>(at);
       columns_[c.path].assign(first, first + c.width);
       at += static_cast<std::size_t>(c.width);
     }
@@ -270,7 +270,7 @@ TEST(MechanismColumns, MomentaTurnTheInertiaWithTheBody) {
   expectNear(rows.vector("momentum/linear"), {4, 6, -4}, 1e-14, "linear");
   // (1,0,0) x (0,6,0) + (0,2,1) x (4,0,-4) + (0, 9 x 0.5, 0)
   expectNear(rows.vector("momentum/angular"), {-8, 4 + 4.5, 6 - 8}, 1e-13, "angular");
-  EXPECT_NEAR(rows.mechanism().ledger().kinetic, 0.5 * 2 * 9 + 0.5 * 4 * 2 + 0.5 * 9 * 0.25, 1e-13);
+  EXPECT_NEAR(rows.mechanism().bodiesBalance().now.kinetic, 0.5 * 2 * 9 + 0.5 * 4 * 2 + 0.5 * 9 * 0.25, 1e-13);
 }
 
 TEST(MechanismColumns, HowWellTheJointsCloseIsOfTheStepsSinceTheLastRow) {
@@ -327,7 +327,10 @@ TEST(MechanismColumns, ACouplingWithAnOffsetThatIsNotMetIsRefused) {
            offset + "\n";
   };
   EXPECT_NO_THROW(setup::parseScene(geared("0"), "geared.toml"));
-  EXPECT_THROW(setup::parseScene(geared("0.3"), "geared.toml"), base::InputError);
+  EXPECT_EQ(messageOf([&] {
+              setup::parseScene(geared("0.3"), "geared.toml");
+            }).rfind("geared.toml:26: coupling.0 (\"teeth\"): is open by -0.3 ", 0),
+            0u);
 }
 
 } // namespace

@@ -3,13 +3,13 @@
 #include "runs/setup/load_scene.hpp"
 
 #include "base/error.hpp"
-#include "runs/output/channels.hpp"
 #include "runs/output/sinkage.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/row_builder.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>

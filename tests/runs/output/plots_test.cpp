@@ -6,6 +6,7 @@
 #include "runs/output/output.hpp"
 #include "runs/setup/provenance.hpp"
 #include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/row_builder.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,8 @@ protected:
         {"vehicle/left/tension", "N", "", kShoes, {}},    {"vehicle/left/sprocket_speed", "rad/s", "", 1, {}},
         {"vehicle/left/speed", "m/s", "", 1, {}},         {"vehicle/left/drive_torque", "N m", "", 1, {}},
         {"vehicle/position", "m", "", 3, {"x", "y", "z"}}};
-    for (const Channel& c : ledgerChannels()) channels.push_back(c);
+    const std::vector<Channel> ledger = ledgerColumns().channels();
+    channels.insert(channels.end(), ledger.begin(), ledger.end());
     RunWriter writer(
         folder_, setup::provenanceOf(setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")),
         channels, {});
@@ -61,7 +63,7 @@ protected:
       row.set("vehicle/left/speed", 0.24);
       row.set("vehicle/position", base::Vec3d{0.005 * r, 0, 0.5});
       row.set("vehicle/left/drive_torque", 300.0);
-      for (const Channel& c : ledgerChannels())
+      for (const Channel& c : ledger)
         if (c.width == 1) row.set(c.path, 1.0 * r);
       writer.row(row.row());
     }

@@ -130,8 +130,8 @@ TEST(Picture, LabelsStandOnWidePicturesAlone) {
     frame.positions.push_back({0.1f * float(i % 10), 0.1f * float(i / 10), 0.001f * float(i)}),
         frame.radii.push_back(0.05f);
   const int narrow = kNarrowestLabelled - 1, wide = 960;
-  EXPECT_EQ(drawLabelledFrame(frame, {}, {}, narrow).rgb, drawFrame(frame, {}, {}, narrow).rgb);
-  const Image plain = drawFrame(frame, {}, {}, wide), labelled = drawLabelledFrame(frame, {}, {}, wide);
+  EXPECT_EQ(drawFrame(frame, {}, {}, narrow).rgb, drawFrame(frame, {}, {}, narrow, false).rgb);
+  const Image plain = drawFrame(frame, {}, {}, wide, false), labelled = drawFrame(frame, {}, {}, wide);
   // Of the pixels that differ: time in the upper left corner, colours in the upper right one, the bar below on the
   // left.
   int upperLeft = 0, upperRight = 0, lowerLeft = 0, elsewhere = 0;

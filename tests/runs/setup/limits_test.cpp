@@ -277,7 +277,7 @@ TEST(MeetingPairs, OfHertzGrainsHaveTheirEffectiveModulus) {
 
 TEST(MeetingPairs, OfTheVehicleHaveTheFrictionOfItsFile) {
   for (const MeetingPair& pair : meetingPairs(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml")))
-    if (pair.what == "grain on the vehicle") {
+    if (pair.touched == Touched::vehicle) {
       const double given =
           vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml").contact.frictionGround;
       EXPECT_EQ(pair.law.friction, given);
@@ -295,7 +295,7 @@ std::pair<double, double> stickingOf(const std::vector<std::string>& overrides) 
   const scene::Scene scene = loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml", all);
   double told = base::kNaN;
   for (const MeetingPair& pair : meetingPairs(scene))
-    if (pair.what == "grain on the vehicle") told = pair.cohesion;
+    if (pair.touched == Touched::vehicle) told = pair.cohesion;
   const double radius = *scene.terrain->grainRadius;
   return {told, groundSetup(scene, 1e-4).grains->partLaws.laws.at(0).pull(radius) / (2 * base::kPi * radius)};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Soil files: numbers scale with the grains, and what is wrong is named with its place.
 #include "base/error.hpp"
+#include "runs/scene/soil.hpp"
 #include "runs/virtual_tests/plan.hpp"
 #include "runs/virtual_tests/preparation.hpp"
 #include "runs/virtual_tests/results.hpp"
@@ -122,7 +123,7 @@ TEST_F(SoilFile, ANameThatIsNoneIsToldWithTheNearest) {
   } catch (const base::InputError& e) {
     const std::string message = e.what();
     EXPECT_NE(message.find("no_such_soil"), std::string::npos) << message;
-    for (const std::string& name : soilNames()) EXPECT_NE(message.find(name), std::string::npos) << message;
+    for (const auto& [name, file] : scene::knownSoils("")) EXPECT_NE(message.find(name), std::string::npos) << message;
   }
 }
 

@@ -4,13 +4,13 @@
 #include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 
-#include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/row_builder.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ protected:
     std::filesystem::remove_all(folder_ / plan_.runs[run].name);
     output::RunWriter writer(folder_ / plan_.runs[run].name, setup::provenanceOf(plan_.runs[run].scene), channels, {});
     writer.constant(output::kPitchRadius, 0.25);
-    output::RowBuilder row(channels);
+    RowBuilder row(channels);
     for (int r = 0; r <= 30; ++r) {
       row.begin(100 * r, 0.1 * r);
       const auto set = [&](const std::string& side, const Driven& d) {

@@ -9,6 +9,7 @@
 #include "runs/setup/provenance.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/folder_fixture.hpp"
+#include "tests/runs/row_builder.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
   }
   output::RunWriter writer(folder_ / "seed=1", setup::provenanceOf(scene), channels, {});
   writer.constant(output::kPitchRadius, 0.25);
-  output::RowBuilder row(channels);
+  RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
     // Before 2 s all is far off; then u goes from -1 to 1 in 11 rows.
     const double u = r < 20 ? 50 : (r - 25) / 5.0;
@@ -113,10 +114,11 @@ TEST_F(SummaryValues, OfSurfacesAreMeansByAxisAndPlacesAtTheEnd) {
              "[[plane]]\nname = \"belt\"\nmaterial = \"glass\"\n"
              "[[box]]\nname = \"lid\"\nposition = [0, 0, 1]\nsize = [1, 1, 1]\nmaterial = \"glass\"\n"
              "[[grain]]\nposition = [0, 0, 0.1]\nradius = 0.01\nmaterial = \"glass\"\n");
-  std::vector<output::Channel> channels = output::surfaceChannels("belt");
-  for (const output::Channel& c : output::surfaceChannels("lid")) channels.push_back(c);
+  std::vector<output::Channel> channels = output::surfaceColumns("belt").channels();
+  const std::vector<output::Channel> lid = output::surfaceColumns("lid").channels();
+  channels.insert(channels.end(), lid.begin(), lid.end());
   output::RunWriter writer(folder_ / "seed=1", setup::provenanceOf(plan.runs[0].scene), channels, {});
-  output::RowBuilder row(channels);
+  RowBuilder row(channels);
   for (int r = 0; r <= 20; ++r) {
     // Steady from 1 s on: u = 0 ... 10, mean 5.
     const double u = r < 10 ? 1e3 : r - 10;

@@ -3,12 +3,12 @@
 #include "runs/campaigns/sweeps/run_figures.hpp"
 #include "runs/campaigns/sweeps/sweep.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
-#include "runs/output/channels.hpp"
 #include "runs/output/output.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "tests/runs/csv_fixture.hpp"
+#include "tests/runs/row_builder.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   }
   output::RunWriter writer(folder_ / "sprocket_speed=2", setup::provenanceOf(scene), channels, {});
   writer.constant(output::kPitchRadius, 0.25);
-  output::RowBuilder row(channels);
+  RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
     const bool isSteady = r >= 20;
     row.begin(100 * r, 0.1 * r);

@@ -10,6 +10,9 @@
 namespace grouser::studies {
 namespace {
 
+/// Highest natural frequency of a column of n frictionless spheres on a plane, in units of sqrt(k / m).
+double columnFrequency(int n) { return 2 * std::cos(base::kPi / (2 * n + 1)); }
+
 ContactNetwork closePacked(int cells, double tangentialRatio) {
   // Face-centred cubic: nearest neighbours along the face diagonals, sqrt(1/2) of the cubic edge away.
   ContactNetwork network;

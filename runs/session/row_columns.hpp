@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/simulation.hpp"
+#include "runs/output/channels.hpp"
+#include "runs/setup/record_setup.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace grouser::session {
+
+/// The columns of a run's rows, in their order, and the values of a row. What a simulation does not have has no column.
+class RowColumns {
+public:
+  /// `simulation` outlives it.
+  RowColumns(coupling::Simulation& simulation, const setup::OutputSetup& output);
+
+  const std::vector<output::Channel>& channels() const { return channels_; }
+  /// The numbers of all channels now. All ranks call it.
+  output::Row row() const;
+
+private:
+  /// What several groups of columns read, measured once a row.
+  struct Now {
+    vehicle::Observation vehicle; ///< where there is one
+    coupling::Ledger ledger;
+  };
+  using Append = std::function<void(const Now&, std::vector<double>&)>;
+
+  void addVehicle(bool shoeForces);
+  void addSurfaces();
+  void add(const std::vector<output::Channel>& channels, Append append);
+  /// Columns whose source `find` finds for each row.
+  template <class Source, class Find> void add(const output::Columns<Source>& columns, Find find) {
+    add(columns.channels(),
+        [columns, find](const Now& now, std::vector<double>& values) { columns.append(find(now), values); });
+  }
+
+  coupling::Simulation& simulation_;
+  std::vector<output::Channel> channels_;
+  std::vector<Append> groups_;
+};
+
+} // namespace grouser::session
