@@ -3,22 +3,15 @@
 #include "runs/support/device_choice.hpp"
 
 #include "base/error.hpp"
-#include "runs/jobs/shared_work.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <set>
 #include <string>
-#include <thread>
 
 namespace grouser::support {
 namespace {
-
-namespace fs = std::filesystem;
 
 class FirstGpu : public test::FolderTest {
 protected:
@@ -64,23 +57,6 @@ TEST_F(FirstGpu, ProcessesOfOneCallGoOnFromItsOwn) {
   setenv(kFirstGpu, "1", 1);
   EXPECT_EQ(firstGpuOf(2), "3");
   EXPECT_STREQ(std::getenv(kFirstGpu), "1") << "this process stays where it is";
-}
-
-TEST_F(FirstGpu, DiffersAmongProcessesThatShareWork) {
-  setenv(kFirstGpu, "1", 1);
-  const auto found = [&] {
-    std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename());
-    return names;
-  };
-  // Each piece waits for the others, so that each process does one.
-  const auto work = [&](std::size_t) {
-    std::ofstream(folder_ / std::getenv(kFirstGpu)) << "\n";
-    for (int look = 0; look < 1000 && found().size() < 3; ++look)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  };
-  jobs::shareWork(3, 3, work, [] {});
-  EXPECT_EQ(found(), (std::set<std::string>{"1", "2", "3"}));
 }
 
 } // namespace
