@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -33,42 +32,12 @@ Pipe makePipe() {
 }
 
 Descriptor openLog(const Program& program) {
-  const int mode = O_WRONLY | O_CREAT | O_CLOEXEC | (program.append ? O_APPEND : O_TRUNC);
-  Descriptor file(open(program.log.c_str(), mode, 0644));
-  if (file.number() < 0) throw failure(program.log.string() + " cannot be written");
+  Descriptor file(program.log, O_WRONLY | O_CREAT | (program.append ? O_APPEND : O_TRUNC));
+  if (!file.good()) throw failure(program.log.string() + " cannot be written");
   return file;
 }
 
 } // namespace
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(number_, other.number_);
-  return *this;
-}
-
-void Descriptor::close() {
-  if (number_ >= 0) ::close(number_);
-  number_ = -1;
-}
-
-bool Descriptor::read(std::string& text) const {
-  std::array<char, 4096> buffer;
-  ssize_t n = 0;
-  while ((n = ::read(number_, buffer.data(), buffer.size())) < 0 && errno == EINTR) continue;
-  if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
-  return n > 0;
-}
-
-bool Descriptor::write(const std::string& bytes) const {
-  const auto former = std::signal(SIGPIPE, SIG_IGN); // who reads may end before it has read everything
-  std::size_t sent = 0;
-  for (ssize_t n = 0; sent < bytes.size() && (n >= 0 || errno == EINTR);) {
-    n = ::write(number_, bytes.data() + sent, bytes.size() - sent);
-    if (n > 0) sent += static_cast<std::size_t>(n);
-  }
-  std::signal(SIGPIPE, former);
-  return sent == bytes.size();
-}
 
 std::string ProcessEnd::text() const {
   return signal != 0 ? fmt::format("ended by signal {} ({})", signal, strsignal(signal))
@@ -87,8 +56,8 @@ ChildProcess::ChildProcess(const Program& program) {
   else
     output.writeEnd = openLog(program);
   start(SIGTERM, program.environment, [&] {
-    if (program.input) dup2(input.readEnd.number(), STDIN_FILENO);
-    dup2(output.writeEnd.number(), STDOUT_FILENO), dup2(output.writeEnd.number(), STDERR_FILENO);
+    if (program.input) dup2(input.readEnd, STDIN_FILENO);
+    dup2(output.writeEnd, STDOUT_FILENO), dup2(output.writeEnd, STDERR_FILENO);
     std::signal(SIGPIPE, SIG_DFL);
     execvp(arguments[0], arguments.data());
     cause.writeEnd.write(std::strerror(errno));

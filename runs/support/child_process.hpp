@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/support/descriptor.hpp"
+
 #include <sys/types.h>
 
 #include <filesystem>
@@ -11,25 +13,6 @@
 #include <vector>
 
 namespace grouser::support {
-
-/// An open file or an end of a pipe, closed with this object. No program that is started inherits it.
-class Descriptor {
-public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  ~Descriptor() { close(); }
-
-  int number() const { return number_; } ///< -1: closed
-  void close();
-  /// Waits for bytes and appends what has come. False at the end.
-  bool read(std::string& text) const;
-  /// Writes all of it. False where nobody reads it any more.
-  bool write(const std::string& bytes) const;
-
-private:
-  int number_;
-};
 
 /// How a process ended.
 struct ProcessEnd {
@@ -68,7 +51,7 @@ public:
   bool write(const std::string& bytes) const { return input_.write(bytes); }
   /// Waits for output and appends it. False when there will be none any more.
   bool read(std::string& text);
-  int output() const { return output_.number(); } ///< descriptor for poll(); -1 after its end
+  int output() const { return output_; } ///< descriptor for poll(); -1 after its end
 
   /// Asks a program to end, by SIGTERM: once, as many end without saving their work at a second one.
   void terminate();
