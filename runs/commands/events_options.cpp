@@ -62,6 +62,7 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
   events->add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
   events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
   jobs::addPieceOptions(*events, c.pieces);
+  events->get_option("--seconds")->description("no further run is begun after so many, 0: no limit");
   events->add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
       ->check(support::wholeNumber(1, 1024))
       ->capture_default_str();

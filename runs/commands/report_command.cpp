@@ -48,11 +48,6 @@ private:
   fs::path path_;
 };
 
-std::string lastLine(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
 void checkPlaces(const ReportCommand& command, const fs::path& file) {
   std::error_code error;
   if (!fs::is_directory(command.folder, error))
@@ -94,13 +89,15 @@ void reportCommand(const ReportCommand& command) {
     throw support::Stopped(signal,
                            fmt::format("stopped by {}; no page was written", support::StopSignals::name(signal)),
                            support::Stopped::Left::nothing);
-  constexpr int kWrongInput = 2, kNotWritten = 4, kNoProgram = 127;
+  constexpr int kWrongInput = 2, kNotWritten = 4;
   if (outcome.status == kWrongInput || outcome.status == output::kMissingPackage)
-    throw base::InputError(lastLine(outcome.output));
-  if (outcome.status == kNoProgram)
-    throw base::InputError("a report needs Python; install python3, python3-numpy and python3-h5py");
-  if (outcome.status == kNotWritten) throw support::NotWritten(lastLine(outcome.output));
-  if (outcome.status != 0) throw std::logic_error(fmt::format("{}: {}", script.string(), lastLine(outcome.output)));
+    throw base::InputError(support::lastLine(outcome.output));
+  if (!outcome.started)
+    throw base::InputError(
+        fmt::format("a report needs Python: {}; install python3, python3-numpy and python3-h5py", outcome.output));
+  if (outcome.status == kNotWritten) throw support::NotWritten(support::lastLine(outcome.output));
+  if (outcome.status != 0)
+    throw std::logic_error(fmt::format("{}: {}", script.string(), support::lastLine(outcome.output)));
   fmt::print("{}", outcome.output);
 }
 

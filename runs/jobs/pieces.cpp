@@ -13,8 +13,11 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
+#include <optional>
 #include <sstream>
 #include <tuple>
+#include <stdexcept>
 
 namespace grouser::jobs {
 
@@ -22,23 +25,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "2/8"; {0, 0} where it is no part.
-std::pair<int, int> partOf(const std::string& text) {
-  int part = 0, parts = 0, length = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%n", &part, &parts, &length) != 2 || length != static_cast<int>(text.size()) ||
-      part < 1 || parts < part)
-    return {0, 0};
-  return {part, parts};
+/// "2/8"; empty where it is no part.
+std::optional<Part> partOf(const std::string& text) {
+  Part part;
+  int length = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%n", &part.number, &part.count, &length) != 2 ||
+      length != static_cast<int>(text.size()) || part.number < 1 || part.count < part.number)
+    return {};
+  return part;
 }
 
 std::string kindOf(const std::string& run) { return run.substr(0, run.rfind('_')); }
-
-std::string contentsOf(const fs::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 } // namespace
 
@@ -50,9 +47,7 @@ void addPieceOptions(CLI::App& app, PieceOptions& o) {
                  "e.g. 2/8: every eighth run only, from the second on, to share a study among calls "
                  "at the same time; a last call without it writes the tables")
       ->check(CLI::Validator(
-          [](const std::string& text) {
-            return partOf(text).first > 0 ? std::string() : text + " is not a part such as 2/8";
-          },
+          [](const std::string& text) { return partOf(text) ? std::string() : text + " is not a part such as 2/8"; },
           "PART/PARTS"));
   app.add_option("--seconds", o.seconds,
                  "no further run is begun that would end after so many, by how long the last one took; 0: no end")
@@ -63,6 +58,21 @@ void addPieceOptions(CLI::App& app, PieceOptions& o) {
   app.add_option("--threads", o.threads, "CPU threads, 0 for all; the answer does not depend on it")
       ->check(support::wholeNumber(0, 1024))
       ->capture_default_str();
+}
+
+Part PieceOptions::share() const { return partOf(part).value_or(Part{}); }
+
+bool Recipe::isThere() const {
+  std::ifstream in(file_, std::ios::binary);
+  return in && std::string(std::istreambuf_iterator<char>(in), {}) == text_;
+}
+
+void Recipe::keep() const {
+  try {
+    if (!isThere()) support::replaceTextFile(file_, text_);
+  } catch (const support::NotWritten&) {
+    if (!isThere()) throw; // else another part was quicker
+  }
 }
 
 std::size_t Table::column(const std::string& name) const {
@@ -94,16 +104,15 @@ std::string Table::csv() const {
 
 Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOptions& options,
                const nlohmann::ordered_json& recipe)
-    : seconds_(options.seconds) {
-  if (!options.part.empty()) std::tie(part_, parts_) = partOf(options.part);
+    : part_(options.share()), seconds_(options.seconds) {
   StudyPlace where = place;
   if (where.folder.empty()) where.folder = (fs::path("out") / ("study_" + study)).string();
   const fs::path file = fs::path(where.folder) / "recipe.json";
-  const std::string text = support::jsonText(recipe, 2) + "\n";
+  const Recipe kept(file, support::jsonText(recipe, 2) + "\n");
   std::error_code missing;
   const bool isAsked = options.resume || !options.part.empty();
   const bool hasRuns = (isAsked || !place.force) && fs::exists(file, missing);
-  const bool isSame = hasRuns && contentsOf(file) == text;
+  const bool isSame = hasRuns && kept.isThere();
   if (hasRuns && !isSame)
     throw base::InputError(fmt::format("{}: the runs in this folder were made with other options; call with those, "
                                        "take another --out, or overwrite it with --force",
@@ -113,11 +122,7 @@ Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOpt
   folder_ = beginStudy(study, where);
   if (!isSame) {
     if (!goesOn) fs::remove_all(folder_ / "runs");
-    try {
-      support::replaceTextFile(file, text);
-    } catch (const support::NotWritten&) {
-      if (contentsOf(file) != text) throw; // else another part was quicker
-    }
+    kept.keep();
   }
   fs::create_directories(folder_ / "runs");
 }
@@ -165,7 +170,7 @@ bool Pieces::due(const std::string& run) {
 
 bool Pieces::dueBeside(const std::string& run) {
   if (has(run)) return false;
-  const bool mine = (seen_ - 1) % parts_ == part_ - 1 && inTime(run);
+  const bool mine = part_.has(static_cast<std::size_t>(seen_ - 1)) && inTime(run);
   left_ += !mine;
   return mine;
 }

@@ -16,6 +16,12 @@
 /// before all are there.
 namespace grouser::jobs {
 
+/// A share of the runs: of "2/8" every eighth, from the second on.
+struct Part {
+  int number = 1, count = 1;
+  bool has(std::size_t run) const { return static_cast<int>(run) % count == number - 1; }
+};
+
 /// What a call does of a study.
 struct PieceOptions {
   bool resume = false; ///< goes on with what an earlier call has left
@@ -23,8 +29,21 @@ struct PieceOptions {
   double seconds = 0;  ///< no run is begun after these [s]; 0: no end
   std::string device = "auto";
   int threads = 1;
+  Part share() const; ///< as `part` says
 };
 void addPieceOptions(CLI::App& app, PieceOptions& options);
+
+/// A file in a folder of runs that says what they depend on: a call that has the same text goes on with them.
+class Recipe {
+public:
+  Recipe(std::filesystem::path file, std::string text) : file_(std::move(file)), text_(std::move(text)) {}
+  bool isThere() const; ///< with this very text
+  void keep() const;    ///< several parts of a call may do so at the same time
+
+private:
+  std::filesystem::path file_;
+  std::string text_;
+};
 
 /// A table of numbers with a line of names.
 struct Table {
@@ -43,7 +62,7 @@ public:
          const nlohmann::ordered_json& recipe);
 
   const std::filesystem::path& folder() const { return folder_; }
-  bool whole() const { return parts_ == 1; } ///< this call is to do all runs, not a part
+  bool whole() const { return part_.count == 1; } ///< this call is to do all runs, not a part
   bool has(const std::string& run) const;
   Table read(const std::string& run) const;
   void keep(const std::string& run, const Table& table);
@@ -67,7 +86,8 @@ private:
   std::filesystem::path folder_;
   std::map<std::string, double> took_; ///< [s] by kind, in this call
   double began_ = 0;                   ///< [s] the run that is under way
-  int part_ = 1, parts_ = 1, seen_ = 0, left_ = 0;
+  Part part_;
+  int seen_ = 0, left_ = 0;
   double seconds_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

@@ -3,21 +3,19 @@
 
 #include "base/error.hpp"
 #include "base/shared_memory.hpp"
+#include "runs/jobs/study_place.hpp"
+#include "runs/support/child_process.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/failure.hpp"
 #include "runs/support/stop_signals.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
+#include <deque>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -32,18 +30,6 @@ namespace {
 // the end.
 constexpr char kDone = '.', kFirstKind = 'a';
 constexpr int kPause = 100; ///< between looks at the signals [ms]
-
-[[noreturn]] void stopped(int signal) {
-  throw support::Stopped(signal, fmt::format("stopped by {}", support::StopSignals::name(signal)));
-}
-
-void say(int pipe, const std::string& text) {
-  for (std::size_t sent = 0; sent < text.size();) {
-    const ssize_t n = write(pipe, text.data() + sent, text.size() - sent);
-    if (n < 0 && errno != EINTR) return; // the parent is gone
-    if (n > 0) sent += static_cast<std::size_t>(n);
-  }
-}
 
 /// What is to be done next, for all processes.
 class NextPiece {
@@ -64,85 +50,40 @@ private:
   Number* number_ = nullptr;
 };
 
-[[noreturn]] void child(const std::string& gpu, int pipe, NextPiece& next, std::size_t count,
-                        const std::function<void(std::size_t)>& work) {
-  // The parent decides what a signal means, and no child outlives it.
-  std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGHUP, SIG_IGN);
-  std::signal(SIGTERM, SIG_DFL);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  setenv(support::kFirstGpu, gpu.c_str(), 1);
+/// In a process of its own: does pieces as long as there are any, and reports them.
+void doPieces(const support::Descriptor& report, NextPiece& next, std::size_t count,
+              const std::function<void(std::size_t)>& work) {
   try {
     for (std::size_t i = next.take(); i < count; i = next.take()) {
       work(i);
-      say(pipe, {kDone});
+      report.write({kDone});
     }
   } catch (...) {
     const support::Failure failure = support::failureOf(std::current_exception());
-    say(pipe, static_cast<char>(kFirstKind + static_cast<int>(failure.kind)) + failure.message);
+    report.write(static_cast<char>(kFirstKind + static_cast<int>(failure.kind)) + failure.message);
   }
-  _exit(0); // nothing of the parent's may be flushed or tidied up twice
 }
 
-struct Child {
-  pid_t process = -1;
-  int pipe = -1;
-  std::string message; ///< kind and text of a failure
-};
-
-/// All children of one call; those that still run are ended with it, at once: a gentler signal that comes before a
-/// child has set its own handlers would be lost.
-class Children {
-public:
-  Children() = default;
-  ~Children() {
-    for (Child& c : all) {
-      if (c.process > 0) kill(c.process, SIGKILL), waitpid(c.process, nullptr, 0);
-      if (c.pipe >= 0) close(c.pipe);
-    }
-  }
-  Children(const Children&) = delete;
-  Children& operator=(const Children&) = delete;
-
-  std::vector<Child> all;
-};
-
-void start(Children& children, NextPiece& next, std::size_t count, const std::function<void(std::size_t)>& work) {
-  const std::string gpu = support::firstGpuOf(static_cast<int>(children.all.size()));
-  int ends[2];
-  if (pipe(ends) != 0) throw base::DeviceError(fmt::format("no pipe to a process: {}", std::strerror(errno)));
-  const pid_t process = fork();
-  if (process == 0) {
-    close(ends[0]);
-    child(gpu, ends[1], next, count, work);
-  }
-  close(ends[1]);
-  children.all.push_back({process, ends[0], ""});
-  if (process < 0) throw base::DeviceError(fmt::format("no process could be started: {}", std::strerror(errno)));
-}
-
-/// Takes what a child has said. False when it has ended.
-bool listen(Child& c, const std::function<void()>& done) {
-  char buffer[4096];
-  const ssize_t n = read(c.pipe, buffer, sizeof buffer);
-  if (n < 0 && errno == EINTR) return true;
-  for (ssize_t i = 0; i < n; ++i) {
-    if (c.message.empty() && buffer[i] == kDone)
+/// Takes a report; what follows the letters of pieces done is a failure's. False when the process has ended.
+bool listen(support::ChildProcess& child, std::string& failure, const std::function<void()>& done) {
+  std::string report;
+  const bool goesOn = child.read(report);
+  for (const char c : report) {
+    if (failure.empty() && c == kDone)
       done();
     else
-      c.message += buffer[i];
+      failure += c;
   }
-  return n > 0;
+  return goesOn;
 }
 
-/// What the end of a child means.
-void judge(const Child& c, int status) {
-  if (!c.message.empty())
-    support::rethrow({static_cast<support::FailureKind>(c.message[0] - kFirstKind), c.message.substr(1)});
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+/// What the end of a process means.
+void judge(const support::ProcessEnd& end, const std::string& failure) {
+  if (!failure.empty())
+    support::rethrow({static_cast<support::FailureKind>(failure[0] - kFirstKind), failure.substr(1)});
+  if (end.signal == SIGKILL)
     throw base::DeviceError("one of the processes was killed; out of memory? Take fewer --processes");
-  if (WIFSIGNALED(status))
-    throw std::runtime_error(fmt::format("one of the processes was ended by signal {}", WTERMSIG(status)));
+  if (end.signal != 0) throw std::runtime_error(fmt::format("one of the processes was {}", end.text()));
 }
 
 } // namespace
@@ -152,31 +93,32 @@ void shareWork(int processes, std::size_t count, const std::function<void(std::s
   const support::StopSignals signals;
   if (processes <= 1) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (const int signal = support::StopSignals::received()) stopped(signal);
+      stopStudyIfAsked();
       work(i);
       done();
     }
     return;
   }
   NextPiece next;
-  Children children;
+  std::deque<support::ChildProcess> children;
   const std::size_t all = std::min(static_cast<std::size_t>(processes), std::max<std::size_t>(count, 1));
-  for (std::size_t k = 0; k < all; ++k) start(children, next, count, work);
+  while (children.size() < all) {
+    const std::string gpu = support::firstGpuOf(static_cast<int>(children.size()));
+    children.emplace_back([&](const support::Descriptor& report) { doPieces(report, next, count, work); },
+                          support::Environment{{support::kFirstGpu, gpu}});
+  }
+  std::vector<std::string> failures(all);
   std::size_t ready = 0;
   const auto oneMore = [&] { ++ready, done(); };
   for (std::size_t running = all; running > 0;) {
     std::vector<pollfd> ends;
-    for (const Child& c : children.all) ends.push_back({c.process > 0 ? c.pipe : -1, POLLIN, 0});
+    for (const support::ChildProcess& child : children) ends.push_back({child.output(), POLLIN, 0});
     poll(ends.data(), ends.size(), kPause);
-    if (const int signal = support::StopSignals::received()) stopped(signal);
+    stopStudyIfAsked();
     for (std::size_t k = 0; k < all; ++k) {
-      Child& c = children.all[k];
-      if (!(ends[k].revents & (POLLIN | POLLHUP)) || listen(c, oneMore)) continue;
-      int status = 0;
-      waitpid(c.process, &status, 0);
-      c.process = -1;
+      if (ends[k].revents == 0 || listen(children[k], failures[k], oneMore)) continue;
       --running;
-      judge(c, status);
+      judge(children[k].wait(), failures[k]);
     }
   }
   if (ready < count) throw std::runtime_error("one of the processes ended before its work was done");

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-/// What the studies of grains have in common.
+/// What studies have in common: series of runs that answer one question, such as `grouser study` and the virtual tests
+/// of a soil.
 namespace grouser::jobs {
 
-inline constexpr double kGravity = 9.81; ///< of all studies of grains [m/s2]
+inline constexpr double kGravity = 9.81; ///< in all studies [m/s2]
 
 /// Where a study writes, and how much it does.
 struct StudyPlace {
@@ -33,7 +34,7 @@ struct MeanError {
 MeanError meanOf(const std::vector<double>& values);
 double medianOf(std::vector<double> values);
 
-/// Throws Stopped after SIGINT or SIGTERM.
+/// Throws Stopped after SIGINT, SIGTERM or SIGHUP.
 void stopStudyIfAsked();
 
 } // namespace grouser::jobs

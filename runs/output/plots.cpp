@@ -14,11 +14,6 @@ namespace {
 // Debian's, for which python3-matplotlib and python3-h5py are packaged; another may stand before it on the PATH.
 constexpr const char* kPython = "/usr/bin/python3";
 
-std::string lastLine(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
 /// Runs a script of runs/plots/. False, with a `warning`, where it does not end well.
 bool draw(const std::string& name, const std::vector<std::string>& arguments, std::string& warning) {
   const std::filesystem::path script = support::shareFolder() / "runs" / "plots" / name;
@@ -29,12 +24,12 @@ bool draw(const std::string& name, const std::vector<std::string>& arguments, st
     return false;
   }
   const support::CallOutcome outcome = callPython(script, arguments);
-  if (outcome.status == 127 || outcome.status == -1)
-    warning = fmt::format("no plots: {} is missing; install python3, python3-matplotlib and python3-h5py", kPython);
+  if (!outcome.started)
+    warning = fmt::format("no plots: {}; install python3, python3-matplotlib and python3-h5py", outcome.output);
   else if (outcome.status != 0)
     warning = fmt::format("no plots: {}", outcome.status == kMissingPackage
-                                              ? lastLine(outcome.output)
-                                              : script.string() + ": " + lastLine(outcome.output));
+                                              ? support::lastLine(outcome.output)
+                                              : script.string() + ": " + support::lastLine(outcome.output));
   return outcome.status == 0;
 }
 
@@ -73,7 +68,8 @@ support::CallOutcome callPython(const std::filesystem::path& script, const std::
 
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& arguments, std::string& warning) {
   const support::CallOutcome outcome = callPython(script, arguments);
-  if (outcome.status != 0) warning = fmt::format("{} {}: {}", kPython, script.string(), lastLine(outcome.output));
+  if (outcome.status != 0)
+    warning = fmt::format("{} {}: {}", kPython, script.string(), support::lastLine(outcome.output));
   return outcome.status == 0;
 }
 

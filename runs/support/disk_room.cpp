@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/disk_room.hpp"
 
+#include "runs/support/descriptor.hpp"
 #include "runs/support/not_written.hpp"
 
 #include <cerrno>
@@ -41,14 +42,7 @@ void requireRoom(int file, const std::filesystem::path& path, std::uint64_t byte
 }
 
 void requireRoom(const std::filesystem::path& path, std::uint64_t bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  try {
-    requireRoom(file, path, bytes);
-  } catch (...) {
-    if (file >= 0) ::close(file);
-    throw;
-  }
-  ::close(file);
+  requireRoom(Descriptor(path, O_WRONLY), path, bytes);
 }
 
 } // namespace grouser::support

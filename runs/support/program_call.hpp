@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/support/child_process.hpp"
+
 #include <string>
 #include <vector>
 
@@ -8,12 +10,16 @@ namespace grouser::support {
 
 /// How another program has ended.
 struct CallOutcome {
-  int status = -1;    ///< exit status, 127 where there is no such program; -1: could not be started, or was killed
-  std::string output; ///< stdout and stderr together
+  bool started = false;
+  int status = -1;    ///< exit status; -1: it was not started, or a signal ended it
+  std::string output; ///< stdout and stderr together; then, where there is no exit status, a line with the cause
 };
 
-/// Runs a program and waits for it. `words`: its name, which is looked for on the PATH unless it has a slash, and its
-/// arguments.
-CallOutcome callProgram(std::vector<std::string> words);
+/// Runs a program and waits for it. `words`: its name, which is looked up on the PATH unless it has a slash, and its
+/// arguments. A signal that stops this program is passed on to it.
+CallOutcome callProgram(const std::vector<std::string>& words, const Environment& environment = {});
+
+/// The last line of what a program has printed: most name the cause of a failure there.
+std::string lastLine(std::string output);
 
 } // namespace grouser::support

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/support/descriptor.hpp"
 #include "runs/support/not_written.hpp"
 
 #include <cerrno>
@@ -21,24 +22,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Owns a file descriptor.
-class Descriptor {
+/// A file whose faults name it.
+class NamedFile : public Descriptor {
 public:
-  Descriptor(const fs::path& path, int flags) : path_(path), fd_(::open(path.c_str(), flags | O_CLOEXEC)) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  bool good() const { return fd_ >= 0; }
-  operator int() const { return fd_; }
+  NamedFile(const fs::path& path, int flags) : Descriptor(path, flags), path_(path) {}
   void require(bool done, const char* what) const {
     if (!done) throw notWritten(path_, fmt::format("could not {} ({})", what, std::strerror(errno)));
   }
 
 private:
   fs::path path_;
-  int fd_;
 };
 
 std::string sealText(const char* kind, int version, std::uint64_t bytes, const std::string& checksum) {
@@ -54,7 +47,7 @@ struct Measure {
 
 /// Length and checksum of all behind the seal, which is added to `contents` where that is given. Eight bytes a word;
 /// the last is filled up with zeros.
-Measure measure(const Descriptor& file, std::string* contents = nullptr) {
+Measure measure(const NamedFile& file, std::string* contents = nullptr) {
   Measure m;
   base::StateHash hash;
   std::vector<char> chunk(1 << 20);
@@ -82,7 +75,7 @@ Measure measure(const Descriptor& file, std::string* contents = nullptr) {
 }
 
 void seal(const fs::path& path, const char* kind, int version) {
-  const Descriptor file(path, O_RDWR);
+  const NamedFile file(path, O_RDWR);
   file.require(file.good(), "be opened");
   const Measure m = measure(file);
   const std::string text = sealText(kind, version, m.bytes, m.checksum);
@@ -96,7 +89,7 @@ void check(const fs::path& path, const char* kind, int version, std::string* con
   if (!fs::is_regular_file(path, error))
     throw base::InputError(
         fmt::format("{}: there is no such file; name the {} of a run, or start anew without it", path.string(), kind));
-  const Descriptor file(path, O_RDONLY);
+  const NamedFile file(path, O_RDONLY);
   if (!file.good()) throw base::InputError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
   std::string text(kSealBytes, '\0');
   const bool isSealed = ::pread(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
@@ -119,7 +112,7 @@ void check(const fs::path& path, const char* kind, int version, std::string* con
 } // namespace
 
 void syncFile(const fs::path& path) {
-  const Descriptor file(path, O_RDONLY);
+  const NamedFile file(path, O_RDONLY);
   file.require(file.good() && ::fsync(file) == 0, "be brought to the disk");
 }
 

@@ -21,8 +21,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 namespace grouser::events {
 
@@ -77,31 +75,12 @@ std::string callText(const EventOptions& o) {
   return support::jsonText(call, 2) + "\n";
 }
 
-/// Whether the folder holds what a call with these options has left.
-bool isOfThisCall(const fs::path& folder, const EventOptions& options) {
-  std::ifstream file(folder / kCall, std::ios::binary);
-  return file && std::string(std::istreambuf_iterator<char>(file), {}) == callText(options);
-}
-
-/// So that the same call goes on there.
-void keepCall(const fs::path& folder, const EventOptions& options) {
-  if (isOfThisCall(folder, options)) return;
-  fs::create_directories(folder);
-  try {
-    support::replaceTextFile(folder / kCall, callText(options));
-  } catch (const support::NotWritten&) {
-    if (!isOfThisCall(folder, options)) throw; // else another part was quicker
-  }
-}
-
-/// The runs of a part "2/8": every eighth, from the second on. Its trials name runs that are not there.
-sweeps::SweepPlan partOf(const sweeps::SweepPlan& whole, const std::string& part) {
-  int mine = 1, parts = 1;
-  if (!part.empty()) std::sscanf(part.c_str(), "%d/%d", &mine, &parts);
+/// The runs of a part. Its trials name runs that are not there.
+sweeps::SweepPlan partOf(const sweeps::SweepPlan& whole, const jobs::Part& part) {
   sweeps::SweepPlan some = whole;
   some.runs.clear();
   for (std::size_t i = 0; i < whole.runs.size(); ++i)
-    if (static_cast<int>(i) % parts == mine - 1) some.runs.push_back(whole.runs[i]);
+    if (part.has(i)) some.runs.push_back(whole.runs[i]);
   return some;
 }
 
@@ -156,7 +135,8 @@ void eventsCommand(const EventsCommand& command) {
   if (command.pieces.device != "auto") options.fixed.push_back("run.device=" + command.pieces.device);
   if (command.pieces.threads > 0) options.fixed.push_back(fmt::format("run.threads={}", command.pieces.threads));
   const fs::path folder = folderOf(command);
-  const bool goesOn = command.pieces.resume || !command.pieces.part.empty() || isOfThisCall(folder, command.options);
+  const jobs::Recipe call(folder / kCall, callText(command.options));
+  const bool goesOn = command.pieces.resume || !command.pieces.part.empty() || call.isThere();
   std::error_code unreadable;
   if (!command.plan && !command.force && !goesOn && fs::is_directory(folder, unreadable) &&
       !fs::is_empty(folder, unreadable))
@@ -176,8 +156,9 @@ void eventsCommand(const EventsCommand& command) {
   sweep.program = fs::read_symlink("/proc/self/exe");
   sweep.folder = folder, sweep.jobs = command.jobs, sweep.seconds = command.pieces.seconds;
   sweep.force = command.force, sweep.failuresStay = true, sweep.shared = !command.pieces.part.empty();
-  const sweeps::SweepPlan mine = partOf(plan.sweep, command.pieces.part);
-  keepCall(folder, command.options);
+  const sweeps::SweepPlan mine = partOf(plan.sweep, command.pieces.share());
+  fs::create_directories(folder);
+  call.keep();
   const auto outcomes = sweeps::runMissing(mine, sweep, "events", [](const std::vector<sweeps::SweepOutcome>&) {});
   if (!command.pieces.part.empty()) {
     fmt::print("part      {} of the runs; a call with --resume and without --part writes the tables\n",

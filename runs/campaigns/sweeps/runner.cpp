@@ -13,23 +13,18 @@
 #include "runs/setup/provenance.hpp"
 #include "runs/storage/checkpoint.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/child_process.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
-#include <cstring>
 #include <fstream>
-#include <map>
+#include <list>
 #include <optional>
 #include <set>
 #include <thread>
@@ -92,41 +87,19 @@ void awaitFormer(const fs::path& folder) {
   }
 }
 
-/// Starts the program with its output in the log, on the GPU of that place among those that run at the same time. A run
-/// that goes on adds to its log. Returns the process.
-pid_t start(std::vector<std::string> words, const fs::path& log, int place, bool goesOn) {
-  std::vector<char*> arguments;
-  for (std::string& w : words) arguments.push_back(w.data());
-  arguments.push_back(nullptr);
-  const std::string gpu = support::firstGpuOf(place);
-  const pid_t parent = getpid();
-  const pid_t child = fork();
-  if (child < 0) throw base::DeviceError(fmt::format("no process could be started: {}", std::strerror(errno)));
-  if (child > 0) return child;
-  prctl(PR_SET_PDEATHSIG, SIGTERM); // a killed sweep leaves no runs behind
-  if (getppid() != parent) _exit(1);
-  setenv(support::kFirstGpu, gpu.c_str(), 1);
-  const int file = open(log.c_str(), O_CREAT | (goesOn ? O_APPEND : O_TRUNC) | O_WRONLY, 0644);
-  dup2(file, STDOUT_FILENO), dup2(file, STDERR_FILENO);
-  close(file);
-  execv(arguments[0], arguments.data());
-  _exit(127);
-}
-
 /// Why a run failed: its own error message where it printed one.
-std::string reason(int status, const fs::path& log) {
+std::string reason(const support::ProcessEnd& end, const fs::path& log) {
   const std::string mark = "grouser: error: ";
   std::string message;
   std::ifstream file(log);
   for (std::string line; std::getline(file, line);)
     if (line.rfind(mark, 0) == 0) message = line.substr(mark.size());
-  if (WIFSIGNALED(status)) return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-  if (!message.empty()) return message;
-  return fmt::format("ended with exit code {}; see {}", WEXITSTATUS(status), log.string());
+  if (end.signal != 0) return end.text();
+  return message.empty() ? fmt::format("{}; see {}", end.text(), log.string()) : message;
 }
 
 /// Whether a signal has stopped a run, which may go on: exit code 128 + signal.
-bool hasStopped(int status) { return WIFEXITED(status) && WEXITSTATUS(status) > 128; }
+bool hasStopped(const support::ProcessEnd& end) { return end.status > 128; }
 
 std::ptrdiff_t countEnded(const std::vector<SweepOutcome>& outcomes) {
   return std::count_if(outcomes.begin(), outcomes.end(),
@@ -166,6 +139,13 @@ public:
                        [&](std::size_t a, std::size_t b) { return work_[a] > work_[b]; });
   }
 
+  /// Runs that an error leaves are all asked at once to save their work, and then waited for one by one.
+  ~Runner() {
+    for (Running& run : running_) run.process.terminate();
+  }
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+
   const std::vector<SweepOutcome>& outcomes() const { return outcomes_; }
 
   void run() {
@@ -187,9 +167,11 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
   struct Running {
+    Running(std::size_t run, int gpu, const support::Program& program) : index(run), place(gpu), process(program) {}
     std::size_t index;
-    Clock::time_point since;
     int place; ///< among those that run at the same time
+    Clock::time_point since = Clock::now();
+    support::ChildProcess process;
   };
 
   fs::path folder(std::size_t i) const { return options_.folder / plan_.runs[i].name; }
@@ -212,7 +194,8 @@ private:
     // What an earlier run left must not be taken for what this one does.
     if (!goesOn)
       for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
-    std::vector<std::string> words = {options_.program.string(), "run", fileOf(i).string()};
+    support::Program program{{options_.program.string(), "run", fileOf(i).string()}};
+    std::vector<std::string>& words = program.words;
     std::vector<std::string> overrides = plan_.runs[i].overrides;
     if (options_.jobs > 1 && plan_.runs[i].scene.run.threads == 0)
       putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
@@ -221,8 +204,10 @@ private:
     if (plan_.runs[i].untilRest) words.insert(words.end(), {"--until", "rest"});
     if (const auto& from = plan_.runs[i].from; from && !goesOn) words.insert(words.end(), {"--resume", from->file});
     const int place = freePlace();
+    program.environment = {{support::kFirstGpu, support::firstGpuOf(place)}};
+    program.log = folder(i) / kLog, program.append = goesOn;
     if (goesOn) progress_.note(fmt::format("{} goes on from its checkpoint", title(i)));
-    running_[start(std::move(words), folder(i) / kLog, place, goesOn)] = {i, Clock::now(), place};
+    running_.emplace_back(i, place, program);
     outcomes_[i].status = RunStatus::running;
     changed_(outcomes_);
   }
@@ -230,7 +215,7 @@ private:
   /// The first place that no run has: where one ends the next takes its GPU.
   int freePlace() const {
     const auto isTaken = [&](int place) {
-      return std::any_of(running_.begin(), running_.end(), [&](const auto& r) { return r.second.place == place; });
+      return std::any_of(running_.begin(), running_.end(), [&](const Running& r) { return r.place == place; });
     };
     int place = 0;
     while (isTaken(place)) ++place;
@@ -241,25 +226,23 @@ private:
   void reap() {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     for (auto it = running_.begin(); it != running_.end();) {
-      int status = 0;
-      const pid_t ended = waitpid(it->first, &status, WNOHANG);
-      if (ended < 0) throw base::DeviceError(fmt::format("a run was lost: {}", std::strerror(errno)));
-      if (ended != it->first) {
+      const std::optional<support::ProcessEnd> end = it->process.ended();
+      if (!end) {
         ++it;
         continue;
       }
-      const Running run = it->second;
+      const std::size_t i = it->index;
+      const double seconds = std::chrono::duration<double>(Clock::now() - it->since).count();
       it = running_.erase(it);
-      if (beginsAnew(run.index, status)) continue;
-      finish(run.index, status, std::chrono::duration<double>(Clock::now() - run.since).count());
+      if (!beginsAnew(i, *end)) finish(i, *end, seconds);
     }
   }
 
   /// A run that could not go on, such as from a damaged checkpoint, is begun anew.
-  bool beginsAnew(std::size_t i, int status) {
+  bool beginsAnew(std::size_t i, const support::ProcessEnd& end) {
     constexpr int kWrongInput = 2;
-    if (stopping_ || !goesOn_.contains(i) || !WIFEXITED(status) || WEXITSTATUS(status) != kWrongInput) return false;
-    progress_.note(fmt::format("{} begins anew: {}", title(i), reason(status, folder(i) / kLog)));
+    if (stopping_ || !goesOn_.contains(i) || end.status != kWrongInput) return false;
+    progress_.note(fmt::format("{} begins anew: {}", title(i), reason(end, folder(i) / kLog)));
     goesOn_.erase(i);
     launch(i);
     return true;
@@ -268,26 +251,26 @@ private:
   /// The runs end after their step, and write their checkpoints.
   void stop(int signal) {
     stopping_ = true;
-    for (const auto& [process, run] : running_) kill(process, SIGTERM);
+    for (Running& run : running_) run.process.terminate();
     while (!running_.empty()) reap();
     if (countEnded(outcomes_) == static_cast<std::ptrdiff_t>(outcomes_.size())) return;
     throw support::Stopped(signal, fmt::format("stopped by {} after {} of {} runs", support::StopSignals::name(signal),
                                                countEnded(outcomes_), outcomes_.size()));
   }
 
-  void finish(std::size_t i, int status, double seconds) {
+  void finish(std::size_t i, const support::ProcessEnd& end, double seconds) {
     ++ended_, done_ += work_[i];
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    if (end.status == 0) {
       const RunManifest manifest(folder(i));
       const bool whole = manifest.text("status") != base::wordOf(RunStatus::incomplete);
       outcomes_[i] = {whole ? RunStatus::finished : RunStatus::incomplete, manifest.text("incomplete")};
       progress_.note(fmt::format("{} {} in {}", title(i), base::wordOf(outcomes_[i].status),
                                  support::Progress::duration(seconds)));
-    } else if (stopping_ || (support::StopSignals::received() && hasStopped(status))) { // Ctrl-C is for all of them
+    } else if (stopping_ || (support::StopSignals::received() && hasStopped(end))) { // Ctrl-C is for all of them
       outcomes_[i].status = RunStatus::stopped;
       progress_.note(fmt::format("{} stopped", title(i)));
     } else {
-      outcomes_[i] = {RunStatus::failed, reason(status, folder(i) / kLog)};
+      outcomes_[i] = {RunStatus::failed, reason(end, folder(i) / kLog)};
       progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
     }
     changed_(outcomes_);
@@ -296,7 +279,7 @@ private:
   void report() {
     double done = done_;
     std::string names;
-    for (const auto& [process, run] : running_) {
+    for (const Running& run : running_) {
       const SweepRun& planned = plan_.runs[run.index];
       done += work_[run.index] * std::min(1.0, timeReached(folder(run.index)) / expectedEnd(planned));
       names += (names.empty() ? "" : "; ") + plan_.runs[run.index].name;
@@ -310,7 +293,7 @@ private:
   std::vector<SweepOutcome> outcomes_;
   std::vector<std::size_t> waiting_;
   std::set<std::size_t> goesOn_; ///< runs to do of which a checkpoint is there
-  std::map<pid_t, Running> running_;
+  std::list<Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
   bool stopping_ = false;
   std::vector<double> work_;  ///< workOf() each run to do

@@ -29,10 +29,13 @@ struct BedTimes {
 BedTimes timesOf(const FeaturesCommand& c, bool ranks, const std::filesystem::path& file) {
   const auto steps = std::max<std::int64_t>(20, std::llround(c.turn / kBatches / (c.grains * kUsual / kRanks)));
   std::vector<std::string> words;
+  support::Environment environment;
   if (ranks) {
-    words = {"env", "OMPI_MCA_rmaps_base_oversubscribe=1"};
-    if (geteuid() == 0) words.insert(words.end(), {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"});
-    words.insert(words.end(), {"mpirun", "-np", std::to_string(kRanks)});
+    words = {"mpirun", "-np", std::to_string(kRanks)};
+    environment = {{"OMPI_MCA_rmaps_base_oversubscribe", "1"}};
+    if (geteuid() == 0)
+      for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"})
+        environment.emplace_back(name, "1");
   }
   const std::vector<std::string> bed = {std::filesystem::read_symlink("/proc/self/exe").string(),
                                         "bench",
@@ -54,11 +57,11 @@ BedTimes timesOf(const FeaturesCommand& c, bool ranks, const std::filesystem::pa
                                         "--json",
                                         file.string()};
   words.insert(words.end(), bed.begin(), bed.end());
-  const support::CallOutcome outcome = support::callProgram(words);
-  if (ranks && outcome.status == 127)
+  const support::CallOutcome outcome = support::callProgram(words, environment);
+  if (ranks && !outcome.started)
     throw base::InputError(
-        "study features: `ranks` needs mpirun, which is not on the PATH; install openmpi-bin, or name "
-        "the other features with --features");
+        fmt::format("study features: `ranks`: {}; install openmpi-bin, or name the other features with --features",
+                    outcome.output));
   std::ifstream in(file);
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (outcome.status != 0 || !json.is_object())

@@ -295,6 +295,35 @@ TEST_F(Sweep, ARunThatIsKilledIsAFailedRun) {
   EXPECT_NE(Csv(out() / "summary.csv").at(0, "message").find("signal 9"), std::string::npos);
 }
 
+TEST_F(Sweep, WithoutItsProgramIsAnErrorThatNamesIt) {
+  SweepOptions o = options();
+  o.program = folder_ / "none";
+  try {
+    runSweep(planSweep(scene(), {{"run.seed=1,2"}}), o);
+    ADD_FAILURE() << "not thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), o.program.string() + " cannot be started: No such file or directory");
+  }
+}
+
+TEST_F(Sweep, AnErrorEndsItsRunsWhichSaveTheirWork) {
+  const fs::path saves = folder_ / "saves";
+  put(saves,
+      "#!/bin/sh\ntrap 'sleep 0.2; echo saved; exit' TERM\necho ready\nfor k in $(seq 400); do sleep 0.05; done\n");
+  fs::permissions(saves, fs::perms::owner_all);
+  SweepOptions o = options();
+  o.program = saves, o.jobs = 2;
+  const SweepPlan plan = planSweep(scene(), {Words{"run.seed=1,2"}});
+  const auto logs = [&] { return contents(out() / "seed=1/log.txt") + contents(out() / "seed=2/log.txt"); };
+  const auto fails = [&](const std::vector<SweepOutcome>& outcomes) {
+    if (outcomes[1].status != output::RunStatus::running) return;
+    for (int look = 0; look < 500 && logs() != "ready\nready\n"; ++look) usleep(10'000);
+    throw std::runtime_error("the table cannot be written");
+  };
+  EXPECT_THROW(runMissing(plan, o, "fails", fails), std::runtime_error);
+  EXPECT_EQ(logs(), "ready\nsaved\nready\nsaved\n");
+}
+
 TEST_F(Sweep, TablesOfAnEarlierOneDoNotStay) {
   ASSERT_EQ(call("sweep fall.toml --set material.glass.restitution=0.3,0.9 --seeds 2 --out s").code, 0);
   ASSERT_TRUE(fs::exists(folder_ / "s/intervals.csv"));
