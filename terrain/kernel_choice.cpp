@@ -141,9 +141,8 @@ KernelChoice stepKernel(unsigned features, const GrainModel& model) {
 
 KernelChoice boundaryKernel(unsigned features, const GrainModel& model) {
   const unsigned own = atBoundaries(features);
-  KernelChoice choice =
-      chosen(detail::kBoundaryKernels, own, model,
-             own & ~kFriction ? "walls have it for planes and linear contacts of equal grains alone" : nullptr);
+  KernelChoice choice = chosen(detail::kBoundaryKernels, own, model,
+                               own & ~kFriction ? "only planes with linear contacts of equal grains have it" : nullptr);
   if (!(features & kLedger) && !detail::withoutBooks(choice.compiledFor, false)) choice.compiledFor = kGeneral;
   return choice;
 }

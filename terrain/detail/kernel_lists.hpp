@@ -59,8 +59,8 @@ inline constexpr std::array kOtherKernels = {
     kBed | kPeriodic, kBed | kPeriodic | kRollingFriction, kBed | kPeriodic | kManyRadii,
     kBed | kPeriodic | kManyRadii | kRollingFriction,
     // with moving surfaces
-    kBed | kSurfaces, kBed | kSurfaces | kRollingFriction, kBed | kSurfaces | kFixed,
-    kBed | kSurfaces | kFixed | kManyRadii | kRollingFriction};
+    kBed | kSurfaces, kBed | kSurfaces | kRollingFriction, kBed | kSurfaces | kFixed, kBed | kSurfaces | kManyRadii,
+    kBed | kSurfaces | kFixed | kManyRadii, kBed | kSurfaces | kFixed | kManyRadii | kRollingFriction};
 
 /// Elastic-plastic soils under a vehicle; those of a constant pull besides (`cohesion`) are of Hertz' law.
 inline constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction,
@@ -135,8 +135,11 @@ inline constexpr std::array kBoundaryKernels = {0u,
                                                 kFriction | kRollingFriction | kSurfaces | kFloor,
                                                 kFriction | kManyRadii,
                                                 kFriction | kManyRadii | kFloor,
+                                                kFriction | kManyRadii | kSurfaces,
+                                                kFriction | kManyRadii | kSurfaces | kFloor,
                                                 kFriction | kRollingFriction | kManyRadii,
                                                 kFriction | kRollingFriction | kManyRadii | kFloor,
+                                                kHertz | kFriction | kManyRadii | kFloor,
                                                 kSoilWalls,
                                                 kSoilWalls | kFloor,
                                                 kSoilWalls | kSurfaces,

@@ -61,7 +61,7 @@ std::vector<fs::path> filesIn(const std::string& folder) {
 
 scene::Scene bedOf(const std::string& soil, bool vehicle) {
   std::string text = "version = 1\n[run]\nduration = 1\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [6, 4]\n"
-                     "height_range = [0, 0]\ndepth = 0.3\nmaterial = \"" +
+                     "height_range = [0, 0]\ndepth = 0.3\ngrain_radius = 0.03\nmaterial = \"" +
                      soil + "\"\n";
   if (vehicle)
     text += "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nposition = [2, 0]\n[driver]\nsprocket_speed = 1\n";
