@@ -100,7 +100,6 @@ GrainBoundaries::GrainBoundaries(const base::Exec& exec, const GrainConstants& c
       floorPlaces_(c.floorPlaces), springsWidth_(c.springsWidth()), springs_(exec), fromSurfaces_(exec),
       singleLoads_(exec), doubleLoads_(exec) {
   if (boundaries.floor) floor_ = SearchedHeightField(exec, *boundaries.floor, c.model.radius);
-  hasFloor_ = boundaries.floor.has_value();
   makeSurfaces(c.model, boundaries.surfaces);
 }
 
@@ -217,7 +216,6 @@ std::optional<GrainBoundaries::Overlap> GrainBoundaries::overlapOf(const Vec3d& 
 }
 
 void GrainBoundaries::describe(GrainKernelData& d) {
-  d.features |= hasFloor_ ? kFloor : 0u;
   d.walls = walls_.data(), d.wallCount = static_cast<int>(walls_.size()), d.boundaryCount = count_;
   d.floor = floor_.view(), d.floorPlaces = floorPlaces_;
   d.surfaces = surfaces_.data(), d.surfaceCount = static_cast<int>(geometries_.size());

@@ -81,7 +81,6 @@ private:
 
   base::Array<Wall> walls_;
   SearchedHeightField floor_;
-  bool hasFloor_{false};
 
   std::vector<SurfaceGeometry> geometries_;
   base::Array<SurfaceGeometry> surfaces_;

@@ -35,6 +35,7 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   if (manyRadii) features |= kManyRadii;
   if (model.materials.count() > 0) features |= kManyMaterials;
   if (!boundaries.walls.empty() || boundaries.floor) features |= kBoundaries;
+  if (boundaries.floor) features |= kFloor;
   if (boundaries.periodic[0] || boundaries.periodic[1]) features |= kPeriodic;
   if (!boundaries.surfaces.empty()) features |= kBoundaries | kSurfaces;
   if (model.ledger) features |= kLedger;

@@ -7,7 +7,6 @@
 #include "terrain/height_field.hpp"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace grouser::terrain {
@@ -65,11 +64,6 @@ struct GrainModel {
   bool specialised{true}; ///< false: the general kernel, whatever the scene has; same bits, for tests
   int mostSimdLanes{16};  ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests
 };
-
-/// Whether a kernel was compiled for just these features; else the general one runs.
-bool hasOwnKernel(unsigned features, Precision precision);
-/// The features in words: "linear, friction, planes or floor".
-std::string featureText(unsigned features);
 
 /// The grains at one instant, from state functions, and what has happened to them since the start, from the books;
 /// sums are order-free.

@@ -33,20 +33,6 @@ struct StepSome {
   }
 };
 
-/// Lanes that the processor has.
-int widthOf([[maybe_unused]] int most) {
-#if defined(__x86_64__)
-  // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-  if (most >= 16 && avx2 && avx512) return 16;
-  if (most >= 8 && avx2) return 8;
-  if (most >= 4) return 4;
-#endif
-  return 1;
-}
-
 /// Works on `count` items, some at a time, that take about so long each.
 void runLanes(const base::Exec& exec, const char* name, detail::LaneStep* lanes, const GrainKernelData& d,
               const ForceData<float>& f, std::int64_t count, double nanoseconds) {
@@ -55,29 +41,6 @@ void runLanes(const base::Exec& exec, const char* name, detail::LaneStep* lanes,
 }
 
 } // namespace
-
-bool hasSimd(unsigned features) {
-  constexpr unsigned kKnown = contact::kHertz | contact::kFriction | contact::kRollingFriction | contact::kCohesion |
-                              contact::kPlastic | kManyRadii | kBoundaries | kSurfaces | kLoads | kLedger | kPeriodic |
-                              kFixed;
-  // Compiled with friction only, cohesion with Hertz' law only, and plastic contacts with rolling friction besides.
-  constexpr unsigned kRough = contact::kHertz | contact::kRollingFriction | contact::kCohesion | kManyRadii;
-  constexpr unsigned kYielding = contact::kPlastic | contact::kHertz | contact::kRollingFriction;
-  if (features & ~kKnown || (features & contact::kCohesion && !(features & contact::kHertz))) return false;
-  if (features & contact::kPlastic && (features & kYielding) != kYielding) return false;
-  return !(features & kRough) || features & contact::kFriction;
-}
-
-int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most) {
-  if (!hasSimd(features)) return 1;
-  if (features & contact::kFriction && law.friction <= 0) return 1; // only walls have friction
-  if (features & contact::kPlastic && (law.plastic.share <= 0 || law.plastic.fullDepth > 0)) return 1; // EEPA alone
-  return widthOf(most);
-}
-
-int wallSimdWidth(unsigned featuresAtBoundaries, int most) {
-  return featuresAtBoundaries & ~contact::kFriction ? 1 : widthOf(most);
-}
 
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                   int width) {

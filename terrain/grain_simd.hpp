@@ -5,17 +5,11 @@
 
 namespace grouser::terrain {
 
-/// Whether a CPU can take several contacts of such beds side by side, given the lanes. But for kFloor.
-bool hasSimd(unsigned features);
-/// How many it takes: at most `most`, as many as the processor has lanes for; 1: only the scalar kernel will do.
-int simdWidth(unsigned features, const contact::BasicLaw<float>& law, int most);
-
-/// One step of `count` grains on the CPU, `width` > 1 contacts at a time; the bits are those of GrainStep.
+/// One step of `count` grains on the CPU, `width` > 1 contacts at a time (KernelChoice::lanes); the bits are those of
+/// GrainStep.
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                   int width);
 
-/// The same of planes: those of the features that their kernel depends on decide.
-int wallSimdWidth(unsigned featuresAtBoundaries, int most);
 /// Forces of planes on the `near` grains that are listed near boundaries; the bits are those of BoundaryContacts.
 void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t near,
                  int width);

@@ -29,6 +29,7 @@
 #include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/storage/bed_cache.hpp"
+#include "terrain/kernel_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -191,8 +192,8 @@ std::string switchesText(const scene::Scene& scene) {
   std::string text =
       onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
   if (grains) {
-    const unsigned features = setup::grainFeatures(scene, kinds);
-    const auto has = [&](unsigned feature) { return (features & feature) != 0; };
+    const setup::KernelTraits traits = setup::kernelTraits(scene, kinds);
+    const auto has = [&](unsigned feature) { return (traits.features & feature) != 0; };
     text += onOff(has(contact::kFriction), "friction history", has(contact::kFriction) ? "" : "friction is 0");
     text += onOff(has(contact::kRollingFriction), "rolling history",
                   has(contact::kRollingFriction) ? "" : "rolling_friction is 0");
@@ -203,9 +204,11 @@ std::string switchesText(const scene::Scene& scene) {
                   kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
                                     : fmt::format("all {:g} m", kinds.largest));
     text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in all", kinds.material.size()));
-    text += fmt::format("       {:<26} {}: {}; {} precision\n", "kernel of the grains",
-                        terrain::hasOwnKernel(features, scene.run.precision) ? "special" : "general",
-                        terrain::featureText(features), base::wordOf(scene.run.precision));
+    text += fmt::format("       {:<26} {}\n", "kernel of the grains",
+                        terrain::stepKernelText(traits.features, traits.model));
+    if (has(terrain::kBoundaries))
+      text += fmt::format("       {:<26} {}\n", "kernel of walls and floor",
+                          terrain::boundaryKernelText(traits.features, traits.model));
   }
   text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
   text += bedLines(bed ? t : nullptr, scene.run.gravity);

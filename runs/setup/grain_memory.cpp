@@ -17,7 +17,7 @@ namespace {
 struct Traits {
   unsigned features; ///< of the laws, grains and boundaries
   terrain::GrainLayout layout;
-  terrain::Precision precision;
+  terrain::GrainModel model;
 };
 Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds, const std::optional<terrain::HeightField>& floor) {
   const terrain::Rectangle area = terrainArea(scene).value_or(terrain::Rectangle{});
@@ -27,7 +27,7 @@ Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds, const std::o
   return {features,
           terrain::layoutOf(features, boundaries.count(model.radius), model.materials.count(),
                             boundaries.floorPlaces(model.radius)),
-          model.precision};
+          model};
 }
 
 double fieldBytes(const terrain::GrainLayout& layout) {
@@ -50,19 +50,20 @@ double shareAtBoundaries(const scene::Scene& scene) {
 double bytesAtBoundaries(const Traits& traits) {
   const auto springs =
       static_cast<double>(traits.layout.boundaries * traits.layout.historyWidth() + 3 * traits.layout.places);
-  const double load = traits.precision == terrain::Precision::single ? sizeof(terrain::BoundaryLoad<float>)
-                                                                     : sizeof(terrain::BoundaryLoad<double>);
+  const double load = traits.model.precision == terrain::Precision::single ? sizeof(terrain::BoundaryLoad<float>)
+                                                                           : sizeof(terrain::BoundaryLoad<double>);
   const double fromSurfaces = traits.features & terrain::kSurfaces ? sizeof(base::Vec3d) : 0;
   return sizeof(std::uint32_t) + load + springs * sizeof(float) + fromSurfaces;
 }
 
 } // namespace
 
-unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds) {
+KernelTraits kernelTraits(const scene::Scene& scene, const GrainKinds& kinds) {
   const bool parts = scene.vehicle || !scene.meshes.empty();
   std::optional<terrain::HeightField> anyFloor; // features do not depend on its shape
   if (scene.terrain) anyFloor = terrain::HeightField::flat({0, 1, 0, 1}, 0);
-  return traitsOf(scene, kinds, anyFloor).features | (parts ? terrain::kLoads : 0u);
+  const Traits traits = traitsOf(scene, kinds, anyFloor);
+  return {traits.features | (parts ? terrain::kLoads : 0u), traits.model};
 }
 
 GrainMemory grainMemory(const scene::Scene& scene) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/setup/grain_kinds.hpp"
+#include "terrain/grain_model.hpp"
 
 namespace grouser::setup {
 
@@ -17,8 +18,13 @@ struct GrainMemory {
   double most() const { return total() + rebuild; }
 };
 
-/// Features of the grains' step, loads of rigid parts among them, as the model of the scene will have them.
-unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds);
+/// What decides which kernels the grains take: terrain::stepKernel(), boundaryKernel().
+struct KernelTraits {
+  unsigned features; ///< of laws, grains and boundaries, and loads of rigid parts
+  terrain::GrainModel model;
+};
+/// As the grains of the scene will have them, which must have some.
+KernelTraits kernelTraits(const scene::Scene& scene, const GrainKinds& kinds);
 
 /// Of the grains of `scene`. Those of very unlike radii have more neighbours, and take more.
 GrainMemory grainMemory(const scene::Scene& scene);

@@ -4,6 +4,7 @@
 #include "contact/plastic_simd.hpp"
 #include "contact/sphere_pair.hpp"
 #include "terrain/detail/grain_simd_advance.hpp"
+#include "terrain/detail/kernel_lists.hpp"
 #include "terrain/grain_simd.hpp"
 
 #include <algorithm>
@@ -448,38 +449,16 @@ GROUSER_SIMD void runOf(const GrainKernelData& d, const ForceData<float>& f, int
   if (kFeatures & kLedger) addToBooks(d, first, some.books());
 }
 
-/// What is known at compile time; whatever is not among these features is asked for as a step runs.
-constexpr unsigned kSimdLaws[] = {0,
-                                  contact::kHertz,
-                                  contact::kRollingFriction,
-                                  contact::kHertz | contact::kRollingFriction,
-                                  contact::kHertz | contact::kCohesion,
-                                  contact::kHertz | contact::kRollingFriction | contact::kCohesion,
-                                  contact::kHertz | contact::kRollingFriction | contact::kPlastic,
-                                  contact::kHertz | contact::kRollingFriction | contact::kCohesion | contact::kPlastic};
-/// Each of them with friction, with and without many radii and a ledger.
-constexpr int kSimdSets = 4 * 8;
-constexpr unsigned simdSet(int which) {
-  return contact::kFriction | kSimdLaws[which / 4] | (which & 1 ? kManyRadii : 0u) | (which & 2 ? kLedger : 0u);
+template <int kWidth, std::size_t... kPlace> GROUSER_SIMD void runCompiled(unsigned features, const GrainKernelData& d,
+                                                                           const ForceData<float>& f, int first,
+                                                                           int last, std::index_sequence<kPlace...>) {
+  ((features == kSimdKernels[kPlace] ? runOf<kWidth, kSimdKernels[kPlace]>(d, f, first, last) : void()), ...);
 }
 
-template <int kWidth, int... kSet> GROUSER_SIMD void runRough(unsigned features, const GrainKernelData& d,
-                                                              const ForceData<float>& f, int first, int last,
-                                                              std::integer_sequence<int, kSet...>) {
-  ((features == simdSet(kSet) ? runOf<kWidth, simdSet(kSet)>(d, f, first, last) : void()), ...);
-}
-
-/// Picks the features that are known at compile time.
+/// Picks the features that are known at compile time; all others are asked for as a step runs.
 template <int kWidth>
 GROUSER_SIMD void runSimd(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
-  const unsigned features = d.features & (contact::kHertz | contact::kFriction | contact::kRollingFriction |
-                                          contact::kCohesion | contact::kPlastic | kManyRadii | kLedger);
-  if (features == 0)
-    runOf<kWidth, 0>(d, f, first, last);
-  else if (features == kLedger)
-    runOf<kWidth, kLedger>(d, f, first, last);
-  else
-    runRough<kWidth>(features, d, f, first, last, std::make_integer_sequence<int, kSimdSets>{});
+  runCompiled<kWidth>(d.features & kSimdCompiled, d, f, first, last, std::make_index_sequence<kSimdKernels.size()>{});
 }
 
 } // namespace grouser::terrain::detail

@@ -4,6 +4,7 @@
 #include "base/random.hpp"
 #include "surface_fixture.hpp"
 #include "terrain/grain_forces.hpp"
+#include "terrain/kernel_choice.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 
 #include "base/carry.hpp"
 #include "base/random.hpp"
-#include "terrain/grain_simd.hpp"
 #include "terrain/grains_ahead.hpp"
+#include "terrain/kernel_choice.hpp"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -125,7 +125,8 @@ std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threa
   if (kind.surface) around.surfaces.push_back({boxOf({0.02, 0.02, 0.004}), wall, placed({0.03, 0.03, -0.0035})});
   m.smallestRadius = kind.smallest < 1 ? kind.smallest * m.radius : 0;
   Grains grains(kind.onDevice ? testExec(threads) : base::cpuExec(threads), m, around, heap(kind));
-  EXPECT_TRUE(!kind.onDevice || hasOwnKernel(grains.system().constants.features, Precision::single))
+  m.specialised = true;
+  EXPECT_TRUE(!kind.onDevice || !stepKernel(grains.system().constants.features, m).general())
       << featureText(grains.system().constants.features);
   Pushes pushes;
   for (int s = 0; s < steps; ++s) {
@@ -269,30 +270,6 @@ TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
     for (const int lanes : {4, 8, 16}) EXPECT_TRUE(words(lanes) == expected) << lanes << " lanes, " << times;
   };
   for (const double times : {6.0, 12.0}) check(times, false), check(times, true);
-}
-
-TEST(GrainSimd, TakeTheCommonBedsAndLeaveTheRest) {
-  contact::BasicLaw<float> law;
-  law.friction = 0.5f;
-  const unsigned bed = contact::kFriction | kBoundaries | kLedger | kLoads;
-  EXPECT_GE(simdWidth(bed, law, 16), 4);
-  EXPECT_EQ(simdWidth(bed, law, 4), 4);
-  EXPECT_EQ(simdWidth(bed, law, 1), 1);
-  for (const unsigned feature :
-       {contact::kHertz, contact::kRollingFriction, kManyRadii, kPeriodic, kSurfaces, kFixed,
-        contact::kHertz | contact::kRollingFriction | kManyRadii | kPeriodic | kSurfaces | kFixed})
-    EXPECT_GE(simdWidth(bed | feature, law, 16), 4);
-  EXPECT_GE(simdWidth(bed | contact::kHertz | contact::kCohesion, law, 16), 4);
-  for (const unsigned feature : {contact::kCohesion, contact::kGeneral, kManyMaterials})
-    EXPECT_EQ(simdWidth(bed | feature, law, 16), 1);
-  const unsigned yielding = bed | contact::kHertz | contact::kRollingFriction | contact::kPlastic;
-  law.plastic.share = 0.5f;
-  EXPECT_GE(simdWidth(yielding, law, 16), 4);
-  EXPECT_GE(simdWidth(yielding | contact::kCohesion | kManyRadii | kFixed, law, 16), 4);
-  for (const unsigned feature : {contact::kHertz, contact::kRollingFriction})
-    EXPECT_EQ(simdWidth(yielding & ~feature, law, 16), 1);
-  law.plastic.fullDepth = 0.1f; // Luding's
-  EXPECT_EQ(simdWidth(yielding, law, 16), 1);
 }
 
 /// Two grains that touch by less than a float of the squares can tell, and two that just do not.

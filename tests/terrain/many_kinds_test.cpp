@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "grain_fixture.hpp"
+#include "terrain/kernel_choice.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>

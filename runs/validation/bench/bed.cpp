@@ -10,6 +10,7 @@
 #include "base/rounded.hpp"
 #include "contact/restitution.hpp"
 #include "terrain/grains.hpp"
+#include "terrain/kernel_choice.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The combinations of features that kernels are compiled for. Kernels are instantiated from these lists
+// (grain_kernels.cu, grain_simd.hpp), and the choice among them looks into the same ones (kernel_choice.cpp).
+#pragma once
+
+#include "terrain/grain_model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace grouser::terrain::detail {
+
+using contact::kCohesion;
+using contact::kFriction;
+using contact::kHertz;
+using contact::kPlastic;
+using contact::kRollingFriction;
+
+template <std::size_t... kSizes>
+constexpr std::array<unsigned, (kSizes + ...)> joined(const std::array<unsigned, kSizes>&... lists) {
+  std::array<unsigned, (kSizes + ...)> all{};
+  std::size_t at = 0;
+  const auto append = [&](const auto& list) {
+    for (const unsigned features : list) all[at++] = features;
+  };
+  (append(lists), ...);
+  return all;
+}
+
+template <std::size_t kSize> constexpr bool isListed(const std::array<unsigned, kSize>& list, unsigned features) {
+  return std::find(list.begin(), list.end(), features) != list.end();
+}
+
+template <std::size_t kSize> constexpr bool allDiffer(const std::array<unsigned, kSize>& list) {
+  for (std::size_t k = 0; k < kSize; ++k)
+    if (std::find(list.begin() + k + 1, list.end(), list[k]) != list.end()) return false;
+  return true;
+}
+
+/// Scenes have a ledger; benches leave it out.
+inline constexpr unsigned kBed = kFriction | kBoundaries | kLedger;
+
+/// Beds of soil: each of these features, with and without.
+constexpr std::array<unsigned, 32> soilKernels() {
+  constexpr unsigned kEach[] = {kHertz, kRollingFriction, kManyRadii, kFixed, kLoads};
+  std::array<unsigned, 32> sets{};
+  for (unsigned which = 0; which < sets.size(); ++which) {
+    sets[which] = kBed;
+    for (unsigned k = 0; k < 5; ++k) sets[which] |= which >> k & 1 ? kEach[k] : 0u;
+  }
+  return sets;
+}
+
+inline constexpr std::array kOtherKernels = {
+    kFriction | kBoundaries, kFriction | kBoundaries | kLoads, kFriction | kBoundaries | kFixed,
+    kFriction | kBoundaries | kManyRadii, kFriction | kLedger, kFriction, kLedger, kBoundaries | kLedger,
+    // between periodic boundaries
+    kBed | kPeriodic, kBed | kPeriodic | kRollingFriction, kBed | kPeriodic | kManyRadii,
+    kBed | kPeriodic | kManyRadii | kRollingFriction,
+    // with moving surfaces
+    kBed | kSurfaces, kBed | kSurfaces | kRollingFriction, kBed | kSurfaces | kFixed, kBed | kSurfaces | kManyRadii,
+    kBed | kSurfaces | kFixed | kManyRadii, kBed | kSurfaces | kFixed | kManyRadii | kRollingFriction};
+
+/// Elastic-plastic soils under a vehicle; those of a constant pull besides (`cohesion`) are of Hertz' law.
+inline constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction,
+                          kEepa = kYielding | kHertz | kCohesion;
+inline constexpr std::array kPlasticKernels = {kYielding,
+                                               kYielding | kFixed,
+                                               kYielding | kLoads,
+                                               kYielding | kFixed | kLoads,
+                                               kYielding | kHertz,
+                                               kYielding | kHertz | kFixed,
+                                               kYielding | kHertz | kLoads,
+                                               kYielding | kHertz | kFixed | kLoads,
+                                               kEepa,
+                                               kEepa | kFixed,
+                                               kEepa | kLoads,
+                                               kEepa | kFixed | kLoads};
+
+/// Soils of Hertz' law that stick, under a vehicle.
+inline constexpr unsigned kSoil = kBed | kHertz | kManyRadii, kSticky = kSoil | kCohesion;
+inline constexpr std::array kCohesiveKernels = {kSticky,
+                                                kSticky | kLoads,
+                                                kSticky | kFixed,
+                                                kSticky | kFixed | kLoads,
+                                                kSticky | kRollingFriction,
+                                                kSticky | kRollingFriction | kLoads,
+                                                kSticky | kRollingFriction | kFixed,
+                                                kSticky | kRollingFriction | kFixed | kLoads};
+
+/// What `grouser soil` does with them between periodic boundaries: sheared between toothed plates, which are parts;
+/// settling on fixed grains; under a plate, which is a surface.
+inline constexpr unsigned kSheared = (kSoil & ~kBoundaries) | kPeriodic | kLoads,
+                          kSettling = kSoil | kPeriodic | kFixed, kPressed = kSettling | kSurfaces,
+                          kSlipping = kRollingFriction | kPlastic;
+inline constexpr std::array kBevameterKernels = {kSheared,
+                                                 kSheared | kRollingFriction,
+                                                 kSheared | kCohesion,
+                                                 kSheared | kCohesion | kRollingFriction,
+                                                 kSheared | kSlipping,
+                                                 kSheared | kSlipping | kCohesion,
+                                                 kSettling,
+                                                 kSettling | kRollingFriction,
+                                                 kSettling | kCohesion,
+                                                 kSettling | kCohesion | kRollingFriction,
+                                                 kSettling | kSlipping,
+                                                 kPressed,
+                                                 kPressed | kRollingFriction,
+                                                 kPressed | kCohesion,
+                                                 kPressed | kCohesion | kRollingFriction,
+                                                 kPressed | kSlipping,
+                                                 kPressed | kSlipping | kCohesion};
+
+/// Of the grains' step. A height-map floor does not matter to it.
+inline constexpr auto kStepKernels =
+    joined(soilKernels(), kPlasticKernels, kCohesiveKernels, kBevameterKernels, kOtherKernels);
+static_assert(allDiffer(kStepKernels));
+
+/// Of walls and floor, by the features that their kernel depends on. The search on a floor needs many registers.
+inline constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
+                                          kManyMaterials | kSurfaces | kFloor | contact::kGeneral;
+inline constexpr unsigned kSoilWalls = kHertz | kFriction | kRollingFriction | kManyRadii;
+inline constexpr std::array kBoundaryKernels = {0u,
+                                                kFriction,
+                                                kFriction | kRollingFriction,
+                                                kHertz | kFriction,
+                                                kFloor,
+                                                kFriction | kFloor,
+                                                kFriction | kRollingFriction | kFloor,
+                                                kHertz | kFriction | kFloor,
+                                                kFriction | kSurfaces,
+                                                kFriction | kRollingFriction | kSurfaces,
+                                                kFriction | kSurfaces | kFloor,
+                                                kFriction | kRollingFriction | kSurfaces | kFloor,
+                                                kFriction | kManyRadii,
+                                                kFriction | kManyRadii | kFloor,
+                                                kFriction | kManyRadii | kSurfaces,
+                                                kFriction | kManyRadii | kSurfaces | kFloor,
+                                                kFriction | kRollingFriction | kManyRadii,
+                                                kFriction | kRollingFriction | kManyRadii | kFloor,
+                                                kHertz | kFriction | kManyRadii | kFloor,
+                                                kSoilWalls,
+                                                kSoilWalls | kFloor,
+                                                kSoilWalls | kSurfaces,
+                                                kSoilWalls | kCohesion,
+                                                kSoilWalls | kCohesion | kFloor,
+                                                kSoilWalls | kCohesion | kSurfaces,
+                                                kSoilWalls | kCohesion | kPlastic,
+                                                kSoilWalls | kCohesion | kPlastic | kFloor,
+                                                kSoilWalls | kCohesion | kPlastic | kSurfaces};
+static_assert(allDiffer(kBoundaryKernels));
+
+/// Whether a kernel is compiled for scenes that keep books, and for those that do not. The step's features say so; of
+/// walls and floor beds without books are compiled for the bench.
+constexpr bool withBooks(unsigned set, bool ofStep) { return !ofStep || set & (kLedger | contact::kGeneral); }
+constexpr bool withoutBooks(unsigned set, bool ofStep) {
+  return set & contact::kGeneral || (ofStep ? !(set & kLedger) : set == kFriction);
+}
+
+/// Of the grains' step in SIMD on a CPU: what is known at compile time. What is among the features asked for in a step
+/// makes no other kernel.
+inline constexpr unsigned kSimdCompiled =
+    kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii | kLedger;
+inline constexpr unsigned kSimdAsked = kBoundaries | kSurfaces | kLoads | kPeriodic | kFixed;
+/// Each of these laws with friction, with and without many radii and a ledger; and grains without friction.
+constexpr std::array<unsigned, 34> simdKernels() {
+  constexpr unsigned kLaws[] = {0,
+                                kHertz,
+                                kRollingFriction,
+                                kHertz | kRollingFriction,
+                                kHertz | kCohesion,
+                                kHertz | kRollingFriction | kCohesion,
+                                kHertz | kRollingFriction | kPlastic,
+                                kHertz | kRollingFriction | kCohesion | kPlastic};
+  std::array<unsigned, 34> sets{0, kLedger};
+  for (unsigned which = 0; which < 32; ++which)
+    sets[2 + which] = kFriction | kLaws[which / 4] | (which & 1 ? kManyRadii : 0u) | (which & 2 ? kLedger : 0u);
+  return sets;
+}
+inline constexpr auto kSimdKernels = simdKernels();
+static_assert(allDiffer(kSimdKernels));
+
+} // namespace grouser::terrain::detail

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "terrain/kernel_choice.hpp"
+
+#include "terrain/detail/kernel_lists.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace grouser::terrain {
+
+namespace {
+
+using contact::kGeneral;
+using detail::kCohesion;
+using detail::kFriction;
+using detail::kHertz;
+using detail::kPlastic;
+using detail::kRollingFriction;
+
+/// Lanes that the processor has, at most `most`.
+int processorLanes([[maybe_unused]] int most) {
+#if defined(__x86_64__)
+  // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+  if (most >= 16 && avx2 && avx512) return 16;
+  if (most >= 8 && avx2) return 8;
+  if (most >= 4) return 4;
+#endif
+  return 1;
+}
+
+/// Why there are no lanes for what is known at compile time.
+const char* whyNotCompiled(unsigned features) {
+  const auto has = [&](unsigned feature) { return (features & feature) != 0; };
+  if (has(kCohesion) && !has(kHertz)) return "cohesion with linear springs";
+  if (has(kPlastic) && !has(kHertz)) return "plastic contacts with linear springs";
+  if (has(kPlastic) && !has(kRollingFriction)) return "plastic contacts without rolling friction";
+  return "grains without friction";
+}
+
+const char* whyNoSimd(unsigned features, const contact::ContactLaw& pairLaw) {
+  if (features & kGeneral) return "linear and Hertz contacts in one scene";
+  if (features & kManyMaterials) return "several materials";
+  if (features & ~(detail::kSimdCompiled | detail::kSimdAsked)) return "a feature without SIMD";
+  if (!detail::isListed(detail::kSimdKernels, features & detail::kSimdCompiled)) return whyNotCompiled(features);
+  // Features are those of all contacts, lanes are for contacts of grains; as the kernel rounds their law.
+  const auto law = pairLaw.as<float>();
+  if (features & kFriction && law.friction <= 0) return "friction at walls alone";
+  if (features & kPlastic && law.plastic.share <= 0) return "plastic contacts at walls alone";
+  if (features & kPlastic && law.plastic.fullDepth > 0) return "Luding's law";
+  return nullptr;
+}
+
+/// The choice, for a list of kernels; `noSimd` of their features.
+template <class List>
+KernelChoice chosen(const List& list, unsigned features, const GrainModel& model, const char* noSimd) {
+  if (!model.specialised) return {kGeneral, 1, "the general kernel is asked for"};
+  if (model.precision != Precision::single) return {kGeneral, 1, "double precision"};
+  return {detail::isListed(list, features) ? features : kGeneral, noSimd ? 1 : processorLanes(model.mostSimdLanes),
+          noSimd};
+}
+
+struct FeatureName {
+  unsigned feature;
+  const char* name;
+};
+constexpr FeatureName kNames[] = {{kFriction, "friction"},
+                                  {kRollingFriction, "rolling friction"},
+                                  {kCohesion, "cohesion"},
+                                  {kPlastic, "plastic"},
+                                  {kManyRadii, "many radii"},
+                                  {kManyMaterials, "many materials"},
+                                  {kPeriodic, "periodic boundaries"},
+                                  {kBoundaries, "planes or floor"},
+                                  {kFloor, "height-map floor"},
+                                  {kSurfaces, "moving surfaces"},
+                                  {kFixed, "fixed grains"},
+                                  {kLoads, "rigid parts"},
+                                  {kLedger, "ledger"}};
+
+const char* nameOf(unsigned feature) {
+  return std::find_if(std::begin(kNames), std::end(kNames), [&](const FeatureName& n) { return n.feature == feature; })
+      ->name;
+}
+
+/// Features that a scene may do without, the likeliest first.
+constexpr unsigned kDispensable[] = {kManyMaterials, kManyRadii,       kFixed,    kSurfaces,
+                                     kPeriodic,      kRollingFriction, kCohesion, kPlastic};
+
+/// What there is instead of the general kernel; empty where no single change leads to one.
+template <class List> std::string remedy(const List& list, unsigned features, const GrainModel& model) {
+  if (model.precision != Precision::single)
+    return detail::isListed(list, features) ? "; single precision has a kernel of its own" : "";
+  for (const unsigned law : {features & ~kGeneral, features & ~(kGeneral | kHertz)})
+    if (features & kGeneral && detail::isListed(list, law))
+      return fmt::format("; there is one where all contacts are {}", law & kHertz ? "hertz" : "linear");
+  for (const unsigned feature : kDispensable)
+    if (features & feature && detail::isListed(list, features & ~feature))
+      return fmt::format("; there is one without {}", nameOf(feature));
+  return "";
+}
+
+std::string simdText(const KernelChoice& choice) {
+  if (choice.noSimd) return fmt::format("no SIMD on a CPU: {}", choice.noSimd);
+  switch (choice.lanes) {
+  case 16:
+    return "on this CPU SIMD, 16 lanes (AVX-512)";
+  case 8:
+    return "on this CPU SIMD, 8 lanes (AVX2)";
+  case 4:
+    return "on this CPU SIMD, 4 lanes (SSE2)";
+  default:
+    return "no SIMD on this CPU";
+  }
+}
+
+template <class List>
+std::string kernelText(const List& list, unsigned features, const GrainModel& model, const KernelChoice& choice) {
+  const bool single = model.precision == Precision::single;
+  std::string kernel = "its own kernel";
+  if (choice.general())
+    kernel =
+        std::string("general kernel") + (single ? ", same results but slower" : "") + remedy(list, features, model);
+  return fmt::format("{}; {} precision: {}; {}", featureText(features), single ? "single" : "double", kernel,
+                     simdText(choice));
+}
+
+unsigned atStep(unsigned features) { return features & ~kFloor; }
+
+unsigned atBoundaries(unsigned features) { return features & detail::kAtBoundaries; }
+
+} // namespace
+
+KernelChoice stepKernel(unsigned features, const GrainModel& model) {
+  const unsigned own = atStep(features);
+  return chosen(detail::kStepKernels, own, model, whyNoSimd(own, model.law));
+}
+
+KernelChoice boundaryKernel(unsigned features, const GrainModel& model) {
+  const unsigned own = atBoundaries(features);
+  KernelChoice choice = chosen(detail::kBoundaryKernels, own, model,
+                               own & ~kFriction ? "only planes with linear contacts of equal grains have it" : nullptr);
+  if (!(features & kLedger) && !detail::withoutBooks(choice.compiledFor, false)) choice.compiledFor = kGeneral;
+  return choice;
+}
+
+std::string featureText(unsigned features) {
+  std::string text = !(features & kHertz) ? "linear" : features & kGeneral ? "linear and hertz" : "hertz";
+  for (const auto& [feature, name] : kNames)
+    if (features & feature) text += std::string(", ") + name;
+  return text;
+}
+
+std::string stepKernelText(unsigned features, const GrainModel& model) {
+  return kernelText(detail::kStepKernels, atStep(features), model, stepKernel(features, model));
+}
+
+std::string boundaryKernelText(unsigned features, const GrainModel& model) {
+  return kernelText(detail::kBoundaryKernels, atBoundaries(features), model, boundaryKernel(features, model));
+}
+
+} // namespace grouser::terrain

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is shipped runs on kernels made for it: the scenes of runs/scenes, and beds of every soil of assets/soils.
+#include "coupling/simulation.hpp"
+#include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/bed_alone.hpp"
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/grain_memory.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "terrain/kernel_choice.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What runs slower than it could, by name: the reason why that is left so. A kernel costs compile time.
+const std::map<std::string, std::string> kExceptions = {};
+
+/// Names of what has no kernel of its own, or no SIMD on a CPU; behind each the choice in words.
+using Slow = std::map<std::string, std::string>;
+
+void addSlow(Slow& slow, const std::string& name, const scene::Scene& scene) {
+  const GrainKinds kinds = grainKinds(scene);
+  if (!kinds.any()) return;
+  const KernelTraits traits = kernelTraits(scene, kinds);
+  // A bed settles before parts load its grains.
+  for (const unsigned features : {traits.features, traits.features & ~terrain::kLoads}) {
+    const terrain::KernelChoice step = terrain::stepKernel(features, traits.model);
+    const std::string text = terrain::stepKernelText(features, traits.model);
+    if (step.general()) slow.emplace(name + ": kernel of the grains", text);
+    if (step.noSimd) slow.emplace(name + ": SIMD", text);
+  }
+  if (traits.features & terrain::kBoundaries && terrain::boundaryKernel(traits.features, traits.model).general())
+    slow.emplace(name + ": kernel of walls and floor", terrain::boundaryKernelText(traits.features, traits.model));
+}
+
+void addSlowOf(Slow& slow, const std::string& name, const scene::Scene& scene) {
+  addSlow(slow, name, scene);
+  if (isPutOnBed(scene)) addSlow(slow, name + ", its bed", sceneOfBed(scene));
+}
+
+std::vector<fs::path> filesIn(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(std::string(GROUSER_SOURCE_DIR) + "/" + folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  EXPECT_FALSE(files.empty()) << folder;
+  return files;
+}
+
+scene::Scene bedOf(const std::string& soil, bool vehicle) {
+  std::string text = "version = 1\n[run]\nduration = 1\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [6, 4]\n"
+                     "height_range = [0, 0]\ndepth = 0.3\ngrain_radius = 0.03\nmaterial = \"" +
+                     soil + "\"\n";
+  if (vehicle)
+    text += "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nposition = [2, 0]\n[driver]\nsprocket_speed = 1\n";
+  return parseScene(text, "bed.toml");
+}
+
+Slow slowOfAll() {
+  Slow slow;
+  for (const fs::path& file : filesIn("runs/scenes")) addSlowOf(slow, file.filename().string(), loadScene(file));
+  for (const fs::path& file : filesIn("assets/soils"))
+    for (const bool vehicle : {false, true})
+      addSlowOf(slow, "soil " + file.stem().string() + (vehicle ? " under a vehicle" : ""),
+                bedOf(file.stem().string(), vehicle));
+  return slow;
+}
+
+TEST(SceneKernels, ShippedScenesAndSoilsHaveTheirOwnAndSimd) {
+  for (const auto& [name, text] : slowOfAll())
+    EXPECT_TRUE(kExceptions.count(name)) << name << ": " << text
+                                         << "\nAdd a kernel to terrain/detail/kernel_lists.hpp, or an exception here.";
+}
+
+TEST(SceneKernels, NoExceptionIsOutOfDate) {
+  const Slow slow = slowOfAll();
+  for (const auto& [name, reason] : kExceptions) EXPECT_TRUE(slow.count(name)) << name << " needs no exception";
+}
+
+TEST(SceneKernels, PlanNamesThoseOfTheRun) {
+  for (const std::string name : {"rain", "mixture", "moving"}) {
+    const scene::Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + name + ".toml");
+    const KernelTraits traits = kernelTraits(scene, grainKinds(scene));
+    const coupling::Simulation run(simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+    const terrain::GrainConstants& c = run.ground().grains->system().constants;
+    EXPECT_EQ(c.features, traits.features) << name;
+    const std::string plan = commands::switchesText(scene);
+    EXPECT_NE(plan.find("kernel of the grains       " + terrain::stepKernelText(c.features, c.model) + "\n"),
+              std::string::npos)
+        << plan;
+    EXPECT_NE(plan.find("kernel of walls and floor  " + terrain::boundaryKernelText(c.features, c.model) + "\n"),
+              std::string::npos)
+        << plan;
+  }
+}
+
+} // namespace
+} // namespace grouser::setup

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which kernel grains take, and whether a CPU computes several of their contacts side by side.
+#include "terrain/kernel_choice.hpp"
+
+#include "terrain/detail/kernel_lists.hpp"
+
+#include <gtest/gtest.h>
+
+namespace grouser::terrain {
+namespace {
+
+using contact::kCohesion;
+using contact::kFriction;
+using contact::kGeneral;
+using contact::kHertz;
+using contact::kPlastic;
+using contact::kRollingFriction;
+
+constexpr unsigned kRoughBed = kFriction | kBoundaries | kLedger, kUnderVehicle = kRoughBed | kLoads,
+                   kYielding = kUnderVehicle | kHertz | kRollingFriction | kPlastic;
+
+/// Of grains that have friction, and yield as EEPA says where their features say that they do.
+GrainModel roughModel() {
+  GrainModel m;
+  m.law.friction = 0.5;
+  m.law.plastic.share = 0.5;
+  return m;
+}
+
+std::string simdGap(unsigned features, const GrainModel& model = roughModel()) {
+  const KernelChoice choice = stepKernel(features, model);
+  return choice.noSimd ? choice.noSimd : "";
+}
+
+TEST(KernelChoice, AllKernelsThatAreCompiledAreTaken) {
+  const GrainModel m = roughModel();
+  for (const unsigned features : detail::kStepKernels)
+    for (const unsigned floor : {0u, kFloor})
+      EXPECT_EQ(stepKernel(features | floor, m).compiledFor, features) << featureText(features);
+  for (const unsigned features : detail::kBoundaryKernels)
+    EXPECT_EQ(boundaryKernel(features | kBoundaries | kLoads | kFixed | kLedger, m).compiledFor, features)
+        << featureText(features);
+  for (const unsigned features : detail::kSimdKernels) {
+    EXPECT_EQ(simdGap(features), "") << featureText(features);
+    EXPECT_EQ(simdGap(features | detail::kSimdAsked), "") << featureText(features);
+  }
+}
+
+TEST(KernelChoice, SoilsAndSurfacesHaveTheirOwn) {
+  const GrainModel m = roughModel();
+  for (const unsigned features :
+       {kUnderVehicle | kManyRadii | kFixed, kUnderVehicle | kHertz | kManyRadii | kRollingFriction | kFixed,
+        kRoughBed | kSurfaces | kRollingFriction, kRoughBed | kPeriodic | kManyRadii, kYielding | kManyRadii | kFixed})
+    EXPECT_FALSE(stepKernel(features, m).general()) << featureText(features);
+  for (const unsigned features : {kUnderVehicle | kManyRadii | kManyMaterials, kRoughBed | kCohesion,
+                                  kUnderVehicle | kHertz | kGeneral, kRoughBed | kPeriodic | kSurfaces})
+    EXPECT_TRUE(stepKernel(features, m).general()) << featureText(features);
+}
+
+TEST(KernelChoice, DoublePrecisionTakesTheGeneralKernelOneContactAtATime) {
+  GrainModel m = roughModel();
+  m.precision = Precision::double_;
+  for (const KernelChoice& choice : {stepKernel(kUnderVehicle, m), boundaryKernel(kUnderVehicle, m)}) {
+    EXPECT_TRUE(choice.general());
+    EXPECT_EQ(choice.lanes, 1);
+    EXPECT_STREQ(choice.noSimd, "double precision");
+  }
+  m = roughModel();
+  m.specialised = false;
+  EXPECT_TRUE(stepKernel(kUnderVehicle, m).general());
+  EXPECT_TRUE(boundaryKernel(kUnderVehicle, m).general());
+  EXPECT_EQ(stepKernel(kUnderVehicle, m).lanes, 1);
+}
+
+TEST(KernelChoice, WallsWithoutBooksAreCompiledForTheBenchAlone) {
+  const GrainModel m = roughModel();
+  EXPECT_FALSE(boundaryKernel(kFriction | kBoundaries, m).general());
+  EXPECT_FALSE(boundaryKernel(kRoughBed | kRollingFriction, m).general());
+  EXPECT_TRUE(boundaryKernel(kFriction | kBoundaries | kRollingFriction, m).general());
+}
+
+TEST(KernelChoice, LanesAreTheProcessorsAndAtMostThoseAllowed) {
+  GrainModel m = roughModel();
+#if defined(__x86_64__)
+  EXPECT_GE(stepKernel(kUnderVehicle, m).lanes, 4);
+  EXPECT_GE(boundaryKernel(kUnderVehicle, m).lanes, 4) << "planes alone";
+  EXPECT_EQ(boundaryKernel(kUnderVehicle | kFloor, m).lanes, 1);
+  m.mostSimdLanes = 4;
+  EXPECT_EQ(stepKernel(kUnderVehicle, m).lanes, 4);
+#endif
+  m.mostSimdLanes = 1;
+  EXPECT_EQ(stepKernel(kUnderVehicle, m).lanes, 1);
+  EXPECT_EQ(simdGap(kUnderVehicle, m), "");
+}
+
+TEST(KernelChoice, SimdTakesTheCommonBedsAndLeavesTheRest) {
+  for (const unsigned feature : {0u, kHertz, kRollingFriction, kManyRadii, kPeriodic, kSurfaces, kFixed, kFloor,
+                                 kHertz | kRollingFriction | kManyRadii | kPeriodic | kSurfaces | kFixed})
+    EXPECT_EQ(simdGap(kUnderVehicle | feature), "");
+  EXPECT_EQ(simdGap(kUnderVehicle | kHertz | kCohesion), "");
+  EXPECT_EQ(simdGap(kLedger | kBoundaries), "");
+  EXPECT_EQ(simdGap(kYielding), "");
+  EXPECT_EQ(simdGap(kYielding | kCohesion | kManyRadii | kFixed), "");
+
+  EXPECT_EQ(simdGap(kUnderVehicle | kCohesion), "cohesion with linear springs");
+  EXPECT_EQ(simdGap(kUnderVehicle | kHertz | kGeneral), "linear and Hertz contacts in one scene");
+  EXPECT_EQ(simdGap(kUnderVehicle | kManyRadii | kManyMaterials), "several materials");
+  EXPECT_EQ(simdGap(kYielding & ~kHertz), "plastic contacts with linear springs");
+  EXPECT_EQ(simdGap(kYielding & ~kRollingFriction), "plastic contacts without rolling friction");
+  EXPECT_EQ(simdGap(kLedger | kBoundaries | kHertz), "grains without friction");
+
+  GrainModel m = roughModel();
+  m.law.plastic.fullDepth = 0.1;
+  EXPECT_EQ(simdGap(kYielding, m), "Luding's law");
+  m.law.plastic = {};
+  EXPECT_EQ(simdGap(kYielding, m), "plastic contacts at walls alone");
+  m.law.friction = 0;
+  EXPECT_EQ(simdGap(kUnderVehicle, m), "friction at walls alone");
+}
+
+TEST(KernelChoice, WordsNameTheFeatureThatHasNoKernel) {
+  GrainModel m = roughModel();
+  const auto has = [&](unsigned features, const std::string& words) {
+    const std::string text = stepKernelText(features, m);
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  has(kRoughBed | kFloor, "linear, friction, planes or floor, ledger; single precision: its own kernel; ");
+  has(kRoughBed | kManyRadii | kManyMaterials, "general kernel, same results but slower; there is one without many "
+                                               "materials; no SIMD on a CPU: several materials");
+  has(kUnderVehicle | kHertz | kGeneral, "linear and hertz, friction");
+  has(kUnderVehicle | kHertz | kGeneral, "; there is one where all contacts are hertz;");
+  has(kRoughBed | kPeriodic | kSurfaces | kFixed | kCohesion, "slower; no SIMD"); // two changes are no remedy
+  m.precision = Precision::double_;
+  has(kRoughBed, "double precision: general kernel; single precision has a kernel of its own; no SIMD");
+  const std::string walls = boundaryKernelText(kUnderVehicle | kPeriodic | kFloor, roughModel());
+  EXPECT_EQ(walls.find("linear, friction, height-map floor; single precision: its own kernel; no SIMD on a CPU: "), 0u)
+      << walls;
+}
+
+} // namespace
+} // namespace grouser::terrain
