@@ -18,8 +18,7 @@ std::unique_ptr<terrain::Grains> settledTile(const TileSetup& tile, const base::
   return std::move(ground.grains);
 }
 
-std::vector<terrain::GrainSpec> tiledGrains(const GroundSetup& setup, const BedSetup& bed,
-                                            const TiledBed& tiles) {
+std::vector<terrain::GrainSpec> tiledGrains(const GroundSetup& setup, const BedSetup& bed, const TiledBed& tiles) {
   std::vector<terrain::GrainSpec> start = tiles.start(bed.material);
   if (std::any_of(start.begin(), start.end(),
                   [&](const auto& g) { return !g.fixed && isTaken(setup, g.position, g.radius); }))
