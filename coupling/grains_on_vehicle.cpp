@@ -14,10 +14,8 @@ std::vector<contact::GrainPart> partsThatMeet(const PartsOnGround& on) {
   std::vector<contact::GrainPart> parts;
   const std::vector<int> sets = on.parts.setOfContactPart();
   for (std::size_t c = 0; c < sets.size(); ++c)
-    parts.push_back({sets[c],
-                     {},
-                     {},
-                     !on.shoesOnly || on.assembly.parts[on.parts.partOf(c)].kind == vehicle::PartKind::kShoe});
+    parts.push_back(
+        {sets[c], {}, {}, !on.shoesOnly || on.assembly.parts[on.parts.partOf(c)].kind == vehicle::PartKind::kShoe});
   return parts;
 }
 

@@ -7,8 +7,8 @@
 
 namespace grouser::coupling {
 
-/// Grains: a bed under a vehicle, or grains in a container, in a mixer, or alone. On several ranks each has those of its
-/// subdomain.
+/// Grains: a bed under a vehicle, or grains in a container, in a mixer, or alone. On several ranks each has those of
+/// its subdomain.
 class GranularGround : public Ground {
 public:
   /// `laid`, which has grains, and `setup` outlive it.

@@ -75,8 +75,8 @@ public:
   /// Puts back what save() wrote, in a simulation that goes on from a saved state; before all functions below.
   /// Throws base::InputError where the state is of another ground.
   virtual void restore(const SimulationState&) {}
-  /// Height of the undisturbed surface at (x, y) [m], for as long as the ground lives. The vehicle is set down on it, and
-  /// sinkage is measured from it. Null where there is none.
+  /// Height of the undisturbed surface at (x, y) [m], for as long as the ground lives. The vehicle is set down on it,
+  /// and sinkage is measured from it. Null where there is none.
   virtual std::function<double(double x, double y)> surface() const = 0;
   /// How much higher than surface() requires an assembled vehicle must stand, so that it touches nothing [m].
   virtual double clearance(const vehicle::Assembly&) const { return 0; }
@@ -100,10 +100,10 @@ public:
   /// replayed for each value. Null: always the same memory.
   virtual const void* buffer() const { return nullptr; }
   /// Queues the contacts of this step on the device, without waiting for it; recorded as a graph on a GPU, so launches
-  /// must be the same in every step between two calls of refreshContacts(). Adds to loads[c] force and torque on contact
-  /// part c about its centre of mass, in integers, whose sums do not depend on their order. loads[number of parts] is
-  /// the ground's own. `exec`: a stream beside that of the track's contacts. `travelled`, on the device: no part has
-  /// moved farther since refreshContacts() [m].
+  /// must be the same in every step between two calls of refreshContacts(). Adds to loads[c] force and torque on
+  /// contact part c about its centre of mass, in integers, whose sums do not depend on their order. loads[number of
+  /// parts] is the ground's own. `exec`: a stream beside that of the track's contacts. `travelled`, on the device: no
+  /// part has moved farther since refreshContacts() [m].
   virtual void compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double* travelled,
                        contact::PartLoad* loads) = 0;
   /// Gives the ground its own sum of compute(), over all ranks of traits().comm.

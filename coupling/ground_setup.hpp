@@ -89,8 +89,8 @@ struct GrainsSetup {
   std::vector<std::string> materials;   ///< of the grains, by name
   std::optional<double> impactSpeed;    ///< for which the step was chosen, where there are hertz contacts [m/s]
 
-  /// Whether a run that goes on makes its grains of the saved ones: where something was put on a settled bed, or where a
-  /// tile was copied, it need not settle again.
+  /// Whether a run that goes on makes its grains of the saved ones: where something was put on a settled bed, or where
+  /// a tile was copied, it need not settle again.
   bool isMadeOfState() const { return bed && (bed->alone || bed->tile); }
 };
 

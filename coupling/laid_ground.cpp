@@ -35,7 +35,7 @@ std::vector<terrain::GrainSpec> laidGrains(const GroundSetup& setup, const BedSe
 } // namespace
 
 LaidGround layGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm,
-                 const std::vector<terrain::GrainSpec>* start) {
+                     const std::vector<terrain::GrainSpec>* start) {
   LaidGround ground;
   ground.surface = setup.surface, ground.rigid = setup.rigid;
   if (!setup.grains) return ground;

@@ -16,8 +16,8 @@
 
 namespace grouser::coupling {
 
-/// The terrain as the simulation needs it: rigid ground, or grains on a rigid floor, or grains alone. A const LaidGround
-/// keeps what it has, but its grains can be stepped.
+/// The terrain as it was laid: rigid ground, or grains on a rigid floor, or grains alone. How it acts on a vehicle says
+/// Ground. A const LaidGround keeps what it has, but its grains can be stepped.
 struct LaidGround {
   std::optional<terrain::HeightField> surface; ///< as the height-map says; empty without [terrain]
   std::optional<terrain::HeightField> rigid;   ///< the ground itself, or the floor below a bed; empty without [terrain]
@@ -34,7 +34,7 @@ std::vector<std::string> namesOfShapes(const GroundSetup& setup);
 /// Lays the grains and places the walls; nothing moves yet. Where `start` is given these are its grains, else they are
 /// laid as the setup says, around what stands there. On several ranks each takes the grains of its subdomain.
 LaidGround layGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {},
-                 const std::vector<terrain::GrainSpec>* start = nullptr);
+                     const std::vector<terrain::GrainSpec>* start = nullptr);
 /// Whether a surface of the scene is where a ball would be; a bed is laid around those.
 bool isTaken(const GroundSetup& setup, const base::Vec3d& centre, double radius);
 

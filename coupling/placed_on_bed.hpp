@@ -27,7 +27,7 @@ void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const bas
 void takeIntoScene(LaidGround& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm);
 /// The same of a saved state, whose rows this rank has: grains of the scene at those places.
 LaidGround groundAt(const GroundSetup& scene, const terrain::GrainState& rows, const base::Exec& exec,
-                const base::Comm& comm);
+                    const base::Comm& comm);
 
 /// Adds the grains that are put on the bed, with the ids that follow. Throws InputError where one would lie in a grain
 /// or a surface deeper than run.max_overlap.

@@ -132,10 +132,10 @@ private:
   base::Exec exec_;
   base::Comm comm_;
   LaidGround laid_;
-  std::unique_ptr<Ground> ground_;     ///< null without; refers to laid_
+  std::unique_ptr<Ground> ground_;    ///< null without; refers to laid_
   GranularGround* granular_{nullptr}; ///< ground_ where it is grains
   SettleReport settled_;
-  std::vector<double> lifts_; ///< of what is put on a settled bed; see liftsOnto()
+  std::vector<double> lifts_;         ///< of what is put on a settled bed; see liftsOnto()
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/settled_ground.hpp"
 #include "coupling/mechanism_state.hpp"
+#include "coupling/settled_ground.hpp"
 #include "coupling/surface_state.hpp"
 #include "coupling/vehicle_state.hpp"
 #include "terrain/grain_state.hpp"

@@ -67,7 +67,7 @@ TEST(JoinedBed, HeightMapMustBeLevelAcrossTheSides) {
 TEST(TiledBed, OfJoinedTilesIsInBalanceAtOnce) {
   const std::vector<std::string> level = with(kJoined, {"terrain.height_range=[0, 0]"}),
                                  tiles = with(level, {"terrain.tile=[0.5, 0.4]"});
-  Ground tile, whole = buildGround(setup::groundSetup(bed(tiles), kStep), base::cpuExec(1));
+  LaidGround tile, whole = buildGround(setup::groundSetup(bed(tiles), kStep), base::cpuExec(1));
   settled(bed(with(level, {"terrain.size=[0.5, 0.4]"})), tile);
   EXPECT_EQ(whole.grains->count(), 4 * tile.grains->count());
   const terrain::GrainLedger one = tile.grains->ledger(), four = whole.grains->ledger();

@@ -134,7 +134,7 @@ double timeOfLists(coupling::Simulation& simulation, const base::Exec& exec) {
 SettledTile settleTile(const coupling::SimulationSetup& piece, bool prepared, const base::Exec& exec, double seconds) {
   const coupling::GroundSetup& ground = *settlingBed(piece).tile->ground;
   const coupling::BedSetup& bed = *ground.grains->bed;
-  const coupling::Ground laid = coupling::layGround(ground, exec);
+  const coupling::LaidGround laid = coupling::layGround(ground, exec);
   terrain::Grains& grains = *laid.grains;
   SettledTile tile;
   tile.grains = static_cast<double>(grains.count());
