@@ -11,8 +11,7 @@ foreach(row
     "BenchStep.SaysHowTheVehicleMovesAtEachTime 18 BenchStep.TimesADrivingVehicleUnlessATimeIsGiven BenchStep.WaitsForAStartThatOnlyTheRunKnows BenchCommands.PrintFiguresAndWriteThemAsJson"
     "OneAnswer.CoupledSceneOnTwoThreadsWithOtherRebuilds 13 OneAnswer.CoupledSceneInBatchesOfSteps RandomBeds.AreTheSameOnAllThreadsWithAllSkinsAndResumed"
     "OneAnswer.OfATowingVehicle 10 OneAnswer.OfAVehicleThatTowsASled"
-    "RandomBeds.OfTilesArePreparedLevelToo 8 RandomBeds.ArePreparedLevelAndLeanWithTheFrictionOfTheirGrains RandomBeds.TilesKeepTheirPorosity"
-    "RandomVehiclesDrawn.OnABedEndSoundOrWithACause 8 RandomVehiclesDrawn.OverABumpEndSoundOrWithACause RandomVehicle.OfABedIsJudgedByItsBooksAndItsCause")
+    "RandomBeds.OfTilesArePreparedLevelToo 8 RandomBeds.ArePreparedLevelAndLeanWithTheFrictionOfTheirGrains RandomBeds.TilesKeepTheirPorosity")
   string(REPLACE " " ";" row "${row}")
   list(GET row 0 test)
   list(GET row 1 seconds)

@@ -459,14 +459,31 @@ def headings(text):
     return {re.sub(r'[^\w\- ]', '', title).replace(' ', '-') for title in plain}
 
 
-def mutants(house):
-    """What tests/mutate changes stands in its file, just once, and the tests that should see it are there: else no test
-    is asked about that fault any more."""
-    tests = {}  # {room of tests: names as GoogleTest has them}
+def tests_of(house):
+    """{room of tests: names as GoogleTest has them}"""
+    tests = {}
     for path in house.code:
         if path.startswith('tests/'):
             named = re.findall(r'\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)', house.plain[path])
             tests.setdefault(room_of(path).split('/')[-1], []).extend('.'.join(name) for name in named)
+    return tests
+
+
+def long_tests(house):
+    """Long tests are there, and so are the quicker ones of their claims: ctest is silent about a name without a test."""
+    path = house.root / 'tests/long_tests.cmake'
+    there = {name for names in tests_of(house).values() for name in names}
+    rows = [row.split() for row in re.findall(r'^ +"(\w+\.\w+.*)"', path.read_text() if path.exists() else '', re.M)]
+    long = {row[0] for row in rows if not row[-1].isdigit()}
+    for row in rows:
+        yield from (f'tests/long_tests.cmake: there is no test {name}' for name in row if '.' in name and name not in there)
+        yield from (f'tests/long_tests.cmake: {name} is itself a long one' for name in row[1:] if name in long)
+
+
+def mutants(house):
+    """What tests/mutate changes stands in its file, just once, and the tests that should see it are there: else no test
+    is asked about that fault any more."""
+    tests = tests_of(house)
     for path in (path for path in house.files if re.fullmatch(r'tests/mutation/.+\.toml', path)):
         for number, fault in enumerate(tomllib.loads((house.root / path).read_text()).get('fault', []), 1):
             count = house.text.get(fault['file'], '').count(fault['old'])
@@ -478,4 +495,5 @@ def mutants(house):
                         yield f'{path}: fault {number}: there is no test {wanted} in {room}'
 
 
-RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links, mutants]
+RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links,
+         long_tests, mutants]

@@ -479,5 +479,17 @@ class Mutants(unittest.TestCase):
             self.assertIn('there is no test', told[0])
 
 
+class LongTests(unittest.TestCase):
+    def test_they_and_quicker_ones_of_their_claims_are_there(self):
+        house = {'tests/system/a_test.cpp': 'TEST(Bed, Sinks) {}\nTEST(Bed, Rests) {}\nTEST_F(Ground, Holds) {}\n'}
+        table = 'foreach(row\n    "Bed.Sinks 60 Bed.Rests"\n    "{}")\nendforeach()\nforeach(row\n    "Bed.Rests 20")\n'
+        def told(row):
+            return faults(rules.long_tests, {**house, 'tests/long_tests.cmake': table.format(row)})
+        self.assertEqual(told('Ground.Holds 30 Bed.Rests'), [])
+        self.assertEqual(told('Ground.Gives 30 Bed.Rests'), ['tests/long_tests.cmake: there is no test Ground.Gives'])
+        self.assertEqual(told('Ground.Holds 30 Bed.Rest'), ['tests/long_tests.cmake: there is no test Bed.Rest'])
+        self.assertEqual(told('Ground.Holds 30 Bed.Sinks'), ['tests/long_tests.cmake: Bed.Sinks is itself a long one'])
+
+
 if __name__ == '__main__':
     unittest.main()

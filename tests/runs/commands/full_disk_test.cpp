@@ -86,7 +86,8 @@ TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
   for (const std::string& more : {std::string(), csv, frames, picture, many}) {
     const Outcome free = run("--hash --out free --force" + more);
     ASSERT_EQ(free.code, 0) << free.errors;
-    for (const int kib : {1, 10, 60, 90, 120, 160, 200, 240, 300, 400, 600, 1000, 1500}) {
+    for (const int kib : {1,   10,  45,  60,  75,  90,  105, 120, 140, 160,  180, 200,
+                          220, 240, 270, 300, 350, 400, 500, 600, 800, 1000, 1500}) {
       const std::string out = "full" + std::to_string(kib);
       fs::remove_all(folder_ / out);
       const Outcome o = run("--out " + out + more, "ulimit -c 0; ulimit -f " + std::to_string(2 * kib) + "; ");

@@ -202,7 +202,7 @@ TEST_F(VehicleFaults, AVehicleThatNeverRestsIsSaid) {
 
 TEST_F(VehicleFaults, ARunThatIsResumedBeforeItRestsDrivesOffAtTheSameStep) {
   test::put(folder_ / "scene.toml",
-            rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml", "duration = 0.5\n"));
+            rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml", "duration = 0.9\n"));
   const std::string keys = " --hash --set driver.tension_ramp=0.05 --set driver.weight_ramp=0.1 ";
   const test::Outcome whole = call("run scene.toml --out whole" + keys, withSharedCache());
   ASSERT_EQ(whole.code, 0) << whole.errors;

