@@ -36,11 +36,11 @@ struct Program {
 /// by SIGTERM, so that it may save its work, a function by SIGKILL. To be used by the main thread.
 class ChildProcess {
 public:
-  /// Starts a program, with SIGPIPE at its default. Throws std::runtime_error with the cause where that fails.
+  /// Starts a program, with SIGPIPE at its default. Throws base::DeviceError with the cause where that fails.
   explicit ChildProcess(const Program& program);
   /// Calls `work` in a copy of this process, which ends when `work` returns; nothing of the parent's is flushed or
   /// destroyed in it. What `work` writes into the descriptor is for read(). SIGINT and SIGHUP are left to the parent.
-  /// To be called before this process has started any threads. Throws std::runtime_error where no process can be
+  /// To be called before this process has started any threads. Throws base::DeviceError where no process can be
   /// started.
   explicit ChildProcess(const std::function<void(const Descriptor&)>& work, const Environment& environment = {});
   ~ChildProcess();

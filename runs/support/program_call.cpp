@@ -28,7 +28,7 @@ CallOutcome callProgram(const std::vector<std::string>& words, const Environment
     const ProcessEnd end = child.wait();
     outcome.status = end.status;
     if (end.signal != 0) outcome.output += words.at(0) + " was " + end.text();
-  } catch (const std::runtime_error& error) {
+  } catch (const base::DeviceError& error) {
     outcome.output += error.what();
   }
   return outcome;
