@@ -2,6 +2,7 @@
 #include "spheredecomp/mesh.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "shapes.hpp"
 #include "spheredecomp/detail/outer_surface.hpp"
 #include "spheredecomp/mesh_query.hpp"
