@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/contact_pairs.hpp"
 
 namespace grouser::setup {
 
@@ -18,7 +18,7 @@ struct GrainMemory {
 };
 
 /// Features of the grains' step, loads of rigid parts among them, as the model of the scene will have them.
-unsigned grainFeatures(const scene::Scene& scene, const GrainKinds& kinds);
+unsigned grainFeatures(const scene::Scene& scene, const ContactPairs& pairs);
 
 /// Of the grains of `scene`. Those of very unlike radii have more neighbours, and take more.
 GrainMemory grainMemory(const scene::Scene& scene);
