@@ -190,7 +190,8 @@ public:
   /// `name` as it stands in a file ("run", "material.NAME"), and one sentence of help.
   Table(std::string name, std::string help) : name_(std::move(name)), help_(std::move(help)) {}
 
-  template <class T> Field& add(std::string key, T S::*member, std::string unit, std::string help) {
+  template <class T, class Owner> // S, or a base of it
+  Field& add(std::string key, T Owner::*member, std::string unit, std::string help) {
     auto set = [member](S& s, const FieldValue& v) {
       s.*member = std::holds_alternative<std::monostate>(v) ? T{} : detail::Conversion<T>::fromField(v);
     };

@@ -13,13 +13,12 @@
 #include "runs/scene/soil.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/drive_length.hpp"
 #include "runs/setup/free_surface_notes.hpp"
 #include "runs/setup/grain_count.hpp"
-#include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/ground_setup.hpp"
-#include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/meeting_pairs.hpp"
 #include "runs/setup/obstacles.hpp"
@@ -82,11 +81,11 @@ std::string stickingLine(const scene::Scene& scene) {
   bool meet = false, cohere = false, yield = false;
   double pull = 0;
   for (const setup::MeetingPair& p : setup::meetingPairs(scene)) {
-    if (p.touched == setup::Touched::grain && p.grain == p.partner) {
+    if (p.touched == setup::ContactPartner::Kind::grains && p.grain == p.partner) {
       cohere |= p.cohesion > 0;
       yield |= p.law.plastic.pull > 0 || p.law.plastic.pullGrowth > 0 || p.law.plastic.adhesion > 0;
     }
-    if (p.touched == setup::Touched::vehicle) meet = true, pull = std::max(pull, p.cohesion);
+    if (p.touched == setup::ContactPartner::Kind::vehicle) meet = true, pull = std::max(pull, p.cohesion);
   }
   if (!meet)
     return scene.vehicle && scene.vehicle->adhesion > 0
@@ -187,12 +186,13 @@ std::string bedLines(const scene::Terrain* t, const base::Vec3d& gravity) {
 
 std::string switchesText(const scene::Scene& scene) {
   const scene::Terrain* t = scene.terrain ? &*scene.terrain : nullptr;
-  const setup::GrainKinds kinds = setup::grainKinds(scene);
+  const setup::ContactPairs pairs(scene);
+  const setup::GrainKinds& kinds = pairs.kinds;
   const bool bed = t && t->granular(), grains = kinds.any();
   std::string text =
       onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
   if (grains) {
-    const setup::KernelTraits traits = setup::kernelTraits(scene, kinds);
+    const setup::KernelTraits traits = setup::kernelTraits(scene, pairs);
     const auto has = [&](unsigned feature) { return (traits.features & feature) != 0; };
     text += onOff(has(contact::kFriction), "friction history", has(contact::kFriction) ? "" : "friction is 0");
     text += onOff(has(contact::kRollingFriction), "rolling history",
@@ -230,8 +230,8 @@ std::string switchesText(const scene::Scene& scene) {
   const bool shoesAlone = scene.vehicle && bed && scene.vehicle->soilMeets == scene::SoilMeets::shoes;
   text += onOff(shoesAlone, "soil meets shoes alone", shoesAlone ? "vehicle.soil_meets = \"shoes\"" : "");
   if (scene.vehicle) text += stickingLine(scene);
-  text +=
-      onOff(setup::crushes(scene), "crushing grains", setup::crushes(scene) ? "against parts" : "no crushing_strength");
+  const bool crush = setup::crushes(scene, kinds);
+  text += onOff(crush, "crushing grains", crush ? "against parts" : "no crushing_strength");
   const scene::MechanismSections& m = scene.mechanism;
   text += onOff(!m.empty(), "mechanism",
                 m.empty() ? "no [[body]]" : output::integratorText(setup::solverOptions(scene.run)));

@@ -3,6 +3,7 @@
 
 #include "base/enum_words.hpp"
 #include "base/peer_memory.hpp"
+#include "contact/mixing.hpp"
 #include "multibody/model.hpp"
 #include "multibody/solver_options.hpp"
 #include "runs/support/device_choice.hpp"
@@ -15,15 +16,6 @@
 /// What a scene file chooses from a list of words. An enum of the solvers serves here as it is; the words stand here
 /// alone.
 namespace grouser::scene {
-
-/// Of [material.NAME].
-enum class ContactLawKind {
-  linear,     ///< linear springs and dashpots
-  hertz,      ///< Hertz-Mindlin
-  eepa,       ///< elastic-plastic with adhesion, on Hertz' law
-  eepaLinear, ///< the same on linear springs
-  luding      ///< Luding's, on linear springs
-};
 
 /// Of [[grains]]: where the centres come from.
 enum class FillForm { lattice, random, file };
@@ -75,8 +67,8 @@ template <> struct EnumWords<vehicle::HitchKind> {
       {E::force, "force"}, {E::ramp, "ramp"}, {E::sled, "sled"}, {E::speed, "speed"}};
 };
 
-template <> struct EnumWords<scene::ContactLawKind> {
-  using E = scene::ContactLawKind;
+template <> struct EnumWords<contact::LawKind> {
+  using E = contact::LawKind;
   static constexpr EnumWord<E> list[] = {{E::linear, "linear"},
                                          {E::hertz, "hertz"},
                                          {E::eepa, "eepa"},

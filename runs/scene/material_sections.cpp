@@ -108,9 +108,9 @@ Table<Material> materialTable() {
         "whether the dashpot may pull where surfaces part; else it may at most cancel the spring; not cohesion, which "
         "is a key of its own");
   t.add("friction", &S::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
+  static_assert(S::kTangentialStiffnessRatio == 2.0 / 7, "as the help says");
   t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
-        fmt::format("linear: tangential over normal stiffness; {}/{} where not given",
-                    S::kTangentialStiffnessRatio.numerator, S::kTangentialStiffnessRatio.denominator))
+        "linear: tangential over normal stiffness; 2/7 where not given")
       .above(0)
       .atMost(1);
   t.add("tangential_damping_ratio", &S::tangentialDampingRatio, "-",
@@ -183,8 +183,8 @@ template <class S> void checkOneLoss(const Section& section, const S& s) {
     section.fail("restitution", "[-] is outside [1e-06, 1], and not 0; choose one of these");
 }
 
-void completePlasticity(const Section& section, Material& m) {
-  const bool luding = m.law == ContactLawKind::luding;
+void checkPlasticity(const Section& section, const Material& m) {
+  const bool luding = m.law == contact::LawKind::luding;
   const auto refuse = [&](const char* key, bool allowed, const char* laws) {
     if (!allowed && section.has(key))
       section.fail(key, fmt::format("belongs to law = {}; add that, or remove the key", laws));
@@ -193,15 +193,7 @@ void completePlasticity(const Section& section, Material& m) {
   for (const char* key : {"surface_energy", "adhesion_exponent"})
     refuse(key, m.yields() && !luding, "\"eepa\" or \"eepa_linear\"");
   for (const char* key : {"plastic_depth", "adhesion_stiffness"}) refuse(key, luding, "\"luding\"");
-  if (!m.yields()) return;
-  m.plasticity = m.plasticity.value_or(Material::kPlasticity);
-  if (luding) {
-    m.plasticDepth = m.plasticDepth.value_or(Material::kPlasticDepth);
-    m.adhesionStiffness = m.adhesionStiffness.value_or(0);
-    return;
-  }
-  m.surfaceEnergy = m.surfaceEnergy.value_or(0);
-  m.adhesionExponent = m.adhesionExponent.value_or(m.hertzian() ? 1.5 : 1);
+  if (!m.adhesionExponent) return;
   const double halves = 2 * *m.adhesionExponent;
   if (halves != std::floor(halves))
     section.fail("adhesion_exponent",
@@ -223,16 +215,8 @@ void completeLaw(const Section& section, Material& m) {
   if (hertz && !m.young)
     section.fail("young", fmt::format("[Pa] is missing, which law = \"{}\" needs; add it, e.g. young = 7e7",
                                       base::wordOf(m.law)));
-  completePlasticity(section, m);
-  if (!m.restitution && !m.damping) m.restitution = Material::kRestitution;
-  if (!m.tangentialDampingRatio)
-    m.tangentialDampingRatio = hertz ? Material::kHertzTangentialDampingRatio : Material::kLinearTangentialDampingRatio;
-  if (hertz) {
-    m.poisson = m.poisson.value_or(Material::kPoisson);
-  } else {
-    m.stiffness = m.stiffness.value_or(Material::kStiffness);
-    m.tangentialStiffnessRatio = m.tangentialStiffnessRatio.value_or(Material::kTangentialStiffnessRatio.value());
-  }
+  checkPlasticity(section, m);
+  m.complete();
 }
 
 /// A material with its name, and with what its soil says of it. Throws where the name cannot be one.
@@ -275,7 +259,7 @@ void checkContact(const Section& section, ContactPair& pair, const Scene& scene)
   const bool yields = scene.material(pair.first).yields() && scene.material(pair.second).yields();
   if (pair.plasticity && !yields)
     section.fail("plasticity", "belongs to pairs of which both are eepa, eepa_linear or luding; remove it");
-  if (pair.surfaceEnergy && (!yields || scene.material(pair.first).law == ContactLawKind::luding))
+  if (pair.surfaceEnergy && (!yields || scene.material(pair.first).law == contact::LawKind::luding))
     section.fail("surface_energy", "belongs to pairs of which both are eepa or eepa_linear; remove it");
   if (scene.contact(pair.first, pair.second)) section.fail("", "is given twice, in both orders; remove one of the two");
 }

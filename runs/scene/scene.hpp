@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "contact/mixing.hpp"
 #include "runs/scene/choices.hpp"
 #include "runs/scene/mechanism_structs.hpp"
 #include "runs/scene/surface_structs.hpp"
@@ -27,12 +28,6 @@ class Document;
 namespace grouser::scene {
 
 struct Soil; // soil.hpp
-
-/// A number that help shows as a fraction.
-struct Fraction {
-  int numerator, denominator;
-  constexpr double value() const { return static_cast<double>(numerator) / denominator; }
-};
 
 /// Steps of the shortest contact; what they buy measures `grouser study impact`.
 inline constexpr double kStepsPerContact = 20, kFewestStepsPerContact = 6;
@@ -69,49 +64,18 @@ struct RunSettings {
   bool operator==(const RunSettings&) const = default;
 };
 
-/// [material.NAME]
-struct Material {
-  /// What loading takes where the law needs a value and none is given. Densities, friction and the like, which every
-  /// material has, begin with theirs below.
-  static constexpr double kStiffness = 1e6, kPoisson = 0.25, kRestitution = 0.5;
-  static constexpr Fraction kTangentialStiffnessRatio{2, 7}; ///< linear
-  static constexpr double kLinearTangentialDampingRatio = 0.5, kHertzTangentialDampingRatio = 1;
-  static constexpr double kPlasticity = 0.5, kPlasticDepth = 0.05;
-
+/// [material.NAME]; after loading with all values that its law needs.
+struct Material : contact::MaterialProperties {
   std::string name;
   std::string soil;                  ///< absolute path of the soil's file after loading; empty: of no soil
   std::string soilHash;              ///< of that file
   std::optional<double> grainRadius; ///< [m] that it is scaled to; has a value after loading, of a soil
-  double density = 2500;
-  ContactLawKind law = ContactLawKind::linear; ///< what belongs to the law has a value after loading
-  std::optional<double> stiffness;             ///< [N/m] linear
-  std::optional<double> young, poisson;        ///< [Pa], [-] hertz
-  std::optional<double> restitution;           ///< one of these two has a value after loading
-  std::optional<double> damping; ///< [1/s] linear: gamma of F_n = k overlap + gamma m_eff v_n (v_n: approach speed)
-  bool attraction = false;
-  double friction = 0.5;
-  std::optional<double> tangentialStiffnessRatio; ///< linear
-  std::optional<double> tangentialDampingRatio;
-  double rollingFriction = 0;
-  double rollingDampingRatio = 0.3;
-  double cohesion = 0;                     ///< [J/m2] energy of adhesion
-  std::optional<double> adhesionRadius;    ///< [m] of grains that cohesion and surfaceEnergy are of; empty: of all
-  std::optional<double> plasticity;        ///< [-] eepa, eepa_linear, luding: 1 - k1/k2, the greatest
-  std::optional<double> surfaceEnergy;     ///< [J/m2] eepa, eepa_linear: gamma of the pull-off force
-  std::optional<double> adhesionExponent;  ///< [-] eepa, eepa_linear: chi of the adhesive branch
-  std::optional<double> plasticDepth;      ///< [-] luding: of the smaller radius' overlap where k2 is greatest
-  std::optional<double> adhesionStiffness; ///< [N/m] luding: k_c of the adhesive branch
-  std::optional<double> crushingStrength;  ///< [Pa] of its grains against parts; empty: they do not crush
   bool operator==(const Material&) const = default;
-  /// Whether its elastic law is Hertz'; else linear springs.
-  bool hertzian() const { return law == ContactLawKind::hertz || law == ContactLawKind::eepa; }
-  bool yields() const { return law != ContactLawKind::hertz && law != ContactLawKind::linear; }
 };
 
 /// [contact."first|second"]: what a pair of materials has otherwise than the mixing rule gives.
-struct ContactPair {
+struct ContactPair : contact::PairProperties {
   std::string first, second;
-  std::optional<double> stiffness, restitution, damping, friction, rollingFriction, cohesion, plasticity, surfaceEnergy;
   bool operator==(const ContactPair&) const = default;
 };
 

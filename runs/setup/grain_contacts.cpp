@@ -3,13 +3,12 @@
 
 #include "base/math.hpp"
 #include "base/sphere.hpp"
+#include "contact/mixing.hpp"
 #include "contact/restitution.hpp"
 #include "contact/rolling_resistance.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_count.hpp"
-#include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
-#include "runs/setup/scene_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,28 +18,11 @@ namespace grouser::setup {
 
 namespace {
 
-/// What a grain can touch.
-struct Partner {
-  std::string material;
-  bool isGrain;
-  std::string name;
-};
-
-std::vector<Partner> partnersOf(const scene::Scene& scene, const GrainKinds& kinds, const std::string& material) {
-  std::vector<Partner> partners;
-  for (const std::string& other : kinds.material)
-    partners.push_back({other, true,
-                        other == material ? "grain on grain of '" + material + "'"
-                                          : "grain of '" + material + "' among those of '" + other + "'"});
-  const auto against = [&](const std::string& other, const std::string& name) {
-    partners.push_back({other.empty() ? material : other, false, name});
-  };
-  for (const scene::Plane& plane : scene.planes)
-    against(plane.material, "grain on a plane of '" + plane.material + "'");
-  for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material, "grain on " + s.name);
-  if (scene.terrain) against(scene.terrain->groundMaterial, "grain on the floor");
-  if (scene.vehicle) against(scene.vehicle->material, "grain on the vehicle");
-  return partners;
+std::string nameOf(const ContactPairs& pairs, const std::string& grain, const ContactPartner& p) {
+  if (p.kind == ContactPartner::Kind::grains)
+    return p.material == grain ? "grain on grain of '" + grain + "'"
+                               : "grain of '" + grain + "' among those of '" + p.material + "'";
+  return pairs.isPlane(p) ? "grain on a plane of '" + p.material + "'" : "grain on " + p.name;
 }
 
 /// Of a Hertz contact in an elastic impact [m].
@@ -58,9 +40,8 @@ double depthShare(const contact::ContactLaw& law) {
 
 } // namespace
 
-std::vector<GrainContact> grainContacts(const scene::Scene& scene, Of which) {
+std::vector<GrainContact> grainContacts(const scene::Scene& scene, const ContactPairs& pairs, Of which) {
   std::vector<GrainContact> contacts;
-  const GrainKinds kinds = grainKinds(scene);
   const double speed = scene.run.impactSpeed;
   // What lies on the lowest grains of a heap that is as high as wide, over their mass [N/kg]; chains bear twice as
   // much.
@@ -69,34 +50,35 @@ std::vector<GrainContact> grainContacts(const scene::Scene& scene, Of which) {
   const double heap =
       hertz ? base::pow(static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene))), 1.0 / 3) : 1;
   const double weighing = 2 * heap * norm(scene.run.gravity);
-  for (const GrainKinds::Kind& kind : kinds.kinds) {
+  for (const GrainKinds::Kind& kind : pairs.kinds.kinds) {
     const std::string& material = kind.material;
     const double radius = which == Of::smallest ? kind.smallest : kind.largest;
     const double mass = base::sphereMass(scene.material(material).density, radius);
-    for (const Partner& p : partnersOf(scene, kinds, material)) {
+    for (const ContactPartner& p : pairs.partners) {
+      if (p.kind == ContactPartner::Kind::bedWalls) continue; // as stiff as the floor
+      const std::string &other = p.materialAgainst(material), name = nameOf(pairs, material, p);
+      const bool amongGrains = p.kind == ContactPartner::Kind::grains;
       // The same as against a former partner, under another name.
       const auto same = std::find_if(contacts.begin(), contacts.end(), [&](const GrainContact& c) {
-        return c.material == material && c.other == p.material && c.amongGrains == p.isGrain;
+        return c.material == material && c.other == other && c.amongGrains == amongGrains;
       });
       if (same != contacts.end()) {
         GrainContact again = *same;
-        again.name = p.name;
+        again.name = name;
         contacts.push_back(std::move(again));
         continue;
       }
-      // Share of its own mass or radius that counts between the two.
-      const double share = p.isGrain ? 0.5 : 1;
       GrainContact c;
-      c.material = material, c.other = p.material, c.name = p.name, c.amongGrains = p.isGrain;
-      c.mass = mass, c.radius = radius, c.effectiveMass = share * mass, c.effectiveRadius = share * radius;
-      c.law = pairLaw(scene, material, p.material, c.effectiveMass);
-      c.coefficients = stiffest(c.law, c.effectiveMass, c.effectiveRadius, speed);
+      c.material = material, c.other = other, c.name = name, c.amongGrains = amongGrains;
+      c.mass = mass, c.radius = radius, c.effectiveMass = p.share() * mass, c.effectiveRadius = p.share() * radius;
+      c.law = pairLaw(scene, material, other, c.effectiveMass);
+      c.coefficients = contact::stiffest(c.law, c.effectiveMass, c.effectiveRadius, speed);
       if (c.law.hertz)
         c.softer = std::sqrt(std::max(depthShare(c.law), depthUnder(weighing * mass, c) / depthOf(c, speed)));
       c.rollingStiffness = contact::rollingStiffness(c.law, c.coefficients.normalStiffness, c.effectiveRadius);
       const double inertia = 1.4 * c.effectiveMass * radius * radius;
       c.rollingDamping = 2 * c.law.rollingDamping * std::sqrt(inertia * c.rollingStiffness);
-      c.duration = contactTime(c.law, c.effectiveMass, c.effectiveRadius, speed);
+      c.duration = contact::contactTime(c.law, c.effectiveMass, c.effectiveRadius, speed);
       contacts.push_back(c);
     }
   }

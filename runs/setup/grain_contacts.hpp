@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/contact_law.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/contact_pairs.hpp"
 
 #include <string>
 #include <vector>
@@ -28,6 +28,6 @@ struct GrainContact {
 };
 enum class Of { smallest, largest };
 /// Of each material's smallest grains, which are the quickest, or of its largest.
-std::vector<GrainContact> grainContacts(const scene::Scene& scene, Of which = Of::smallest);
+std::vector<GrainContact> grainContacts(const scene::Scene& scene, const ContactPairs& pairs, Of which = Of::smallest);
 
 } // namespace grouser::setup

@@ -42,10 +42,9 @@ GrainKinds grainKinds(const scene::Scene& scene) {
   return kinds;
 }
 
-bool crushes(const scene::Scene& scene) {
+bool crushes(const scene::Scene& scene, const GrainKinds& kinds) {
   if (!scene.vehicle && scene.meshes.empty()) return false;
-  const std::vector<std::string> all = grainKinds(scene).material;
-  return std::any_of(all.begin(), all.end(),
+  return std::any_of(kinds.material.begin(), kinds.material.end(),
                      [&](const std::string& name) { return scene.material(name).crushingStrength.has_value(); });
 }
 

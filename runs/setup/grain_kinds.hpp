@@ -27,7 +27,7 @@ struct GrainKinds {
 };
 GrainKinds grainKinds(const scene::Scene& scene);
 /// Whether grains crush against parts of a vehicle or meshes.
-bool crushes(const scene::Scene& scene);
+bool crushes(const scene::Scene& scene, const GrainKinds& kinds);
 
 /// The single grains and those of blocks, in the order of the file: their place is their id. Reads the files that
 /// blocks name. Throws InputError: no room for all, a broken line.

@@ -19,11 +19,13 @@ struct Traits {
   terrain::GrainLayout layout;
   terrain::GrainModel model;
 };
-Traits traitsOf(const scene::Scene& scene, const GrainKinds& kinds, const std::optional<terrain::HeightField>& floor) {
+Traits traitsOf(const scene::Scene& scene, const ContactPairs& pairs,
+                const std::optional<terrain::HeightField>& floor) {
   const terrain::Rectangle area = terrainArea(scene).value_or(terrain::Rectangle{});
   terrain::Boundaries boundaries;
-  const terrain::GrainModel model = grainModel(scene, kinds, 0, surroundingsOf(scene, floor, area), boundaries);
-  const unsigned features = terrain::featuresOf(model, boundaries, kinds.many());
+  const terrain::GrainModel model =
+      grainModel(scene, pairs.kinds, 0, surroundingsOf(scene, pairs, floor, area), boundaries);
+  const unsigned features = terrain::featuresOf(model, boundaries, pairs.kinds.many());
   return {features,
           terrain::layoutOf(features, boundaries.count(model.radius), model.materials.count(),
                             boundaries.floorPlaces(model.radius)),
@@ -58,11 +60,11 @@ double bytesAtBoundaries(const Traits& traits) {
 
 } // namespace
 
-KernelTraits kernelTraits(const scene::Scene& scene, const GrainKinds& kinds) {
+KernelTraits kernelTraits(const scene::Scene& scene, const ContactPairs& pairs) {
   const bool parts = scene.vehicle || !scene.meshes.empty();
   std::optional<terrain::HeightField> anyFloor; // features do not depend on its shape
   if (scene.terrain) anyFloor = terrain::HeightField::flat({0, 1, 0, 1}, 0);
-  const Traits traits = traitsOf(scene, kinds, anyFloor);
+  const Traits traits = traitsOf(scene, pairs, anyFloor);
   return {traits.features | (parts ? terrain::kLoads : 0u), traits.model};
 }
 
@@ -71,7 +73,7 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   // those of them that touch.
   constexpr double kPlaces = 8, kContacts = 4;
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
-  const Traits traits = traitsOf(scene, grainKinds(scene), floorShape(scene));
+  const Traits traits = traitsOf(scene, ContactPairs(scene), floorShape(scene));
   const terrain::GrainLayout& layout = traits.layout;
   const double history = static_cast<double>(layout.historyWidth()) * sizeof(float);
   terrain::GrainLayout bare = layout; // without boundaries

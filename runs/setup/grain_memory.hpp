@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "terrain/grain_model.hpp"
 
 namespace grouser::setup {
@@ -24,7 +24,7 @@ struct KernelTraits {
   terrain::GrainModel model;
 };
 /// As the grains of the scene will have them, which must have some.
-KernelTraits kernelTraits(const scene::Scene& scene, const GrainKinds& kinds);
+KernelTraits kernelTraits(const scene::Scene& scene, const ContactPairs& pairs);
 
 /// Of the grains of `scene`. Those of very unlike radii have more neighbours, and take more.
 GrainMemory grainMemory(const scene::Scene& scene);

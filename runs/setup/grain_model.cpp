@@ -13,38 +13,50 @@ namespace grouser::setup {
 
 using base::Vec3d;
 
-Surroundings surroundingsOf(const scene::Scene& scene, const std::optional<terrain::HeightField>& floor,
-                            const terrain::Rectangle& bedWalls) {
+Surroundings surroundingsOf(const scene::Scene& scene, const ContactPairs& pairs,
+                            const std::optional<terrain::HeightField>& floor, const terrain::Rectangle& bedWalls) {
+  using Kind = ContactPartner::Kind;
   Surroundings around;
-  around.floor = floor;
-  if (scene.terrain && scene.terrain->granular()) {
-    const std::string& material = scene.terrain->groundMaterial;
-    const auto add = [&](const Vec3d& normal, double offset) {
-      around.walls.push_back({normal, offset, material, "a wall of the terrain", scene.terrain->wallFriction});
+  around.floor = floor, around.surfaces = pairs.surfaces;
+  for (const ContactPartner& p : pairs.partners) {
+    const auto addWall = [&](const Vec3d& normal, double offset, const std::string& name) {
+      around.walls.push_back({normal, offset, p.material, name, p.friction});
     };
-    const terrain::Rectangle& w = bedWalls;
-    around.floorMaterial = material;
-    if (scene.terrain->walls && !scene.run.periodic[0]) add({1, 0, 0}, w.xMin), add({-1, 0, 0}, -w.xMax);
-    if (scene.terrain->walls && !scene.run.periodic[1]) add({0, 1, 0}, w.yMin), add({0, -1, 0}, -w.yMax);
-  } else if (scene.terrain) {
-    around.floorMaterial = scene.terrain->material;
+    if (p.kind == Kind::bedWalls) {
+      const terrain::Rectangle& w = bedWalls;
+      if (!scene.run.periodic[0]) addWall({1, 0, 0}, w.xMin, p.name), addWall({-1, 0, 0}, -w.xMax, p.name);
+      if (!scene.run.periodic[1]) addWall({0, 1, 0}, w.yMin, p.name), addWall({0, -1, 0}, -w.yMax, p.name);
+    } else if (p.kind == Kind::plane) {
+      const Vec3d normal = base::normalized(scene.planes[p.number].normal);
+      addWall(normal, dot(normal, scene.planes[p.number].point), fmt::format("plane {}", p.number));
+    } else if (p.kind == Kind::floor) {
+      around.floorMaterial = p.material;
+    }
   }
-  for (std::size_t k = 0; k < scene.planes.size(); ++k) {
-    const scene::Plane& plane = scene.planes[k];
-    if (!plane.isWall()) continue;
-    const Vec3d normal = base::normalized(plane.normal);
-    around.walls.push_back({normal, dot(normal, plane.point), plane.material, fmt::format("plane {}", k)});
-  }
-  around.surfaces = surfacesOf(scene);
   return around;
 }
 
 namespace {
 
-contact::ContactLaw wallLaw(const scene::Scene& scene, const std::string& grain, const Surroundings::Wall& wall,
-                            const std::optional<double>& mass) {
-  contact::ContactLaw law = pairLaw(scene, grain, wall.material, mass);
-  law.friction = wall.friction.value_or(law.friction);
+/// Something rigid that grains have a law with.
+struct Boundary {
+  const std::string& material;
+  std::optional<double> friction; ///< otherwise than the materials say [-]
+};
+/// Walls, floor and surfaces but meshes, in the order in which grains know them.
+std::vector<Boundary> boundariesOf(const Surroundings& around) {
+  std::vector<Boundary> all;
+  for (const Surroundings::Wall& w : around.walls) all.push_back({w.material, w.friction});
+  if (around.floor) all.push_back({around.floorMaterial, {}});
+  for (const SceneSurface& s : around.surfaces)
+    if (!s.mesh) all.push_back({s.section.material, {}});
+  return all;
+}
+
+contact::ContactLaw boundaryLaw(const scene::Scene& scene, const std::string& grain, const Boundary& boundary,
+                                const std::optional<double>& mass) {
+  contact::ContactLaw law = pairLaw(scene, grain, boundary.material, mass);
+  law.friction = boundary.friction.value_or(law.friction);
   return law;
 }
 
@@ -72,15 +84,15 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   // Of one mass, damping is a constant; of many it follows from each contact's.
   const auto mass = [&](double share) { return kinds.many() ? std::nullopt : std::optional(share * model.mass); };
   model.law = pairLaw(scene, first, first, mass(0.5));
-  for (const Surroundings::Wall& w : surroundings.walls)
-    boundaries.walls.push_back({w.normal, w.offset, wallLaw(scene, first, w, mass(1))});
+  const std::vector<Boundary> all = boundariesOf(surroundings);
+  auto next = all.begin();
+  const auto nextLaw = [&] { return boundaryLaw(scene, first, *next++, mass(1)); };
+  for (const Surroundings::Wall& w : surroundings.walls) boundaries.walls.push_back({w.normal, w.offset, nextLaw()});
   boundaries.floor = surroundings.floor;
   boundaries.periodic = periodicBoundaries(scene);
-  if (surroundings.floor) model.floorLaw = pairLaw(scene, first, surroundings.floorMaterial, mass(1));
+  if (surroundings.floor) model.floorLaw = nextLaw();
   for (const SceneSurface& s : surroundings.surfaces)
-    if (!s.mesh)
-      boundaries.surfaces.push_back(
-          {s.geometry, pairLaw(scene, first, s.section.material, mass(1)), coupling::startingPose(s)});
+    if (!s.mesh) boundaries.surfaces.push_back({s.geometry, nextLaw(), coupling::startingPose(s)});
   if (!kinds.manyMaterials()) return model;
 
   terrain::GrainMaterials& many = model.materials;
@@ -89,15 +101,9 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
     for (const std::string& b : kinds.material)
       many.grains.push_back(pairLaw(scene, std::min(a, b), std::max(a, b), std::nullopt));
   }
-  for (const Surroundings::Wall& w : surroundings.walls)
-    for (const std::string& a : kinds.material) many.boundaries.push_back(wallLaw(scene, a, w, std::nullopt));
-  if (surroundings.floor)
+  for (const Boundary& boundary : all)
     for (const std::string& a : kinds.material)
-      many.boundaries.push_back(pairLaw(scene, a, surroundings.floorMaterial, std::nullopt));
-  for (const SceneSurface& s : surroundings.surfaces)
-    if (!s.mesh)
-      for (const std::string& a : kinds.material)
-        many.boundaries.push_back(pairLaw(scene, a, s.section.material, std::nullopt));
+      many.boundaries.push_back(boundaryLaw(scene, a, boundary, std::nullopt));
   return model;
 }
 

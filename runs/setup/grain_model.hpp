@@ -2,9 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
-#include "runs/scene/scene.hpp"
-#include "runs/setup/grain_kinds.hpp"
-#include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "terrain/grains.hpp"
 
 #include <optional>
@@ -30,8 +28,8 @@ struct Surroundings {
 
 /// Walls and floor of the terrain, planes and surfaces, in the order in which grains know them. `bedWalls`: where those
 /// of a bed stand.
-Surroundings surroundingsOf(const scene::Scene& scene, const std::optional<terrain::HeightField>& floor,
-                            const terrain::Rectangle& bedWalls);
+Surroundings surroundingsOf(const scene::Scene& scene, const ContactPairs& pairs,
+                            const std::optional<terrain::HeightField>& floor, const terrain::Rectangle& bedWalls);
 
 /// The grains' constants, and their walls, floor and surfaces with their laws.
 terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kinds, double timeStep,

@@ -6,7 +6,6 @@
 #include "runs/scene/bed_radii.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
-#include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "terrain/feet_search.hpp"
 #include "terrain/grains.hpp"
@@ -25,8 +24,8 @@ using base::Vec3d;
 /// Radii and places as the sections give them.
 class SpaceCheck {
 public:
-  explicit SpaceCheck(const scene::Scene& scene)
-      : scene_(scene), kinds_(grainKinds(scene)), limit_(base::positionScale(2 * kinds_.largest).limit()) {}
+  SpaceCheck(const scene::Scene& scene, const GrainKinds& kinds)
+      : scene_(scene), kinds_(kinds), limit_(base::positionScale(2 * kinds_.largest).limit()) {}
 
   void grains() const {
     for (std::size_t k = 0; k < scene_.grains.size(); ++k) {
@@ -145,15 +144,15 @@ private:
   }
 
   const scene::Scene& scene_;
-  const GrainKinds kinds_;
+  const GrainKinds& kinds_;
   double limit_;
 };
 
 } // namespace
 
-void checkGrainSpace(const scene::Scene& scene) {
-  if (!grainKinds(scene).any()) return;
-  const SpaceCheck check(scene);
+void checkGrainSpace(const scene::Scene& scene, const GrainKinds& kinds) {
+  if (!kinds.any()) return;
+  const SpaceCheck check(scene, kinds);
   check.grains(), check.sides(), check.boundaries(), check.ids();
 }
 

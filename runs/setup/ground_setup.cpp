@@ -13,7 +13,6 @@
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/provenance.hpp"
-#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/size_checks.hpp"
 #include "runs/setup/sources.hpp"
 #include "runs/setup/start_checks.hpp"
@@ -32,13 +31,13 @@ using base::Vec3d;
 
 namespace {
 
-terrain::PartitionOptions partitionOf(const scene::Scene& scene, int ranks) {
+terrain::PartitionOptions partitionOf(const scene::Scene& scene, const GrainKinds& kinds, int ranks) {
   terrain::PartitionOptions partition;
   partition.rebalance = scene.parallel.rebalance;
   partition.peers = scene.parallel.peerMemory;
   partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
   // A plane beyond all places that a grain can have is as good at their end, which whole units reach.
-  const double end = base::positionScale(2 * grainKinds(scene).largest).limit();
+  const double end = base::positionScale(2 * kinds.largest).limit();
   for (std::vector<double>& planes : partition.cuts)
     for (double& place : planes) place = std::clamp(place, -end, end);
   partition.subdomains = wantedSubdomains(scene);
@@ -224,30 +223,32 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
   checkCompany(scene);
   checkVehicleSurroundings(scene);
-  checkSpeeds(scene, timeStep);
-  checkSurfacesBetweenSides(scene);
+  const ContactPairs pairs(scene);
+  checkSpeeds(scene, pairs, timeStep);
+  checkSurfacesBetweenSides(scene, pairs);
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
   coupling::GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, SizeChecks::due);
-  checkStart(scene, placedGrains(scene), surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{}),
-             timeStep);
+  const Surroundings around = surroundingsOf(scene, pairs, ground.rigid, bed ? bed->walls : terrain::Rectangle{});
+  checkStart(scene, pairs.kinds, placedGrains(scene), around, timeStep);
 }
 
 coupling::GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, SizeChecks sizes) {
   checkCompany(scene);
   checkVehicleSurroundings(scene);
-  checkSpeeds(scene, timeStep);
-  checkSurfacesBetweenSides(scene);
+  const ContactPairs pairs(scene);
+  const GrainKinds& kinds = pairs.kinds;
+  checkSpeeds(scene, pairs, timeStep);
+  checkSurfacesBetweenSides(scene, pairs);
   coupling::GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, sizes);
   ground.obstacles = obstaclesOf(scene);
-  const GrainKinds kinds = grainKinds(scene);
   if (!kinds.any()) return ground;
   if (sizes == SizeChecks::due) checkFillSizes(scene);
-  const Surroundings around = surroundingsOf(scene, ground.rigid, bed ? bed->walls : terrain::Rectangle{});
+  const Surroundings around = surroundingsOf(scene, pairs, ground.rigid, bed ? bed->walls : terrain::Rectangle{});
   const std::vector<scene::Grain> placed = placedGrains(scene);
-  checkStart(scene, placed, around, timeStep);
+  checkStart(scene, kinds, placed, around, timeStep);
   ground.surfaces.assign(around.surfaces.begin(), around.surfaces.end());
   coupling::GrainsSetup& grains = ground.grains.emplace();
   grains.model = grainModel(scene, kinds, timeStep, around, grains.boundaries);
@@ -267,8 +268,8 @@ coupling::GroundSetup groundSetup(const scene::Scene& scene, double timeStep, in
           groundSetup(alone, chooseTimeStep(alone), ranks, SizeChecks::passed));
     }
   }
-  grains.sources = sourcesOf(scene, timeStep);
-  grains.partition = partitionOf(scene, ranks);
+  grains.sources = sourcesOf(scene, kinds, timeStep);
+  grains.partition = partitionOf(scene, kinds, ranks);
   grains.partLaws = partLaws(scene, kinds, grains.model.mass);
   return ground;
 }

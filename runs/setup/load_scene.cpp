@@ -5,11 +5,10 @@
 #include "multibody/part_error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/grain_space.hpp"
 #include "runs/setup/mechanism_model.hpp"
 #include "runs/setup/mechanism_setup.hpp"
-#include "runs/setup/scene_surfaces.hpp"
 
 #include <fmt/format.h>
 
@@ -80,10 +79,10 @@ void requireFelt(const Section& section, const scene::Scene& scene, const SceneS
 }
 
 /// What surfaces are to grains, vehicles and each other.
-void checkSurfaces(const Section& root, const scene::Scene& scene) {
-  const GrainKinds kinds = grainKinds(scene);
+void checkSurfaces(const Section& root, const ContactPairs& pairs, const scene::Scene& scene) {
+  const GrainKinds& kinds = pairs.kinds;
   std::map<std::string, std::string> places; // of names
-  for (const SceneSurface& s : surfacesOf(scene)) {
+  for (const SceneSurface& s : pairs.surfaces) {
     const Section section = root.list(s.list())[s.number];
     if (!kinds.any()) requireFelt(section, scene, s);
     const auto [other, fresh] = places.emplace(s.name, section.path());
@@ -99,8 +98,9 @@ void checkSurfaces(const Section& root, const scene::Scene& scene) {
 scene::Scene checked(scene::Scene scene) {
   const Section root = scene.document->root();
   checkMechanism(root, scene);
-  checkSurfaces(root, scene);
-  checkGrainSpace(scene);
+  const ContactPairs pairs(scene);
+  checkSurfaces(root, pairs, scene);
+  checkGrainSpace(scene, pairs.kinds);
   return scene;
 }
 

@@ -3,10 +3,10 @@
 
 #include "base/math.hpp"
 #include "base/sphere.hpp"
+#include "contact/mixing.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/laws.hpp"
-#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/vehicle_surface.hpp"
 
 #include <fmt/format.h>
@@ -36,41 +36,29 @@ std::vector<std::string> switchedOff(const scene::Material& a, const scene::Mate
   return sentences;
 }
 
-class Pairs {
+/// Grains of a kind against a partner of this material, a row for each three of names.
+class MeetingPairs {
 public:
-  explicit Pairs(const scene::Scene& scene) : scene_(scene), kinds_(grainKinds(scene)) {}
+  explicit MeetingPairs(const scene::Scene& scene) : scene_(scene) {}
 
-  /// All grains against `partner`; an empty name: against their own material.
-  void add(Touched touched, const std::string& what, const std::string& partner,
+  void add(const GrainKinds::Kind& kind, const std::string& partner, ContactPartner::Kind touched,
+           const std::string& what, double share,
            const std::optional<VehicleSurface>& surface = {}) {
-    for (const GrainKinds::Kind& kind : kinds_.kinds)
-      addOne(kind, partner.empty() ? kind.material : partner, touched, what, surface);
-  }
-  void addGrains() {
-    for (std::size_t a = 0; a < kinds_.kinds.size(); ++a)
-      for (std::size_t b = a; b < kinds_.kinds.size(); ++b)
-        addOne(kinds_.kinds[a], kinds_.kinds[b].material, Touched::grain, "grain on grain", {});
-  }
-  std::vector<MeetingPair> take() { return std::move(pairs_); }
-
-private:
-  void addOne(const GrainKinds::Kind& kind, const std::string& partner, Touched touched, const std::string& what,
-              const std::optional<VehicleSurface>& surface) {
     if (!seen_.insert({kind.material, partner, what}).second) return;
-    const double share = touched == Touched::grain ? 0.5 : 1; // effective mass and radius over the grain's
     const double mass = share * base::sphereMass(scene_.material(kind.material).density, kind.smallest);
     MeetingPair pair{kind.material, partner, touched, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
     if (surface) pair.law = surface->with(pair.law);
     pair.stiffness = pair.law.hertz ? 0.75 * pair.law.stiffness : pair.law.stiffness;
-    pair.restitution = restitutionOf(pair.law, mass, mass);
+    pair.restitution = contact::restitutionOf(pair.law, mass, mass);
     const double effectiveRadius = share * kind.smallest;
     pair.cohesion = pair.law.pull(effectiveRadius) / (2 * base::kPi * effectiveRadius);
     pair.off = switchedOff(scene_.material(kind.material), scene_.material(partner), pair.law);
     pairs_.push_back(std::move(pair));
   }
+  std::vector<MeetingPair> take() { return std::move(pairs_); }
 
+private:
   const scene::Scene& scene_;
-  GrainKinds kinds_;
   std::set<std::vector<std::string>> seen_;
   std::vector<MeetingPair> pairs_;
 };
@@ -78,20 +66,21 @@ private:
 } // namespace
 
 std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
-  Pairs pairs(scene);
-  pairs.addGrains();
-  if (scene.terrain)
-    pairs.add(Touched::ground, scene.terrain->granular() ? "grain on the floor" : "grain on rigid ground",
-              scene.terrain->groundMaterial);
-  std::set<std::size_t> named;
-  for (const SceneSurface& s : surfacesOf(scene)) {
-    if (s.geometry.shape == terrain::SurfaceShape::plane && !s.mesh) named.insert(s.number);
-    pairs.add(Touched::surface, "grain on " + s.name, s.section.material);
-  }
-  for (std::size_t k = 0; k < scene.planes.size(); ++k)
-    if (!named.contains(k)) pairs.add(Touched::surface, "grain on a plane", scene.planes[k].material);
-  if (scene.vehicle)
-    pairs.add(Touched::vehicle, "grain on the vehicle", scene.vehicle->material, vehicleSurface(scene));
+  using Kind = ContactPartner::Kind;
+  const ContactPairs all(scene);
+  const std::vector<GrainKinds::Kind>& kinds = all.kinds.kinds;
+  MeetingPairs pairs(scene);
+  for (std::size_t a = 0; a < kinds.size(); ++a)
+    for (std::size_t b = a; b < kinds.size(); ++b) pairs.add(kinds[a], kinds[b].material, Kind::grains, "grain on grain", 0.5);
+  const std::optional<VehicleSurface> ofVehicle = vehicleSurface(scene);
+  for (const Kind shown : {Kind::floor, Kind::surface, Kind::plane, Kind::vehicle})
+    for (const ContactPartner& p : all.partners) {
+      if (p.kind != shown) continue;
+      const bool rigid = p.kind == Kind::floor && !scene.terrain->granular();
+      for (const GrainKinds::Kind& kind : kinds)
+        pairs.add(kind, p.materialAgainst(kind.material), p.kind, rigid ? "grain on rigid ground" : "grain on " + p.name,
+                  p.share(), p.kind == Kind::vehicle ? ofVehicle : std::nullopt);
+    }
   return pairs.take();
 }
 

@@ -2,21 +2,18 @@
 #pragma once
 
 #include "contact/contact_law.hpp"
-#include "runs/scene/scene.hpp"
+#include "runs/setup/contact_pairs.hpp"
 
 #include <string>
 #include <vector>
 
 namespace grouser::setup {
 
-/// What a grain touches.
-enum class Touched { grain, ground, surface, vehicle };
-
 /// A grain and something that it can touch, with what acts between them: after the mixing rule, [contact] and the
 /// vehicle's file.
 struct MeetingPair {
   std::string grain, partner; ///< materials
-  Touched touched{};
+  ContactPartner::Kind touched{};
   std::string what;             ///< for the reader: "grain on grain", "grain on the floor", "grain on box drum"
   contact::ContactLaw law;      ///< for the smallest grains of that material
   double stiffness{};           ///< linear k [N/m]; hertz: effective modulus E_eff [Pa]

@@ -2,8 +2,7 @@
 #include "runs/setup/periodic_boundaries.hpp"
 
 #include "runs/scene/scene.hpp"
-#include "runs/setup/grain_kinds.hpp"
-#include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/contact_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,12 +54,11 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
   }
 }
 
-void checkSurfacesBetweenSides(const scene::Scene& scene) {
+void checkSurfacesBetweenSides(const scene::Scene& scene, const ContactPairs& pairs) {
   const terrain::PeriodicBoundaries sides = periodicBoundaries(scene);
   if (!sides[0] && !sides[1]) return;
-  const double largest = grainKinds(scene).largest;
-  for (const SceneSurface& s : surfacesOf(scene))
-    if (const std::string fault = coupling::faultAtBoundaries(s, s.start, sides, largest); !fault.empty())
+  for (const SceneSurface& s : pairs.surfaces)
+    if (const std::string fault = coupling::faultAtBoundaries(s, s.start, sides, pairs.kinds.largest); !fault.empty())
       scene.fail(s.list(), s.number, "position", "[m]: it " + fault);
 }
 

@@ -10,6 +10,8 @@ struct Scene;
 
 namespace grouser::setup {
 
+struct ContactPairs;
+
 /// Where the sides stand that `run.periodic` joins [m]: at the borders of the terrain, or where run.domain_x and
 /// run.domain_y say. InputError: a height-map that does not fit together across them.
 terrain::PeriodicBoundaries periodicBoundaries(const scene::Scene& scene);
@@ -19,7 +21,7 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
 
 /// Boxes, cylinders and meshes have no images, so none may begin where grains would feel one: see
 /// coupling::faultAtBoundaries(). Throws InputError.
-void checkSurfacesBetweenSides(const scene::Scene& scene);
+void checkSurfacesBetweenSides(const scene::Scene& scene, const ContactPairs& pairs);
 
 /// `surface` must be as high at one periodic boundary as at the other, all along: level in that direction.
 void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& surface);

@@ -5,8 +5,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/scene/soil.hpp"
-#include "runs/setup/grain_kinds.hpp"
-#include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/vehicle_setup.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/file_hash.hpp"
@@ -23,16 +22,11 @@ using support::hashOfFile;
 
 namespace {
 
-/// Whether grains, floor or planes are of this material, or grains that enter later: those have a say in the layout.
-bool isOfBed(const scene::Scene& scene, const std::string& material) {
-  const std::vector<std::string> grains = grainKinds(scene).material;
-  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
-  return material == scene.terrain->groundMaterial ||
-         std::find(grains.begin(), grains.end(), material) != grains.end() ||
-         std::any_of(scene.planes.begin(), scene.planes.end(),
-                     [&](const scene::Plane& plane) { return plane.material == material; }) ||
-         std::any_of(surfaces.begin(), surfaces.end(),
-                     [&](const SceneSurface& s) { return s.section.material == material; });
+/// Whether grains are of this material, or what they touch but the vehicle: those have a say in the layout.
+bool isOfBed(const ContactPairs& pairs, const std::string& material) {
+  return std::any_of(pairs.partners.begin(), pairs.partners.end(), [&](const ContactPartner& p) {
+    return p.material == material && p.kind != ContactPartner::Kind::vehicle;
+  });
 }
 
 /// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
@@ -70,13 +64,14 @@ std::vector<scene::Source> sourcesOfBed(const std::vector<scene::Source>& source
 /// two beds of one, but never one of two (but for those of [run], see above).
 scene::Scene bedAlone(scene::Scene scene) {
   scene.run = settingsOfBed(scene.run);
-  std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(scene, m.name); });
+  const ContactPairs pairs(scene);
+  std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(pairs, m.name); });
   for (scene::Material& m : scene.materials) {
     m.soil.clear(), m.soilHash.clear(), m.grainRadius.reset(); // values count
     m.crushingStrength.reset();                                // acts between grains and parts only
   }
   std::erase_if(scene.contacts,
-                [&](const scene::ContactPair& p) { return !isOfBed(scene, p.first) || !isOfBed(scene, p.second); });
+                [&](const scene::ContactPair& p) { return !isOfBed(pairs, p.first) || !isOfBed(pairs, p.second); });
   removeVehicle(scene);
   scene.mechanism = {}, scene.output = {}, scene.parallel = {};
   scene.terrain->cache = true;

@@ -4,8 +4,7 @@
 #include "base/rounded.hpp"
 #include "base/table.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/setup/grain_kinds.hpp"
-#include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/step_limit.hpp"
 
 #include <algorithm>
@@ -51,14 +50,9 @@ void checkPair(const scene::Scene& scene, const std::string& nameA, const std::s
 } // namespace
 
 void checkRestitutions(const scene::Scene& scene) {
-  for (const std::string& grain : grainKinds(scene).material) {
-    const auto against = [&](const std::string& other) { checkPair(scene, grain, other.empty() ? grain : other); };
-    for (const std::string& other : grainKinds(scene).material) against(other);
-    for (const scene::Plane& plane : scene.planes) against(plane.material);
-    for (const SceneSurface& s : surfacesOf(scene)) against(s.section.material);
-    if (scene.terrain) against(scene.terrain->groundMaterial);
-    if (scene.vehicle) against(scene.vehicle->material);
-  }
+  const ContactPairs pairs(scene);
+  for (const std::string& grain : pairs.kinds.material)
+    for (const ContactPartner& partner : pairs.partners) checkPair(scene, grain, partner.materialAgainst(grain));
 }
 
 } // namespace grouser::setup

@@ -10,8 +10,7 @@
 
 namespace grouser::setup {
 
-coupling::Sources sourcesOf(const scene::Scene& scene, double timeStep) {
-  const GrainKinds kinds = grainKinds(scene);
+coupling::Sources sourcesOf(const scene::Scene& scene, const GrainKinds& kinds, double timeStep) {
   std::vector<coupling::SourceSetup> sources;
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const scene::Source& s = scene.sources[k];
@@ -30,9 +29,9 @@ coupling::Sources sourcesOf(const scene::Scene& scene, double timeStep) {
   return {std::move(sources), periodicBoundaries(scene)};
 }
 
-void checkSources(const scene::Scene& scene) {
+void checkSources(const scene::Scene& scene, const GrainKinds& kinds) {
   constexpr double kAllAtOnce = 1e300; // a time step [s] in which all begin
-  sourcesOf(scene, kAllAtOnce).enteringAt(0);
+  sourcesOf(scene, kinds, kAllAtOnce).enteringAt(0);
 }
 
 } // namespace grouser::setup

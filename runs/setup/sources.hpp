@@ -9,10 +9,12 @@ struct Scene;
 
 namespace grouser::setup {
 
+struct GrainKinds;
+
 /// Those of a scene, with their times in steps.
-coupling::Sources sourcesOf(const scene::Scene& scene, double timeStep);
+coupling::Sources sourcesOf(const scene::Scene& scene, const GrainKinds& kinds, double timeStep);
 
 /// Throws base::InputError naming the source whose grains do not fit into its box beside each other.
-void checkSources(const scene::Scene& scene);
+void checkSources(const scene::Scene& scene, const GrainKinds& kinds);
 
 } // namespace grouser::setup

@@ -59,11 +59,10 @@ struct Ball {
 /// Sets balls into the scene one after the other, each where nothing may be yet.
 class Placing {
 public:
-  Placing(const scene::Scene& scene, const Surroundings& around)
+  Placing(const scene::Scene& scene, const Surroundings& around, double largest)
       : scene_(scene), around_(around), periodic_(periodicBoundaries(scene)),
-        largest_(grainKinds(scene).largest), along_{CellsAlong(2 * largest_, periodic_[0]),
-                                                    CellsAlong(2 * largest_, periodic_[1]),
-                                                    CellsAlong(2 * largest_, {})} {
+        largest_(largest), along_{CellsAlong(2 * largest_, periodic_[0]), CellsAlong(2 * largest_, periodic_[1]),
+                                  CellsAlong(2 * largest_, {})} {
     if (around.floor) floor_ = terrain::SearchedHeightField(base::Exec{}, *around.floor, largest_);
   }
 
@@ -162,13 +161,13 @@ void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& g
 
 } // namespace
 
-void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
-                double timeStep) {
+void checkStart(const scene::Scene& scene, const GrainKinds& kinds, const std::vector<scene::Grain>& grains,
+                const Surroundings& around, double timeStep) {
   checkBetweenSides(scene, grains);
-  checkSources(scene);
-  Placing placing(scene, around);
+  checkSources(scene, kinds);
+  Placing placing(scene, around, kinds.largest);
   placeStarting(scene, grains, placing);
-  const coupling::Sources sources = sourcesOf(scene, timeStep);
+  const coupling::Sources sources = sourcesOf(scene, kinds, timeStep);
   std::size_t checked = 0;
   for (auto step = sources.nextEntry(0); step && checked < kMostChecked; step = sources.nextEntry(*step + 1)) {
     const double time = static_cast<double>(*step) * timeStep;

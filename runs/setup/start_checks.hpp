@@ -10,7 +10,7 @@ namespace grouser::setup {
 /// or in a surface than run.max_overlap allows: whatever of it can be known before the run. Surfaces are taken where
 /// their motion has them when a grain enters; those that forces move, at the start alone. `grains`: all of [[grain]]
 /// and [[grains]].
-void checkStart(const scene::Scene& scene, const std::vector<scene::Grain>& grains, const Surroundings& around,
-                double timeStep);
+void checkStart(const scene::Scene& scene, const GrainKinds& kinds, const std::vector<scene::Grain>& grains,
+                const Surroundings& around, double timeStep);
 
 } // namespace grouser::setup

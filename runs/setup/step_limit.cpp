@@ -6,15 +6,14 @@
 #include "base/rounded.hpp"
 #include "base/sphere.hpp"
 #include "base/table.hpp"
+#include "contact/mixing.hpp"
 #include "contact/restitution.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_contacts.hpp"
 #include "runs/setup/grain_count.hpp"
-#include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/obstacles.hpp"
-#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/time_scales.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -104,12 +103,13 @@ double mostTouching(const scene::Scene& scene, const SceneSurface& surface, doub
 }
 
 /// A surface that forces move, on springs of all grains that it may touch.
-void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const GrainKinds& kinds) {
-  for (const SceneSurface& s : surfacesOf(scene)) {
+void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs) {
+  for (const SceneSurface& s : pairs.surfaces) {
     if (!s.section.free) continue;
-    for (const auto& [material, radius, largest] : kinds.kinds) {
+    for (const auto& [material, radius, largest] : pairs.kinds.kinds) {
       const double mass = base::sphereMass(scene.material(material).density, radius);
-      const auto c = stiffest(pairLaw(scene, material, s.section.material, mass), mass, radius, scene.run.impactSpeed);
+      const contact::ContactLaw law = pairLaw(scene, material, s.section.material, mass);
+      const auto c = contact::stiffest(law, mass, radius, scene.run.impactSpeed);
       const double springs = 1 / mass + mostTouching(scene, s, radius) / *s.section.mass;
       considerBoth(
           limit, c.normalStiffness * springs, c.damping * springs,
@@ -185,29 +185,25 @@ void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehi
            "lower contact.foundation_modulus in vehicle.spec");
 }
 
-} // namespace
-
-StepLimit stepLimit(const scene::Scene& scene) {
+StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const std::vector<GrainContact>& contacts) {
   StepLimit limit;
   const bool alone = !scene.terrain && plannedGrains(scene) == 1;
-  for (const GrainContact& c : grainContacts(scene)) {
+  for (const GrainContact& c : contacts) {
     if (!alone || !c.amongGrains) considerEnergy(limit, c);
     considerModes(limit, c);
   }
-  considerFreeSurfaces(limit, scene, grainKinds(scene));
+  considerFreeSurfaces(limit, scene, pairs);
   if (!scene.vehicle) return limit;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   considerVehicle(limit, spec), considerPressedShoe(limit, scene, spec);
   return limit;
 }
 
-double shortestContact(const scene::Scene& scene) {
+double shortestOf(const std::vector<GrainContact>& contacts) {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const GrainContact& c : grainContacts(scene)) shortest = std::min(shortest, c.duration);
+  for (const GrainContact& c : contacts) shortest = std::min(shortest, c.duration);
   return std::isfinite(shortest) ? shortest : 0;
 }
-
-namespace {
 
 /// How far a grain sinks under its own weight [m]: linear F = k overlap, hertz F = K sqrt(R) overlap^(3/2).
 double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRadius) {
@@ -237,10 +233,10 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
 
 /// Throws where a grain at rest sinks deeper than a run may bear: contacts so soft hold nothing up, last longer than
 /// runs do, and their energies have no scale in common with those of gravity.
-void checkSoftness(const scene::Scene& scene) {
+void checkSoftness(const scene::Scene& scene, const ContactPairs& pairs) {
   const double gravity = norm(scene.run.gravity), most = scene.run.entryOverlap();
   if (gravity == 0) return;
-  for (const GrainContact& c : grainContacts(scene, Of::largest)) {
+  for (const GrainContact& c : grainContacts(scene, pairs, Of::largest)) {
     const double sinks = sinksBy(c.law, c.mass * gravity, c.effectiveRadius) / c.radius;
     if (sinks <= most) continue;
     // A hundredth more than what is needed, so that the number holds as it is printed.
@@ -254,17 +250,27 @@ void checkSoftness(const scene::Scene& scene) {
 
 } // namespace
 
+StepLimit stepLimit(const scene::Scene& scene) {
+  const ContactPairs pairs(scene);
+  return stepLimit(scene, pairs, grainContacts(scene, pairs));
+}
+
+double shortestContact(const scene::Scene& scene) { return shortestOf(grainContacts(scene, ContactPairs(scene))); }
+
 double chooseTimeStep(const scene::Scene& scene) {
   if (!scene.mechanism.empty()) return mechanismTimeStep(scene);
-  checkSoftness(scene);
-  const StepLimit limit = stepLimit(scene);
-  const double contact = shortestContact(scene);
+  const ContactPairs pairs(scene);
+  checkSoftness(scene, pairs);
+  const std::vector<GrainContact> contacts = grainContacts(scene, pairs);
+  const StepLimit limit = stepLimit(scene, pairs, contacts);
+  const double contact = shortestOf(contacts);
   // Where a contact is to have more or fewer steps than usual, so has all that grains do, down to the limits.
   const double coarser = scene::kStepsPerContact / scene.run.stepsPerContact;
   double automatic = contact > 0 ? contact / scene.run.stepsPerContact : kVehicleTimeStep;
   automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step});
-  for (const auto& [material, radius, largest] : grainKinds(scene).kinds)
-    automatic = std::min(automatic, coarser * kRayleighShare * rayleighTimeOf(scene.material(material), radius));
+  for (const auto& [material, radius, largest] : pairs.kinds.kinds)
+    automatic =
+        std::min(automatic, coarser * kRayleighShare * contact::rayleighTimeOf(scene.material(material), radius));
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
@@ -308,9 +314,9 @@ double leverOf(const SceneSurface& s) {
   }
 }
 
-void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeStep) {
-  const double most = kRounding * 0.5 * smallest / timeStep;
-  for (const SceneSurface& s : surfacesOf(scene)) {
+void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
+  const double most = kRounding * 0.5 * pairs.kinds.smallest / timeStep;
+  for (const SceneSurface& s : pairs.surfaces) {
     // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
     const auto across = [&](const std::optional<Vec3d>& v) {
@@ -333,11 +339,10 @@ void checkSurfaceSpeeds(const scene::Scene& scene, double smallest, double timeS
 
 } // namespace
 
-void checkSpeeds(const scene::Scene& scene, double timeStep) {
-  const GrainKinds kinds = grainKinds(scene);
-  if (!kinds.any()) return;
-  checkSurfaceSpeeds(scene, kinds.smallest, timeStep);
-  const double most = kRounding * 0.5 * scene.run.skin * kinds.smallest / timeStep;
+void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
+  if (!pairs.kinds.any()) return;
+  checkSurfaceSpeeds(scene, pairs, timeStep);
+  const double most = kRounding * 0.5 * scene.run.skin * pairs.kinds.smallest / timeStep;
   const auto check = [&](const char* list, const auto& sections) {
     for (std::size_t k = 0; k < sections.size(); ++k)
       if (norm(sections[k].velocity) > most)

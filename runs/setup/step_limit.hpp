@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/scene/scene.hpp"
+#include "runs/setup/contact_pairs.hpp"
 
 #include <limits>
 #include <string>
@@ -47,6 +47,6 @@ double chooseTimeStep(const scene::Scene& scene);
 
 /// Throws InputError where a surface goes farther in a step than half a radius: it could pass through a grain unfelt;
 /// and where a grain starts or enters more quickly than the neighbour lists can follow.
-void checkSpeeds(const scene::Scene& scene, double timeStep);
+void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep);
 
 } // namespace grouser::setup

@@ -113,7 +113,7 @@ fs::path fileOf(const std::string& nameOrFile) {
 /// Keys of a material that has been checked, and what follows from them.
 void takeMaterial(const base::Section& section, const scene::Material& m, TestedSoil& soil) {
   if (m.hertzian()) soil.young = *m.young, soil.poisson = m.poisson.value_or(scene::Material::kPoisson);
-  soil.isPlain = m.law == scene::ContactLawKind::linear && m.cohesion == 0;
+  soil.isPlain = m.law == contact::LawKind::linear && m.cohesion == 0;
   const double ratio = soil.grainRadius / soil.fileRadius;
   for (const base::Node::Entry& e : std::get<base::Node::Map>(section.node().value))
     soil.keys.emplace_back(e.key, tomlOf(e.key, section, e.node, ratio));

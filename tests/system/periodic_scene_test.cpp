@@ -4,6 +4,7 @@
 #include "coupling/settled_ground.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/ground_setup.hpp"
+#include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/sources.hpp"
@@ -140,7 +141,8 @@ TEST(PeriodicBoundaries, GrainsOfASourceDoNotEnterInEachOthersImages) {
             "\n[material.soil]\n[[source]]\nlow = [0, -0.1, 0]\nhigh = [0.2, 0.1, 0.01]\nradius = 0.01\n"
             "material = \"soil\"\nnumber = 25\ntotal = 25\nevery = 1\n",
         "rain.toml");
-    const std::vector<terrain::GrainSpec> grains = setup::sourcesOf(scene, kStep).enteringAt(0);
+    const std::vector<terrain::GrainSpec> grains =
+        setup::sourcesOf(scene, setup::grainKinds(scene), kStep).enteringAt(0);
     ASSERT_EQ(grains.size(), 25u);
     for (std::size_t i = 0; i < grains.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/sources.hpp"
 
@@ -41,8 +42,11 @@ scene::Scene drip(const std::vector<std::string>& overrides = {}) {
   return setup::parseScene(kDrip, "drip.toml", overrides);
 }
 
+/// In steps of 1e-4 s.
+Sources sourcesOf(const scene::Scene& scene) { return setup::sourcesOf(scene, setup::grainKinds(scene), 1e-4); }
+
 TEST(Sources, GivesBatchesOnTimeAndTheRestLast) {
-  const Sources sources = setup::sourcesOf(drip(), 1e-4);
+  const Sources sources = sourcesOf(drip());
   std::vector<std::pair<std::int64_t, std::size_t>> seen;
   for (std::int64_t step = 0; step < 10000; ++step)
     if (const auto batch = sources.enteringAt(step); !batch.empty()) seen.emplace_back(step, batch.size());
@@ -51,7 +55,7 @@ TEST(Sources, GivesBatchesOnTimeAndTheRestLast) {
 
 TEST(Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
   const scene::Scene scene = drip();
-  const auto batch = setup::sourcesOf(scene, 1e-4).enteringAt(1500);
+  const auto batch = sourcesOf(scene).enteringAt(1500);
   for (std::size_t i = 0; i < batch.size(); ++i) {
     for (int a = 0; a < 3; ++a) {
       EXPECT_GE(batch[i].position[a], scene.sources[0].low[a]);
@@ -59,8 +63,8 @@ TEST(Sources, PlacesLieInTheBoxApartFromEachOtherAndFollowFromTheSeed) {
     }
     for (std::size_t j = 0; j < i; ++j) EXPECT_GE(norm(batch[i].position - batch[j].position), 0.04);
   }
-  EXPECT_EQ(batch[0].position, setup::sourcesOf(drip(), 1e-4).enteringAt(1500)[0].position);
-  EXPECT_NE(batch[0].position, setup::sourcesOf(drip({"run.seed=4"}), 1e-4).enteringAt(1500)[0].position);
+  EXPECT_EQ(batch[0].position, sourcesOf(drip()).enteringAt(1500)[0].position);
+  EXPECT_NE(batch[0].position, sourcesOf(drip({"run.seed=4"})).enteringAt(1500)[0].position);
 }
 
 TEST(Sources, FallingGrainsBringTheirEnergyWithThem) {
@@ -74,7 +78,7 @@ TEST(Sources, FallingGrainsBringTheirEnergyWithThem) {
   EXPECT_NEAR(l.residual, 0, 10 * 0.084 * 10 * 4.5 * 1e-4 / 2 * 1.01);
   // The first three have fallen for 0.35 s: h = v t + g t^2 / 2, exactly but for the step's g t dt / 2.
   const auto s = simulation.ground().grains->snapshot();
-  const auto first = setup::sourcesOf(scene, 1e-4).enteringAt(500);
+  const auto first = sourcesOf(scene).enteringAt(500);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(first[i].position.z - s.position[i].z, 0.35 + 5 * 0.35 * 0.35, 10 * 0.35 * 1e-4 / 2 * 1.01);
 }
@@ -178,13 +182,13 @@ total = 8
     scene::Scene scene;
     try {
       scene = setup::parseScene(kDrip + std::string(kLine), "drip.toml", {"run.seed=" + std::to_string(seed)});
-      setup::checkSources(scene);
+      setup::checkSources(scene, setup::grainKinds(scene));
     } catch (const base::InputError& error) {
       checked = false;
       EXPECT_NE(std::string(error.what()).find("drip.toml:21: source.1: 8 grains"), std::string::npos) << error.what();
     }
     try {
-      setup::sourcesOf(scene, 1e-4).enteringAt(0);
+      sourcesOf(scene).enteringAt(0);
     } catch (const base::InputError&) {
       thrown = false;
     }

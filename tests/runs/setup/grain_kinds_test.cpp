@@ -177,8 +177,8 @@ TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
   const std::string inputs = inputsOf(read("0 0 1 0.1\n"));
   EXPECT_NE(inputs, inputsOf(read("0 0 1 0.2\n"))) << "a file that changed is another scene";
   const scene::Scene quick = read("0 0 1 0.1 100 0 0\n");
-  EXPECT_THROW(checkSpeeds(quick, 1e-3), base::InputError) << "farther than the skin in a step";
-  EXPECT_NO_THROW(checkSpeeds(quick, 1e-5));
+  EXPECT_THROW(checkSpeeds(quick, ContactPairs(quick), 1e-3), base::InputError) << "farther than the skin in a step";
+  EXPECT_NO_THROW(checkSpeeds(quick, ContactPairs(quick), 1e-5));
 }
 
 TEST(ManyKindsScene, RunsToOneAnswerInEitherPrecisionAndResumes) {

@@ -4,7 +4,9 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/placement.hpp"
 
+#include "base/error.hpp"
 #include "base/math.hpp"
+#include "contact/mixing.hpp"
 #include "runs/scene/scene.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -38,6 +40,52 @@ TEST(PairLawValues, OfUnlikeMaterialsAreTwoSpringsInARowAndTheWeakerOfTheRest) {
   const contact::ContactLaw own = pairLaw(scene, "hard", "hard", 0.1);
   EXPECT_EQ(own.stiffness, 3e5);
   EXPECT_NEAR(own.pullPerRadius, 2 * base::kPi * 0.9, 1e-12);
+}
+
+TEST(PairLawValues, AreThoseOfTheSamePropertiesWithoutAScene) {
+  const scene::Scene scene = twoMaterials("[contact.\"soft|hard\"]\nfriction = 0.1\n");
+  contact::MaterialProperties soft, hard;
+  soft.stiffness = 1e5, soft.friction = 0.3, soft.tangentialStiffnessRatio = 0.5, soft.tangentialDampingRatio = 0.7;
+  soft.damping = 200, soft.rollingFriction = 0.02, soft.cohesion = 0.4;
+  hard.stiffness = 3e5, hard.friction = 0.8, hard.tangentialStiffnessRatio = 0.4, hard.tangentialDampingRatio = 0.9;
+  hard.damping = 500, hard.rollingFriction = 0.05, hard.cohesion = 0.9;
+  contact::PairProperties pair;
+  pair.friction = 0.1;
+  for (const std::optional<double> mass : {std::optional<double>(), std::optional(0.1)}) {
+    const contact::ContactLaw plain = contact::mixedLaw(soft, hard, pair, mass),
+                              law = pairLaw(scene, "soft", "hard", mass);
+    EXPECT_EQ(law.stiffness, plain.stiffness);
+    EXPECT_EQ(law.tangentialStiffness, plain.tangentialStiffness);
+    EXPECT_EQ(law.damping, plain.damping);
+    EXPECT_EQ(law.tangentialDamping, plain.tangentialDamping);
+    EXPECT_EQ(law.friction, plain.friction);
+    EXPECT_EQ(law.rollingFriction, plain.rollingFriction);
+    EXPECT_EQ(law.rollingDamping, plain.rollingDamping) << "a default";
+    EXPECT_EQ(law.pullPerRadius, plain.pullPerRadius);
+    EXPECT_EQ(law.fixedShare, plain.fixedShare);
+  }
+}
+
+TEST(PairLawValues, ErrorsStandAtTheKeyInTheScene) {
+  const auto messageOf = [](const std::string& first, const std::string& second) {
+    const scene::Scene scene =
+        parseScene("version = 1\n[run]\nduration = 1\n[material.a]\n" + first + "[material.b]\n" + second +
+                       "[[grain]]\nposition = [0, 0, 1]\nradius = 0.1\nmaterial = \"a\"\n",
+                   "pair.toml");
+    try {
+      pairLaw(scene, "a", "b", {});
+    } catch (const base::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(messageOf("", "law = \"hertz\"\nyoung = 1e8\n"),
+            "pair.toml:6: material.b.law = \"hertz\" does not go with law = \"linear\" of material.a, which it meets: "
+            "surfaces that touch must both be hertz or eepa, or both linear, eepa_linear or luding, and no eepa_linear "
+            "meets luding; give both one of the two");
+  EXPECT_EQ(messageOf("damping = 300\n", "restitution = 0.5\n"),
+            "pair.toml:5: material.a.damping = 300 [1/s] cannot be compared with the restitution of material.b among "
+            "grains of many masses; give both the same way, or [contact.\"a|b\"] for the pair");
 }
 
 TEST(PairLawValues, OfAPairAreThoseOfItsSection) {

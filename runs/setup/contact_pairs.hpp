@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/scene_surfaces.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+
+/// Something that grains can touch.
+struct ContactPartner {
+  /// Planes that move or have a name are surfaces, as are boxes, cylinders and meshes.
+  enum class Kind { grains, bedWalls, plane, surface, floor, vehicle };
+  Kind kind{};
+  std::string material;             ///< empty: the grain's own, of a vehicle without one
+  std::string name;                 ///< "the floor", "box drum"; of grains their material
+  std::size_t number = 0;           ///< of a plane in the scene, of a surface among `surfaces`
+  std::optional<double> friction{}; ///< otherwise than the materials have it [-]
+
+  const std::string& materialAgainst(const std::string& grain) const { return material.empty() ? grain : material; }
+  /// Share of a grain's own mass and radius that counts in a contact with it [-]: half among equal grains.
+  double share() const { return kind == Kind::grains ? 0.5 : 1; }
+};
+
+/// The kinds of grains of a scene and all that they can touch: each kind can touch each partner. Every list of laws,
+/// contacts and materials that meet goes through it.
+struct ContactPairs {
+  GrainKinds kinds;
+  std::vector<SceneSurface> surfaces;
+  /// Grains by their kind, walls of the bed, planes in the order of the file, the other surfaces, floor, vehicle.
+  std::vector<ContactPartner> partners;
+
+  explicit ContactPairs(const scene::Scene& scene);
+  /// Whether it is a plane, moving or not.
+  bool isPlane(const ContactPartner& partner) const;
+};
+
+} // namespace grouser::setup
