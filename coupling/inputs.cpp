@@ -19,9 +19,13 @@ std::array<double, Input::kNumbers> Input::numbers() const {
 Input Input::of(const double* n) {
   constexpr auto kKinds = static_cast<double>(std::size(base::EnumWords<InputKind>::list));
   if (!(n[0] >= 0) || !(n[1] >= 0) || !(n[1] < kKinds))
-    throw base::InputError("an input is of no kind that this program knows; resume or replay with the one that wrote it");
-  Input input{static_cast<std::int64_t>(n[0]), static_cast<InputKind>(static_cast<int>(n[1])),
-              static_cast<std::int32_t>(n[2]), n[3] != 0, {}};
+    throw base::InputError(
+        "an input is of no kind that this program knows; resume or replay with the one that wrote it");
+  Input input{static_cast<std::int64_t>(n[0]),
+              static_cast<InputKind>(static_cast<int>(n[1])),
+              static_cast<std::int32_t>(n[2]),
+              n[3] != 0,
+              {}};
   std::copy(n + 4, n + kNumbers, input.value.begin());
   return input;
 }

@@ -26,9 +26,9 @@ enum class InputKind : std::int32_t {
 struct Input {
   std::int64_t step{}; ///< before which it is made
   InputKind kind{};
-  std::int32_t target{};           ///< track (0 left, 1 right) or body; 0 of the others
-  bool released{};                 ///< back to what the scene says
-  std::array<double, 6> value{};   ///< as many as the kind has, 0 behind them
+  std::int32_t target{};              ///< track (0 left, 1 right) or body; 0 of the others
+  bool released{};                    ///< back to what the scene says
+  std::array<double, 6> value{};      ///< as many as the kind has, 0 behind them
   static constexpr int kNumbers = 10; ///< in a row of a file
 
   std::array<double, kNumbers> numbers() const;
@@ -67,8 +67,11 @@ private:
 
 template <> struct grouser::base::EnumWords<grouser::coupling::InputKind> {
   using E = coupling::InputKind;
-  static constexpr EnumWord<E> list[] = {{E::sprocketSpeed, "sprocket_speed"}, {E::sprocketTorque, "sprocket_torque"},
-                                         {E::throttle, "throttle"},            {E::hitchForce, "hitch_force"},
-                                         {E::hitchSpeed, "hitch_speed"},       {E::gravity, "gravity"},
+  static constexpr EnumWord<E> list[] = {{E::sprocketSpeed, "sprocket_speed"},
+                                         {E::sprocketTorque, "sprocket_torque"},
+                                         {E::throttle, "throttle"},
+                                         {E::hitchForce, "hitch_force"},
+                                         {E::hitchSpeed, "hitch_speed"},
+                                         {E::gravity, "gravity"},
                                          {E::bodyLoad, "body_load"}};
 };

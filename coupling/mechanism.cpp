@@ -45,9 +45,11 @@ void Mechanism::fail(const std::string& message) const {
 void Mechanism::require(const Input& input) const {
   if (input.kind == InputKind::gravity) return;
   if (input.kind != InputKind::bodyLoad)
-    throw base::InputError(fmt::format("a mechanism has no {}; it takes gravity and body_load", base::wordOf(input.kind)));
+    throw base::InputError(
+        fmt::format("a mechanism has no {}; it takes gravity and body_load", base::wordOf(input.kind)));
   if (input.target < 0 || at(input.target) >= model_.bodies().size())
-    throw base::InputError(fmt::format("the mechanism has no body {}; it has {}", input.target, model_.bodies().size()));
+    throw base::InputError(
+        fmt::format("the mechanism has no body {}; it has {}", input.target, model_.bodies().size()));
 }
 
 void Mechanism::command(const Inputs& inputs) {

@@ -284,8 +284,7 @@ void takeIntoScene(LaidGround& ground, const GroundSetup& scene, const base::Exe
   ground.grains->restore(rows);
 }
 
-LaidGround groundAt(const GroundSetup& scene, const GrainState& rows, const base::Exec& exec,
-                const base::Comm& comm) {
+LaidGround groundAt(const GroundSetup& scene, const GrainState& rows, const base::Exec& exec, const base::Comm& comm) {
   LaidGround ground;
   ground.surface = scene.surface, ground.rigid = scene.rigid;
   ground.walls = scene.grains->bed->walls;

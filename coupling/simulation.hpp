@@ -4,11 +4,11 @@
 #include "coupling/energy_guard.hpp"
 #include "coupling/granular_ground.hpp"
 #include "coupling/inputs.hpp"
-#include "coupling/settled_ground.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/mechanism.hpp"
 #include "coupling/pressed_grain.hpp"
 #include "coupling/settled_beds.hpp"
+#include "coupling/settled_ground.hpp"
 #include "coupling/simulation_setup.hpp"
 #include "coupling/simulation_state.hpp"
 #include "coupling/step_observer.hpp"
@@ -135,7 +135,7 @@ private:
   std::unique_ptr<Ground> ground_;    ///< null without; refers to laid_
   GranularGround* granular_{nullptr}; ///< ground_ where it is grains
   SettleReport settled_;
-  std::vector<double> lifts_;         ///< of what is put on a settled bed; see liftsOnto()
+  std::vector<double> lifts_;          ///< of what is put on a settled bed; see liftsOnto()
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;

@@ -38,12 +38,13 @@ void Simulation::require(const Input& input) const {
   const double most = largest(input.kind);
   for (const double v : input.value)
     if (!(std::fabs(v) <= most))
-      throw base::InputError(fmt::format("{} = {:g} is outside [{:g}, {:g}]", base::wordOf(input.kind), v, -most, most));
+      throw base::InputError(
+          fmt::format("{} = {:g} is outside [{:g}, {:g}]", base::wordOf(input.kind), v, -most, most));
   if (vehicle_) return vehicle_->require(input);
   if (mechanism_) return mechanism_->require(input);
   if (input.kind != InputKind::gravity)
-    throw base::InputError(fmt::format("{} cannot be set: the scene has neither vehicle nor mechanism",
-                                       base::wordOf(input.kind)));
+    throw base::InputError(
+        fmt::format("{} cannot be set: the scene has neither vehicle nor mechanism", base::wordOf(input.kind)));
 }
 
 void Simulation::set(InputKind kind, std::int32_t target, const std::optional<std::array<double, 6>>& value) {
@@ -84,9 +85,10 @@ std::int32_t Simulation::bodyIndex(const std::string& name) const {
       if (body.name == name) return static_cast<std::int32_t>(names.size());
       names.push_back(body.name);
     }
-  throw base::InputError(names.empty() ? fmt::format("there is no body \"{}\": the scene has neither vehicle nor mechanism", name)
-                                       : fmt::format("there is no body \"{}\"; the nearest is \"{}\"", name,
-                                                     base::nearestWord(name, names)));
+  throw base::InputError(
+      names.empty()
+          ? fmt::format("there is no body \"{}\": the scene has neither vehicle nor mechanism", name)
+          : fmt::format("there is no body \"{}\"; the nearest is \"{}\"", name, base::nearestWord(name, names)));
 }
 
 } // namespace grouser::coupling

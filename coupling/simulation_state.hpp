@@ -33,8 +33,8 @@ struct SimulationState {
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
-  std::vector<double> lifts; ///< of what was put on a settled bed [m]; empty without
-  TakenOut taken;            ///< since the start
+  std::vector<double> lifts;  ///< of what was put on a settled bed [m]; empty without
+  TakenOut taken;             ///< since the start
   std::vector<double> inputs; ///< Inputs::save(); empty where nothing has been set from outside
 
   /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of

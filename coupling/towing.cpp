@@ -44,8 +44,8 @@ HitchObservation Towing::observe(Means of) const {
 }
 
 std::vector<double> Towing::books() const {
-  return {work_.sum,   work_.lost,  rows_.forces.x, rows_.forces.y, rows_.forces.z,
-          rows_.speeds, rows_.taken, static_cast<double>(rows_.steps)};
+  return {work_.sum,      work_.lost,   rows_.forces.x, rows_.forces.y,
+          rows_.forces.z, rows_.speeds, rows_.taken,    static_cast<double>(rows_.steps)};
 }
 
 double Towing::workOf(const std::vector<double>& books) { return multibody::CompensatedSum{books[0], books[1]}; }

@@ -48,7 +48,7 @@ public:
 
   std::vector<double> save() const { return hitch_.save(); } ///< what later steps depend on
   std::vector<double> books() const;                         ///< what later rows depend on
-  static double workOf(const std::vector<double>& books); ///< work() that books() has [J]
+  static double workOf(const std::vector<double>& books);    ///< work() that books() has [J]
   void restore(const std::vector<double>& state, const std::vector<double>& books);
 
 private:

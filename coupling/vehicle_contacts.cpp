@@ -16,9 +16,9 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kTrackMargin = 0.004; // [m] how far before touching a sample is listed
+constexpr double kTrackMargin = 0.004;  // [m] how far before touching a sample is listed
 constexpr double kGroundMargin = 0.008; // [m] the same for ground and obstacles
-constexpr double kAhead = 0.0005;      // [m] that parts may move in a step launched ahead, however slow they were
+constexpr double kAhead = 0.0005;       // [m] that parts may move in a step launched ahead, however slow they were
 
 } // namespace
 

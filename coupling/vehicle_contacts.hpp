@@ -5,13 +5,13 @@
 #include "base/device_graph.hpp"
 #include "base/gate.hpp"
 #include "contact/patch_contacts.hpp"
-#include "multibody/state.hpp"
 #include "coupling/ground.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/obstacle_contacts.hpp"
 #include "coupling/step_observer.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "coupling/vehicle_state.hpp"
+#include "multibody/state.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <memory>

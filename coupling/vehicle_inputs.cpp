@@ -13,7 +13,9 @@ using vehicle::SprocketDrive;
 
 /// Throws where sprockets are driven in another way than `right`, which the message names.
 void requireDrive(bool right, const char* what, const char* drive) {
-  if (!right) throw base::InputError(fmt::format("{} cannot be set with this driver; give the scene driver.drive = {}", what, drive));
+  if (!right)
+    throw base::InputError(
+        fmt::format("{} cannot be set with this driver; give the scene driver.drive = {}", what, drive));
 }
 
 } // namespace
@@ -37,14 +39,14 @@ void VehicleRig::require(const Input& input) const {
     const bool force = input.kind == InputKind::hitchForce;
     const vehicle::HitchKind wanted = force ? vehicle::HitchKind::force : vehicle::HitchKind::speed;
     if (!towing_ || towing_->kind() != wanted)
-      throw base::InputError(fmt::format("the scene has no hitch whose {0} could be set; give it [hitch] kind = \"{0}\"",
-                                         force ? "force" : "speed"));
+      throw base::InputError(fmt::format(
+          "the scene has no hitch whose {0} could be set; give it [hitch] kind = \"{0}\"", force ? "force" : "speed"));
     return;
   }
   case InputKind::bodyLoad:
     if (input.target < 0 || input.target >= static_cast<std::int32_t>(assembly_.model.bodies().size()))
-      throw base::InputError(fmt::format("the vehicle has no body {}; it has {}", input.target,
-                                         assembly_.model.bodies().size()));
+      throw base::InputError(
+          fmt::format("the vehicle has no body {}; it has {}", input.target, assembly_.model.bodies().size()));
     return;
   case InputKind::gravity:
     return;
@@ -63,7 +65,8 @@ void VehicleRig::command(const Inputs& inputs) {
   ofTracks(InputKind::throttle, commands_.throttle);
   applied_.set(inputs);
   if (!towing_) return;
-  const auto pull = inputs.now(towing_->kind() == vehicle::HitchKind::force ? InputKind::hitchForce : InputKind::hitchSpeed);
+  const auto pull =
+      inputs.now(towing_->kind() == vehicle::HitchKind::force ? InputKind::hitchForce : InputKind::hitchSpeed);
   towing_->command(pull ? std::optional(pull->front()) : std::nullopt);
 }
 

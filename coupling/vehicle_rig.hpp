@@ -132,7 +132,7 @@ private:
   vehicle::Driver driver_;
   vehicle::Commands commands_; ///< from outside
   AppliedLoads applied_;       ///< the same
-  vehicle::Controls asked_; ///< of the last step
+  vehicle::Controls asked_;    ///< of the last step
   std::optional<Towing> towing_;
   double thickestStone_, heading_; ///< for observers [m], [rad]
   std::unique_ptr<vehicle::Observer> observer_;

@@ -87,14 +87,14 @@ private:
 
   HitchOptions options_;
   bool holds_ = false;
-  base::Vec3d origin_; ///< level place of the hitch when it took hold [m]
-  base::Vec3d line_;   ///< its heading then
-  double begun_{};     ///< speed of the hitch along it then [m/s]
-  base::Vec3d place_;  ///< of the sled, level [m]
-  base::Vec3d motion_; ///< its velocity [m/s]
-  double way_{};       ///< of sled or carriage [m]
-  double speed_{};     ///< of the carriage [m/s]
-  double late_{};      ///< behind options_.start, when it takes hold [s]
+  base::Vec3d origin_;            ///< level place of the hitch when it took hold [m]
+  base::Vec3d line_;              ///< its heading then
+  double begun_{};                ///< speed of the hitch along it then [m/s]
+  base::Vec3d place_;             ///< of the sled, level [m]
+  base::Vec3d motion_;            ///< its velocity [m/s]
+  double way_{};                  ///< of sled or carriage [m]
+  double speed_{};                ///< of the carriage [m/s]
+  double late_{};                 ///< behind options_.start, when it takes hold [s]
   std::optional<double> command_; ///< see command()
 };
 

@@ -16,8 +16,8 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
-#include <tuple>
 #include <stdexcept>
+#include <tuple>
 
 namespace grouser::jobs {
 

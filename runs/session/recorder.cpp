@@ -117,8 +117,7 @@ output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
 
 Recorder::Recorder(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& options,
                    const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total)
-    : simulation_(simulation), record_(record), begunAt_(simulation.steps()),
-      columns_(simulation, record.output),
+    : simulation_(simulation), record_(record), begunAt_(simulation.steps()), columns_(simulation, record.output),
       writer_(options.folder, record.provenance, columns_.channels(),
               writerOptions(record.output.frames, options, exec, columns_.channels(), former, total)) {
   try {

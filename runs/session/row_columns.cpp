@@ -27,7 +27,8 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
       return output::HitchReading{s.vehicle()->towing()->observe(), now.vehicle.drawbarPull};
     });
   if (rig && grains && output.gearContacts)
-    add(output::gearColumns(), [&s = simulation](const Now&) { return s.vehicle()->contacts().gearContacts(); });
+    add(output::gearColumns(),
+        [&s = simulation](const Now&) { return s.granularGround()->onVehicle()->gearContacts(); });
   // Nothing touches a mechanism, so there are no impulses to balance.
   add(output::ledgerColumns(!simulation.mechanism()), [](const Now& now) { return now.ledger; });
 }

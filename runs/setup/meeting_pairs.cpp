@@ -42,8 +42,7 @@ public:
   explicit MeetingPairs(const scene::Scene& scene) : scene_(scene) {}
 
   void add(const GrainKinds::Kind& kind, const std::string& partner, ContactPartner::Kind touched,
-           const std::string& what, double share,
-           const std::optional<VehicleSurface>& surface = {}) {
+           const std::string& what, double share, const std::optional<VehicleSurface>& surface = {}) {
     if (!seen_.insert({kind.material, partner, what}).second) return;
     const double mass = share * base::sphereMass(scene_.material(kind.material).density, kind.smallest);
     MeetingPair pair{kind.material, partner, touched, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
@@ -71,15 +70,17 @@ std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
   const std::vector<GrainKinds::Kind>& kinds = all.kinds.kinds;
   MeetingPairs pairs(scene);
   for (std::size_t a = 0; a < kinds.size(); ++a)
-    for (std::size_t b = a; b < kinds.size(); ++b) pairs.add(kinds[a], kinds[b].material, Kind::grains, "grain on grain", 0.5);
+    for (std::size_t b = a; b < kinds.size(); ++b)
+      pairs.add(kinds[a], kinds[b].material, Kind::grains, "grain on grain", 0.5);
   const std::optional<VehicleSurface> ofVehicle = vehicleSurface(scene);
   for (const Kind shown : {Kind::floor, Kind::surface, Kind::plane, Kind::vehicle})
     for (const ContactPartner& p : all.partners) {
       if (p.kind != shown) continue;
       const bool rigid = p.kind == Kind::floor && !scene.terrain->granular();
       for (const GrainKinds::Kind& kind : kinds)
-        pairs.add(kind, p.materialAgainst(kind.material), p.kind, rigid ? "grain on rigid ground" : "grain on " + p.name,
-                  p.share(), p.kind == Kind::vehicle ? ofVehicle : std::nullopt);
+        pairs.add(kind, p.materialAgainst(kind.material), p.kind,
+                  rigid ? "grain on rigid ground" : "grain on " + p.name, p.share(),
+                  p.kind == Kind::vehicle ? ofVehicle : std::nullopt);
     }
   return pairs.take();
 }

@@ -159,7 +159,8 @@ TEST(Steering, AnotherGravityActsFromTheNextStepOn) {
 }
 
 TEST(Steering, AHitchHoldsWithTheForceThatIsSet) {
-  const auto s = simulationOf(sceneOf("rigid.toml", {"hitch.kind=force", "hitch.force=0", "hitch.ramp=0", "hitch.start=0"}));
+  const auto s =
+      simulationOf(sceneOf("rigid.toml", {"hitch.kind=force", "hitch.force=0", "hitch.ramp=0", "hitch.start=0"}));
   stepTo(*s, 600);
   s->set(InputKind::hitchForce, 0, Values{250});
   s->restartWatch();

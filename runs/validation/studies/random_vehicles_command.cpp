@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `grouser study random-vehicles`: pieces, table and files of random vehicles.
-#include "runs/storage/sphere_cache.hpp"
 #include "base/error.hpp"
+#include "runs/storage/sphere_cache.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"

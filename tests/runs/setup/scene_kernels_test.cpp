@@ -4,7 +4,7 @@
 #include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_alone.hpp"
-#include "runs/setup/grain_kinds.hpp"
+#include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -31,9 +31,9 @@ const std::map<std::string, std::string> kExceptions = {};
 using Slow = std::map<std::string, std::string>;
 
 void addSlow(Slow& slow, const std::string& name, const scene::Scene& scene) {
-  const GrainKinds kinds = grainKinds(scene);
-  if (!kinds.any()) return;
-  const KernelTraits traits = kernelTraits(scene, kinds);
+  const ContactPairs pairs(scene);
+  if (!pairs.kinds.any()) return;
+  const KernelTraits traits = kernelTraits(scene, pairs);
   // A bed settles before parts load its grains.
   for (const unsigned features : {traits.features, traits.features & ~terrain::kLoads}) {
     const terrain::KernelChoice step = terrain::stepKernel(features, traits.model);
@@ -92,7 +92,7 @@ TEST(SceneKernels, NoExceptionIsOutOfDate) {
 TEST(SceneKernels, PlanNamesThoseOfTheRun) {
   for (const std::string name : {"rain", "mixture", "moving"}) {
     const scene::Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + name + ".toml");
-    const KernelTraits traits = kernelTraits(scene, grainKinds(scene));
+    const KernelTraits traits = kernelTraits(scene, ContactPairs(scene));
     const coupling::Simulation run(simulationSetup(scene), base::cpuExec(1), [](double, double) {});
     const terrain::GrainConstants& c = run.ground().grains->system().constants;
     EXPECT_EQ(c.features, traits.features) << name;
