@@ -51,7 +51,7 @@ Run::Run(const Scene& of, const Options& given, const std::optional<std::filesys
     simulation = std::make_unique<coupling::Simulation>(std::move(setup), exec, progress, comm(),
                                                         kept.beds ? &*kept.beds : nullptr, spheres);
   }
-  simulation->restartWatch();
+  simulation->restartMeans(coupling::Means::watch);
   if (options.folder.empty()) return;
   session.emplace(*simulation, record, request, exec, former.get(), std::numeric_limits<std::int64_t>::max() / 2);
   session->record([this] { session->begin(); });
@@ -62,25 +62,25 @@ const coupling::VehicleRig& Run::rig() const {
   return *simulation->vehicle();
 }
 
-void Run::set(coupling::InputKind kind, std::int32_t target, std::initializer_list<double> value) {
-  std::array<double, 6> numbers{};
-  std::copy(value.begin(), value.end(), numbers.begin());
-  translated([&] { simulation->set(kind, target, numbers); });
-}
-
-void Run::release(coupling::InputKind kind, std::int32_t target) {
-  if (!simulation->inputs().now(kind, target)) return;
-  translated([&] { simulation->set(kind, target, std::nullopt); });
+void Run::set(const std::vector<coupling::Input>& inputs) {
+  translated([&] { simulation->set(inputs); });
 }
 
 void Run::setTracks(coupling::InputKind kind, double left, double right) {
-  const bool both = rig().assembly().tracks.size() > 1;
-  translated([&] {
-    simulation->require({simulation->steps(), kind, 0, false, {left}}); // neither is set where one may not be
-    if (both) simulation->require({simulation->steps(), kind, 1, false, {right}});
-  });
-  set(kind, 0, {left});
-  if (both) set(kind, 1, {right});
+  std::vector<coupling::Input> inputs{{0, kind, 0, false, {left}}};
+  if (rig().assembly().tracks.size() > 1) inputs.push_back({0, kind, 1, false, {right}});
+  set(inputs);
+}
+
+void Run::release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target) {
+  std::vector<coupling::Input> acting;
+  for (coupling::Input input : simulation->inputs().acting()) {
+    const bool meant = std::find(kinds.begin(), kinds.end(), input.kind) != kinds.end();
+    if (!meant || (target && input.target != *target)) continue;
+    input.released = true, input.value = {};
+    acting.push_back(input);
+  }
+  if (!acting.empty()) set(acting);
 }
 
 void Run::requireAlike() const {
@@ -98,7 +98,7 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
   if (finished) throw InputError("the simulation is finished: it cannot be stepped any more");
   if (count < 1) throw InputError(fmt::format("step({}): at least one step", count));
   requireAlike();
-  simulation->restartWatch();
+  simulation->restartMeans(coupling::Means::watch);
   const std::int64_t end = simulation->steps() + count;
   const auto goesOn = [&] {
     return simulation->steps() < end && !(simulation->vehicle() && !simulation->vehicle()->ended().empty());

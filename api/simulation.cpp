@@ -5,6 +5,7 @@
 #include "api/detail/run.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/build_info.hpp"
+#include "terrain/grain_checkpoint.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +100,7 @@ void Simulation::readPositions(std::span<Vec3> positions) const {
     throw InputError(fmt::format("readPositions(): room for {} grains, there are {}", positions.size(), ownGrainCount()));
   if (!grains || positions.empty()) return;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  if (run_->comm().alone()) return grains->readPositions(&positions.front().x);
+  if (run_->comm().alone()) return terrain::GrainCheckpoint::readPositions(grains->system(), &positions.front().x);
   const terrain::GrainSnapshot s = grains->snapshot();
   std::transform(s.position.begin(), s.position.end(), positions.begin(), outside);
 }
@@ -124,17 +125,17 @@ Energies Simulation::energies() const {
   return {l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.driveWork, l.integrationError, l.residual};
 }
 
-void Simulation::setGravity(const Vec3& g) { run_->set(coupling::InputKind::gravity, 0, {g.x, g.y, g.z}); }
-void Simulation::releaseGravity() { run_->release(coupling::InputKind::gravity, 0); }
+void Simulation::setGravity(const Vec3& g) { run_->set({{0, coupling::InputKind::gravity, 0, false, {g.x, g.y, g.z}}}); }
+void Simulation::releaseGravity() { run_->release({coupling::InputKind::gravity}); }
 
 void Simulation::setLoad(std::string_view body, const Vec3& f, const Vec3& t) {
-  const auto index = detail::translated([&] { return run_->simulation->bodyIndex(std::string(body)); });
-  run_->set(coupling::InputKind::bodyLoad, index, {f.x, f.y, f.z, t.x, t.y, t.z});
+  const auto index = detail::translated([&] { return coupling::bodyIndex(*run_->simulation, std::string(body)); });
+  run_->set({{0, coupling::InputKind::bodyLoad, index, false, {f.x, f.y, f.z, t.x, t.y, t.z}}});
 }
 
 void Simulation::releaseLoad(std::string_view body) {
-  const auto index = detail::translated([&] { return run_->simulation->bodyIndex(std::string(body)); });
-  run_->release(coupling::InputKind::bodyLoad, index);
+  const auto index = detail::translated([&] { return coupling::bodyIndex(*run_->simulation, std::string(body)); });
+  run_->release({coupling::InputKind::bodyLoad}, index);
 }
 
 void Simulation::save(const std::filesystem::path& checkpoint) const {
@@ -155,7 +156,7 @@ void Simulation::restore(const std::filesystem::path& checkpoint) {
     run.simulation = std::make_unique<coupling::Simulation>(setup::simulationSetup(run.scene, run.comm().size()), run.exec,
                                                             run.former->state, run.comm(),
                                                             run.kept.spheres ? &*run.kept.spheres : nullptr);
-    run.simulation->restartWatch();
+    run.simulation->restartMeans(coupling::Means::watch);
     run.finished = false;
   });
 }

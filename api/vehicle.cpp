@@ -26,7 +26,7 @@ Track trackOf(const vehicle::TrackObservation& t) {
 
 VehicleState Vehicle::state() const {
   const coupling::VehicleRig& rig = run_->rig();
-  const vehicle::Observation o = rig.watch();
+  const vehicle::Observation o = rig.observe(coupling::Means::watch);
   const vehicle::HullMotion hull = vehicle::hullMotion(rig.assembly(), rig.state());
   VehicleState s;
   s.time = o.time;
@@ -48,14 +48,11 @@ void Vehicle::setSprocketTorque(double left, double right) { run_->setTracks(Inp
 void Vehicle::setThrottle(double left, double right) { run_->setTracks(InputKind::throttle, left, right); }
 
 void Vehicle::releaseSprockets() {
-  for (const InputKind kind : {InputKind::sprocketSpeed, InputKind::sprocketTorque, InputKind::throttle})
-    for (const std::int32_t side : {0, 1}) run_->release(kind, side);
+  run_->release({InputKind::sprocketSpeed, InputKind::sprocketTorque, InputKind::throttle});
 }
 
-void Vehicle::setHitchForce(double force) { run_->set(InputKind::hitchForce, 0, {force}); }
-void Vehicle::setHitchSpeed(double speed) { run_->set(InputKind::hitchSpeed, 0, {speed}); }
-void Vehicle::releaseHitch() {
-  run_->release(InputKind::hitchForce, 0), run_->release(InputKind::hitchSpeed, 0);
-}
+void Vehicle::setHitchForce(double force) { run_->set({{0, InputKind::hitchForce, 0, false, {force}}}); }
+void Vehicle::setHitchSpeed(double speed) { run_->set({{0, InputKind::hitchSpeed, 0, false, {speed}}}); }
+void Vehicle::releaseHitch() { run_->release({InputKind::hitchForce, InputKind::hitchSpeed}); }
 
 } // namespace grouser

@@ -52,7 +52,8 @@ void Mechanism::require(const Input& input) const {
         fmt::format("the mechanism has no body {}; it has {}", input.target, model_.bodies().size()));
 }
 
-void Mechanism::command(const Inputs& inputs) {
+void Mechanism::command(const Inputs& inputs, const base::Vec3d& gravity) {
+  loads_.gravity = gravity;
   for (multibody::Wrench& wrench : loads_.external) wrench = {};
   for (const Input& i : inputs.acting())
     if (i.kind == InputKind::bodyLoad)

@@ -29,8 +29,7 @@ public:
   /// Throws base::InputError where the mechanism has nothing that the input could set.
   void require(const Input& input) const;
   /// From the next step on what acts among these; all have passed require().
-  void command(const Inputs& inputs);
-  void setGravity(const base::Vec3d& gravity) { loads_.gravity = gravity; } ///< [m/s2]; inputs besides
+  void command(const Inputs& inputs, const base::Vec3d& gravity);
 
   /// One step. Throws base::SimulationError, also where the motion has become too quick for the step: at every
   /// kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.

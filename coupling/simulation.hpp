@@ -49,15 +49,11 @@ public:
   /// many were taken. Where it throws some may have been.
   std::int64_t advance(std::int64_t most);
 
-  /// Sets something from outside, from the next step on; empty: back to what the scene says. It is kept in checkpoints,
-  /// and acts on the state hash as long as it acts. Units and meaning: InputKind. All ranks call it alike. Throws
-  /// base::InputError where the scene has nothing of the kind, or the value is no number or out of range.
-  void set(InputKind kind, std::int32_t target, const std::optional<std::array<double, 6>>& value);
-  void require(const Input& input) const; ///< throws what set() would
+  /// Sets these from outside, from the next step on, whatever step they name: all or, where it throws, none. They are
+  /// kept in checkpoints, and in the state hash as long as they act. All ranks call it alike. Throws base::InputError
+  /// where the scene has nothing of the kind, or a value is no number or out of range.
+  void set(std::vector<Input> inputs);
   const Inputs& inputs() const { return inputs_; }
-  /// Place of a body among those of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the
-  /// nearest name.
-  std::int32_t bodyIndex(const std::string& name) const;
 
   const SimulationSetup& setup() const { return setup_; }
   double timeStep() const { return setup_.timeStep; }
@@ -72,16 +68,13 @@ public:
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
-  /// Restarts the means of the observers: called after every row.
-  void restartMeans() {
+  /// Restarts the means of the observers: those of the rows after every row. Only a vehicle has those of a watch.
+  void restartMeans(Means of = Means::rows) {
+    if (vehicle_) vehicle_->restartMeans(of);
+    if (of == Means::watch) return;
     if (ground_) ground_->restartMeans();
     if (surfaces_) surfaces_->restartMeans();
-    if (vehicle_) vehicle_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
-  }
-  /// Means of VehicleRig::watch(), for who steps from outside.
-  void restartWatch() {
-    if (vehicle_) vehicle_->restartWatch();
   }
   const TakenOut& takenOut() const { return taken_; } ///< since the start
   /// By a part or mesh since restartMeans(); empty where grains meet none. All ranks call it.
@@ -99,8 +92,8 @@ public:
   std::string stateHash() const;
 
 private:
+  void require(const Input& input) const;
   void command();
-  void setGravity(const base::Vec3d& gravity);
   bool canStepAhead() const;
   void stepAhead(bool last);
   void checkAlarm();
@@ -147,6 +140,10 @@ private:
   TakenOut taken_;
   Ledger start_; ///< before the first step; the ledger counts from here
 };
+
+/// Place of a body among those of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the
+/// nearest name.
+std::int32_t bodyIndex(const Simulation& simulation, const std::string& name);
 
 /// How the meshes of vehicle and scene were cut; those of parts that touch nothing have no entry.
 std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation);

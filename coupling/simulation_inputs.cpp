@@ -4,6 +4,7 @@
 #include "base/table.hpp"
 #include "coupling/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -47,11 +48,14 @@ void Simulation::require(const Input& input) const {
         fmt::format("{} cannot be set: the scene has neither vehicle nor mechanism", base::wordOf(input.kind)));
 }
 
-void Simulation::set(InputKind kind, std::int32_t target, const std::optional<std::array<double, 6>>& value) {
-  const Input input{steps_, kind, target, !value, value.value_or(std::array<double, 6>{})};
-  require(input);
-  inputs_.set(input);
-  if (kind != InputKind::gravity) return command();
+void Simulation::set(std::vector<Input> inputs) {
+  for (Input& input : inputs) {
+    input.step = steps_;
+    require(input);
+  }
+  for (const Input& input : inputs) inputs_.set(input);
+  const auto isGravity = [](const Input& i) { return i.kind == InputKind::gravity; };
+  if (std::none_of(inputs.begin(), inputs.end(), isGravity)) return command();
   // Potential energies are those of the gravity that acts: what this changes is no work of the simulation's.
   const Ledger before = wholeLedger();
   command();
@@ -60,26 +64,21 @@ void Simulation::set(InputKind kind, std::int32_t target, const std::optional<st
 
 /// Gives what acts now to those that it acts on.
 void Simulation::command() {
-  if (vehicle_) vehicle_->command(inputs_);
-  if (mechanism_) mechanism_->command(inputs_);
   const auto g = inputs_.now(InputKind::gravity);
-  setGravity(g ? base::Vec3d{(*g)[0], (*g)[1], (*g)[2]} : setup_.gravity);
-}
-
-void Simulation::setGravity(const base::Vec3d& gravity) {
+  const base::Vec3d gravity = g ? base::Vec3d{(*g)[0], (*g)[1], (*g)[2]} : setup_.gravity;
+  if (vehicle_) vehicle_->command(inputs_, gravity);
+  if (mechanism_) mechanism_->command(inputs_, gravity);
   if (gravity == gravity_) return;
   gravity_ = gravity;
-  if (vehicle_) vehicle_->setGravity(gravity);
-  if (mechanism_) mechanism_->setGravity(gravity);
   if (surfaces_) surfaces_->setGravity(gravity);
   if (ground_) ground_->setGravity(gravity);
   ahead_.reset(); // its graphs hold the former one
 }
 
-std::int32_t Simulation::bodyIndex(const std::string& name) const {
+std::int32_t bodyIndex(const Simulation& simulation, const std::string& name) {
   std::vector<std::string> names;
-  const multibody::Model* model = vehicle_ ? &vehicle_->assembly().model : nullptr;
-  if (mechanism_) model = &mechanism_->model();
+  const multibody::Model* model = simulation.vehicle() ? &simulation.vehicle()->assembly().model : nullptr;
+  if (simulation.mechanism()) model = &simulation.mechanism()->model();
   if (model)
     for (const multibody::Body& body : model->bodies()) {
       if (body.name == name) return static_cast<std::int32_t>(names.size());

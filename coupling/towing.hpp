@@ -25,6 +25,9 @@ struct HitchObservation {
   double towedSpeed{}; ///< [m/s]
 };
 
+/// Two sets of means: those of the rows of results, and those of who steps the simulation from outside.
+enum class Means { rows, watch };
+
 /// The hitch of a vehicle in its step: what it pulls with, and what that is worth. All on the host, from the bodies'
 /// state alone.
 class Towing {
@@ -40,8 +43,6 @@ public:
   /// Books that step's work, with the means of the velocities before and behind it as the bodies' books do.
   void book(const vehicle::Assembly& vehicle, const multibody::State& state, double dt);
 
-  /// Two sets of means: of the rows, and of who steps the simulation from outside.
-  enum class Means { rows, watch };
   HitchObservation observe(Means of = Means::rows) const;
   void restartMeans(Means of = Means::rows) { sumsOf(of) = {}; }
   double work() const { return work_; } ///< on the vehicle since the start [J]

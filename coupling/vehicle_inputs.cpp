@@ -53,7 +53,7 @@ void VehicleRig::require(const Input& input) const {
   }
 }
 
-void VehicleRig::command(const Inputs& inputs) {
+void VehicleRig::command(const Inputs& inputs, const base::Vec3d& gravity) {
   const auto ofTracks = [&](InputKind kind, std::array<std::optional<double>, 2>& values) {
     for (std::int32_t side = 0; side < 2; ++side) {
       const auto value = inputs.now(kind, side);
@@ -64,17 +64,14 @@ void VehicleRig::command(const Inputs& inputs) {
   ofTracks(InputKind::sprocketTorque, commands_.torque);
   ofTracks(InputKind::throttle, commands_.throttle);
   applied_.set(inputs);
-  if (!towing_) return;
-  const auto pull =
-      inputs.now(towing_->kind() == vehicle::HitchKind::force ? InputKind::hitchForce : InputKind::hitchSpeed);
-  towing_->command(pull ? std::optional(pull->front()) : std::nullopt);
-}
-
-void VehicleRig::setGravity(const base::Vec3d& gravity) {
   gravity_ = gravity;
   observer_->setGravity(gravity);
   if (watch_) watch_->observer.setGravity(gravity);
   blows_.setWeight(assembly_.mass * norm(gravity));
+  if (!towing_) return;
+  const auto pull =
+      inputs.now(towing_->kind() == vehicle::HitchKind::force ? InputKind::hitchForce : InputKind::hitchSpeed);
+  towing_->command(pull ? std::optional(pull->front()) : std::nullopt);
 }
 
 } // namespace grouser::coupling

@@ -164,22 +164,13 @@ vehicle::ObserverOptions VehicleRig::observerOptions() const {
   return {.stone = thickestStone_, .heading = heading_, .gravity = gravity_};
 }
 
-vehicle::Observation VehicleRig::watch() const {
-  return observe(watch_ ? watch_->observer : *observer_, watch_ ? watch_->forces : rowMeans_,
-                 watch_ ? Towing::Means::watch : Towing::Means::rows);
-}
-
-void VehicleRig::restartWatch() {
-  if (!watch_) watch_.emplace(Watch{vehicle::Observer(assembly_, observerOptions())});
-  watch_->observer.restartMeans(), watch_->forces.restart();
-  if (towing_) towing_->restartMeans(Towing::Means::watch);
-}
-
-vehicle::Observation VehicleRig::observe(const vehicle::Observer& observer, const ForceMeans& means,
-                                         Towing::Means ofHitch) const {
-  vehicle::Observation seen = observer.observe(state_, groundLoads(means), surfaceHeight_);
+vehicle::Observation VehicleRig::observe(Means of) const {
+  const bool watched = of == Means::watch && watch_;
+  const vehicle::Observer& observer = watched ? watch_->observer : *observer_;
+  vehicle::Observation seen =
+      observer.observe(state_, groundLoads(watched ? watch_->forces : rowMeans_), surfaceHeight_);
   if (towing_) {
-    seen.drawbarPull = 0.0 - seen.along.of(towing_->observe(ofHitch).force);
+    seen.drawbarPull = 0.0 - seen.along.of(towing_->observe(watched ? Means::watch : Means::rows).force);
   } else {
     // The ground's force less the share that holds the weight on a slope.
     const double c = base::cos(seen.heading), s = base::sin(seen.heading);
@@ -190,10 +181,15 @@ vehicle::Observation VehicleRig::observe(const vehicle::Observer& observer, cons
   return seen;
 }
 
-void VehicleRig::restartMeans() {
-  rowMeans_.restart();
-  observer_->restartMeans();
-  if (towing_) towing_->restartMeans();
+void VehicleRig::restartMeans(Means of) {
+  if (towing_) towing_->restartMeans(of);
+  if (of == Means::rows) {
+    rowMeans_.restart();
+    observer_->restartMeans();
+    return;
+  }
+  if (!watch_) watch_.emplace(Watch{vehicle::Observer(assembly_, observerOptions())});
+  watch_->observer.restartMeans(), watch_->forces.restart();
 }
 
 Vec3d VehicleRig::groundForce(const ForceMeans& means) const {

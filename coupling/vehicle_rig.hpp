@@ -48,22 +48,16 @@ public:
   const multibody::State& state() const { return state_; }
   const VehicleParts& parts() const { return *parts_; }
   const VehicleContacts& contacts() const { return *contacts_; }
-  /// Pose of part `i` of the assembly in the world.
-  base::Pose partPose(std::size_t i) const { return vehicle::partPose(assembly_.parts[i], state_); }
 
   /// Throws base::InputError where this vehicle has nothing that the input could set.
   void require(const Input& input) const;
   /// From the next step on what acts among these; all have passed require().
-  void command(const Inputs& inputs);
-  void setGravity(const base::Vec3d& gravity); ///< [m/s2]; inputs besides
+  void command(const Inputs& inputs, const base::Vec3d& gravity);
 
-  /// Ground loads are means since the last restartMeans(): on grains a single step says little.
-  vehicle::Observation observe() const { return observe(*observer_, rowMeans_, Towing::Means::rows); }
-  /// The same with means of its own, for who steps the simulation from outside: since the last restartWatch(), or the
-  /// state alone before the first.
-  vehicle::Observation watch() const;
-  void restartWatch();
-  void restartMeans();
+  /// Ground loads are means since the last restartMeans() of these: on grains a single step says little. Those of a
+  /// watch begin with its first restart.
+  vehicle::Observation observe(Means of = Means::rows) const;
+  void restartMeans(Means of = Means::rows);
   const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
   /// Sum over all parts, mean since restartMeans() [N].
   base::Vec3d meanGroundForce() const { return groundForce(rowMeans_); }
@@ -106,7 +100,6 @@ private:
     vehicle::Observer observer;
     ForceMeans forces{};
   };
-  vehicle::Observation observe(const vehicle::Observer& observer, const ForceMeans& means, Towing::Means ofHitch) const;
   vehicle::ObserverOptions observerOptions() const;
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
   base::Vec3d groundForce(const ForceMeans& means) const; ///< sum over all parts [N]

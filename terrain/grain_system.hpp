@@ -33,8 +33,6 @@ struct GrainSystem {
 
   std::size_t present() const { return count - gone.size(); } ///< grains of the scene that are there
   /// By slot: not 0 for ghosts; null where there are none.
-  /// Of this rank, without ghosts.
-  std::size_t own() const { return arrays.slots() - (distribution ? distribution->subdomain().ghosts() : 0); }
   const std::uint32_t* ghosts() const { return distribution ? distribution->subdomain().ghostMarks() : nullptr; }
   /// The same on the host, zeros where there are none.
   std::vector<std::uint32_t> ghostsOnHost() const;

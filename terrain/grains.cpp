@@ -107,8 +107,6 @@ GrainSnapshot Grains::snapshot(const SnapshotOptions& options) const {
   return GrainCheckpoint::snapshot(system_, options);
 }
 
-void Grains::readPositions(double* xyz) const { GrainCheckpoint::readPositions(system_, xyz); }
-
 GrainState Grains::state() const { return GrainCheckpoint::state(system_); }
 
 void Grains::restore(const GrainState& saved, bool grows) {

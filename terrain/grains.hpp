@@ -70,9 +70,6 @@ public:
   /// Forgets velocities and spins: grains brought to rest where they are.
   void stop() { system_.arrays.stop(); }
 
-  std::size_t ownCount() const { return system_.own(); } ///< of this rank, without ghosts
-  /// x, y, z [m] of these in the order of their ids, to memory for three numbers each.
-  void readPositions(double* xyz) const;
   /// On several ranks this rank's block of ids. Throws std::logic_error where contact forces are asked for when
   /// something else than a step came last; rows of results (ledger) and grains that enter do no harm.
   GrainSnapshot snapshot(const SnapshotOptions& options = {}) const;

@@ -55,10 +55,11 @@ struct Run {
 
   /// The vehicle's rig; throws InputError without one.
   const coupling::VehicleRig& rig() const;
-  void set(coupling::InputKind kind, std::int32_t target, std::initializer_list<double> value);
-  void release(coupling::InputKind kind, std::int32_t target);
+  void set(const std::vector<coupling::Input>& inputs);
   /// Left and right, where the scene has both.
   void setTracks(coupling::InputKind kind, double left, double right);
+  /// Back to what the scene says; all targets where none is given.
+  void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {});
   /// Throws InputError naming the rank whose inputs differ from those of rank 0.
   void requireAlike() const;
   void step(std::int64_t count, const std::function<bool()>& keepGoing);

@@ -13,6 +13,7 @@
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/commands/run_warnings.hpp"
 #include "runs/output/mechanism_output.hpp"
+#include "runs/output/run_status.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/session/branch.hpp"
@@ -202,9 +203,21 @@ void noteOrigin(const storage::Checkpoint& former, bool branch, output::Summary&
 /// What of the command line ended the run. `cut`: its last step is not that of the scene.
 void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
   if (endsAtRest)
-    run.writer().fact("ended_by", session::kUntilRest);
+    run.writer().fact("ended_by", output::kUntilRest);
   else if (cut && run.simulation().steps() == run.total())
     run.writer().fact("ended_by", fmt::format("--steps {}", run.total()));
+}
+
+void noteBed(const coupling::Simulation& simulation, output::Summary& summary) {
+  if (simulation.settled().steps > 0) {
+    summary.figures["bed_highest_m"] = simulation.settled().highest;
+    summary.figures["bed_mean_height_m"] = simulation.settled().meanHeight;
+  }
+  if (const auto& bed = simulation.ground().structure) {
+    summary.figures["bed_porosity"] = bed->porosity;
+    summary.figures["bed_order"] = bed->order;
+    summary.figures["bed_thickness_in_mean_diameters"] = bed->thickness / bed->meanDiameter;
+  }
 }
 
 /// `hasFolder`: whether it came so far that the folder is that of this run.
@@ -266,15 +279,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     if (former) noteOrigin(*former, options.branch, summary);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;
     summary.figures["wall_cutting_s"] = kept.spheres ? kept.spheres->cutting() : 0;
-    if (simulation.settled().steps > 0) {
-      summary.figures["bed_highest_m"] = simulation.settled().highest;
-      summary.figures["bed_mean_height_m"] = simulation.settled().meanHeight;
-    }
-    if (const auto& bed = simulation.ground().structure) {
-      summary.figures["bed_porosity"] = bed->porosity;
-      summary.figures["bed_order"] = bed->order;
-      summary.figures["bed_thickness_in_mean_diameters"] = bed->thickness / bed->meanDiameter;
-    }
+    noteBed(simulation, summary);
     summary.figures["wall_steps_s"] = drove, summary.figures["cpu_steps_s"] = cpu;
     summary.figures["microseconds_a_step"] =
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, simulation.steps() - begin));

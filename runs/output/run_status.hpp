@@ -5,6 +5,8 @@
 
 namespace grouser::output {
 
+inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that has stopped before its drive
+
 /// How a run stands, as its manifest and the summary of a sweep say.
 enum class RunStatus {
   pending, ///< of a sweep: not yet begun

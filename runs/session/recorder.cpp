@@ -206,7 +206,8 @@ output::Frame Recorder::currentFrame() const {
     addGrains(frame, *grains, record_.output.contactForces,
               simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerMotion());
   if (const coupling::VehicleRig* rig = simulation_.vehicle())
-    for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p) frame.partPoses.push_back(rig->partPose(p));
+    for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p)
+      frame.partPoses.push_back(vehicle::partPose(rig->assembly().parts[p], rig->state()));
   if (const coupling::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));
   for (const coupling::Obstacle& o : drawnObstacles()) frame.partPoses.push_back(o.surface.start);

@@ -10,8 +10,6 @@
 
 namespace grouser::session {
 
-inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that has stopped before its drive
-
 /// What is asked of a run, beside its scene.
 struct RunRequest {
   std::filesystem::path folder;                ///< of the results

@@ -183,14 +183,15 @@ def _walk(text, at, owner, access, functions, classes):
 
 
 def _declared(head, owner, access):
-    """Counts a declaration of a class's scope if it is a public function that somebody wrote."""
+    """Counts a declaration of a class's scope if it is a public function that somebody wrote; what overrides is known
+    from the interface."""
     if owner is None or access != 'public':
         return
     plain = re.sub(r'\s+', ' ', _without_angles(head)).strip()
     plain = re.sub(r'^template ', '', plain)
     if re.match(r'(using|friend|typedef|static_assert|enum|class|struct|union)\b', plain):
         return
-    if re.search(r'= ?(default|delete)$', plain):
+    if re.search(r'= ?(default|delete)$|\b(override|final)$', plain):
         return
     kind, name = _opens(head)
     copies = re.search(r'\boperator\s*=\s*\(|\b%s\s*\((const )?%s ?&' % (owner.name, owner.name), head)

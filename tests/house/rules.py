@@ -24,6 +24,9 @@ LIBRARIES = {
 PROGRAM = [['support'], ['scene'], ['setup'], ['storage'], ['output'], ['render', 'jobs', 'validation/bench'],
            ['session', 'virtual_tests', 'campaigns/sweeps'], ['validation/studies', 'campaigns/forecast'],
            ['campaigns/events'], ['commands']]
+# The public interface, whose headers stand by themselves, and the Python module on it.
+BESIDE = {'api': {'runs/' + room for room in 'support scene setup storage output session'.split()} | set(LIBRARIES),
+          'api/include/grouser': set(), 'python/module': set()}
 # What only keeps or draws needs no physics.
 NARROW = {
     'runs/support': {'base'},
@@ -34,7 +37,6 @@ BLIND = ['coupling', 'runs/storage', 'runs/output', 'runs/render', 'runs/session
 # Folders of tests that mirror no room: whole scenes, and what several ranks run.
 TEST_ROOMS = {'tests/system', 'tests/ranks'}
 GENERATED = {'grouser_commit.hpp'}  # written by the build
-
 MAX_FILE_LINES = 500
 MAX_FUNCTION_LINES = 80
 MAX_PUBLIC_FUNCTIONS = 25
@@ -43,11 +45,10 @@ MAX_PROSE_COLUMNS = 120
 SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
 SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and what begins with #!
 OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html', '.mp4'}
-TOPS = [*LIBRARIES, 'runs', 'tests', 'docs', 'cmake', 'python']
+TOPS = [*LIBRARIES, 'api', 'runs', 'tests', 'docs', 'cmake', 'python']
 # Beside the tops a checkout may hold results, but nothing that one would compile or run.
 STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp', '.tpp', '.cl', '.hip', '.f90', '.rs'}
-# No part of the tree: what .gitignore names, and what tools keep for themselves.
-UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')
+UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')  # no part of the tree
 
 # Rooms that have a part in what a state becomes: elementary functions there are those of base/math.hpp.
 STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'runs/storage']
@@ -58,7 +59,7 @@ MPI_FILES = re.compile(r'base/comm[^/]*\.\w+|runs/support/hdf5_file\.cpp')
 
 
 def allowed_rooms():
-    may = dict(LIBRARIES)
+    may = LIBRARIES | BESIDE
     before = set()
     for line in PROGRAM:
         for name in line:

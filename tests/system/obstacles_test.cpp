@@ -84,7 +84,7 @@ TEST(OnALog, TheHullCarriesTheVehicle) {
   EXPECT_NEAR(all.z / weight, 1, 0.01);
   EXPECT_LT(log.z, -0.2 * weight);
   // Over the log the belly, 200 mm below the vehicle's origin, lies on its top at 0.32 m.
-  const base::Pose hull = simulation.vehicle()->partPose(0);
+  const base::Pose hull = vehicle::partPose(simulation.vehicle()->assembly().parts[0], simulation.vehicle()->state());
   const Vec3d over = hull.toBody({2.43, 0, 0.32});
   EXPECT_NEAR(over.z, -0.2, 2e-3);
   EXPECT_LT(std::fabs(simulation.ledger().residual), 1e-9 * simulation.ledger().turnover);

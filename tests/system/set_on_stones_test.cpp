@@ -39,7 +39,8 @@ double deepest(const Simulation& s) {
   const terrain::GrainSnapshot grains = s.ground().grains->snapshot();
   double most = -1e300;
   for (const int index : assembly.groundParts) {
-    const base::Pose pose = s.vehicle()->partPose(static_cast<std::size_t>(index));
+    const base::Pose pose =
+        vehicle::partPose(s.vehicle()->assembly().parts[static_cast<std::size_t>(index)], s.vehicle()->state());
     if (rotate(pose.orientation, base::Vec3d{0, 0, 1}).z < 0.5) continue;
     for (std::size_t g = 0; g < grains.position.size(); ++g) {
       const base::Vec3d local = pose.toBody(grains.position[g]);

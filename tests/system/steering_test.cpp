@@ -39,8 +39,8 @@ void stepTo(Simulation& s, std::int64_t step) {
 /// Holds the hull's speed, by a rule that reads the state every 50 steps.
 void control(Simulation& s, std::int64_t until) {
   while (s.steps() < until) {
-    const double v = s.vehicle()->watch().velocity.x;
-    for (const std::int32_t side : {0, 1}) s.set(InputKind::sprocketSpeed, side, Values{1.5 + 3 * (0.3 - v)});
+    const double v = s.vehicle()->observe(Means::watch).velocity.x;
+    for (const std::int32_t side : {0, 1}) s.set({{0, InputKind::sprocketSpeed, side, false, {1.5 + 3 * (0.3 - v)}}});
     stepTo(s, std::min(until, s.steps() + 50));
   }
 }
@@ -65,9 +65,9 @@ TEST(Steering, ASavedStateGoesOnWithWhatActs) {
   const auto straight = simulationOf(scene), first = simulationOf(scene);
   for (Simulation* s : {straight.get(), first.get()}) {
     stepTo(*s, 300);
-    s->set(InputKind::sprocketSpeed, 0, Values{2.5});
-    s->set(InputKind::gravity, 0, Values{0, 0, -5});
-    s->set(InputKind::bodyLoad, s->bodyIndex("chassis"), Values{100, 0, 0, 0, 0, 20});
+    s->set({{0, InputKind::sprocketSpeed, 0, false, {2.5}}});
+    s->set({{0, InputKind::gravity, 0, false, {0, 0, -5}}});
+    s->set({{0, InputKind::bodyLoad, bodyIndex(*s, "chassis"), false, {100, 0, 0, 0, 0, 20}}});
     stepTo(*s, 400);
   }
   const SimulationState saved = first->save();
@@ -83,20 +83,20 @@ TEST(Steering, TheDriverHasItsSprocketsBackWhenTheyAreReleased) {
   const scene::Scene scene = sceneOf("rigid.toml", {"driver.sprocket_speed=1"});
   const auto s = simulationOf(scene);
   stepTo(*s, 600);
-  s->set(InputKind::sprocketSpeed, 0, Values{3});
-  s->set(InputKind::sprocketSpeed, 1, Values{-2});
+  s->set({{0, InputKind::sprocketSpeed, 0, false, {3}}});
+  s->set({{0, InputKind::sprocketSpeed, 1, false, {-2}}});
   stepTo(*s, 601);
-  EXPECT_NEAR(s->vehicle()->watch().tracks[0].sprocketSpeed, 3, 1e-9);
-  EXPECT_NEAR(s->vehicle()->watch().tracks[1].sprocketSpeed, -2, 1e-9);
-  for (const std::int32_t side : {0, 1}) s->set(InputKind::sprocketSpeed, side, std::nullopt);
+  EXPECT_NEAR(s->vehicle()->observe(Means::watch).tracks[0].sprocketSpeed, 3, 1e-9);
+  EXPECT_NEAR(s->vehicle()->observe(Means::watch).tracks[1].sprocketSpeed, -2, 1e-9);
+  for (const std::int32_t side : {0, 1}) s->set({{0, InputKind::sprocketSpeed, side, true, {}}});
   stepTo(*s, 602);
-  for (const auto& track : s->vehicle()->watch().tracks) EXPECT_NEAR(track.sprocketSpeed, 1, 1e-9);
+  for (const auto& track : s->vehicle()->observe(Means::watch).tracks) EXPECT_NEAR(track.sprocketSpeed, 1, 1e-9);
 }
 
 TEST(Steering, NothingActsBeforeTheDriveBegins) {
   const scene::Scene scene = sceneOf("rigid.toml");
   const auto steered = simulationOf(scene), alone = simulationOf(scene);
-  for (const std::int32_t side : {0, 1}) steered->set(InputKind::sprocketSpeed, side, Values{5});
+  for (const std::int32_t side : {0, 1}) steered->set({{0, InputKind::sprocketSpeed, side, false, {5}}});
   stepTo(*steered, 390), stepTo(*alone, 390); // the drive begins at step 400
   EXPECT_EQ(steered->vehicle()->state().save(), alone->vehicle()->state().save());
 }
@@ -107,7 +107,7 @@ TEST(Steering, ALoadOnABodyDoesItsWork) {
                      "[[body]]\nname = \"ball\"\nmass = 2\ninertia = [0.1, 0.1, 0.1]\n";
   for (const char* integrator : {"euler", "rattle"}) {
     const auto s = simulationOf(setup::parseScene(text, "ball.toml", {std::string("run.integrator=") + integrator}));
-    s->set(InputKind::bodyLoad, s->bodyIndex("ball"), Values{3, 0, 0, 0, 0, 0.2});
+    s->set({{0, InputKind::bodyLoad, bodyIndex(*s, "ball"), false, {3, 0, 0, 0, 0, 0.2}}});
     stepTo(*s, 1000);
     const multibody::Twist& V = s->mechanism()->state().twist.front();
     EXPECT_NEAR(V.v.x, 1.5, 1e-12) << integrator; // F t / m
@@ -124,7 +124,7 @@ TEST(Steering, TheWorkOfALoadOnTheHullIsInTheBooks) {
   stepTo(*s, 400);
   const double before = s->ledger().driveWork;
   const double x = s->vehicle()->state().pose.front().position.x;
-  s->set(InputKind::bodyLoad, s->bodyIndex("chassis"), Values{-400});
+  s->set({{0, InputKind::bodyLoad, bodyIndex(*s, "chassis"), false, {-400}}});
   stepTo(*s, 900);
   const multibody::State& now = s->vehicle()->state();
   const Ledger l = s->ledger();
@@ -141,7 +141,7 @@ TEST(Steering, AnotherGravityActsFromTheNextStepOn) {
                      "[[grain]]\nposition = [1, 0, 5]\nradius = 0.01\nmaterial = \"glass\"\n";
   const auto s = simulationOf(setup::parseScene(text, "fall.toml"));
   stepTo(*s, 1000);
-  s->set(InputKind::gravity, 0, Values{1.5, 0, -1.62});
+  s->set({{0, InputKind::gravity, 0, false, {1.5, 0, -1.62}}});
   stepTo(*s, 3000);
   const terrain::GrainSnapshot grains = s->ground().grains->snapshot();
   for (const auto& v : grains.velocity) {
@@ -153,7 +153,7 @@ TEST(Steering, AnotherGravityActsFromTheNextStepOn) {
   EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
   EXPECT_LT(std::fabs(l.integrationError), 1e-6 * l.turnover);
   EXPECT_LT(norm(l.momentumResidual), 1e-6 * norm(l.momentum));
-  s->set(InputKind::gravity, 0, std::nullopt);
+  s->set({{0, InputKind::gravity, 0, true, {}}});
   stepTo(*s, 3001);
   EXPECT_NEAR(s->ground().grains->snapshot().velocity.front().z, -9.81 * 0.1001 - 1.62 * 0.2, 1e-6);
 }
@@ -162,17 +162,17 @@ TEST(Steering, AHitchHoldsWithTheForceThatIsSet) {
   const auto s =
       simulationOf(sceneOf("rigid.toml", {"hitch.kind=force", "hitch.force=0", "hitch.ramp=0", "hitch.start=0"}));
   stepTo(*s, 600);
-  s->set(InputKind::hitchForce, 0, Values{250});
-  s->restartWatch();
+  s->set({{0, InputKind::hitchForce, 0, false, {250}}});
+  s->restartMeans(Means::watch);
   stepTo(*s, 700);
-  EXPECT_NEAR(s->vehicle()->watch().drawbarPull, 250, 1);
-  EXPECT_NEAR(s->vehicle()->towing()->observe(Towing::Means::watch).pull, 250, 1);
+  EXPECT_NEAR(s->vehicle()->observe(Means::watch).drawbarPull, 250, 1);
+  EXPECT_NEAR(s->vehicle()->towing()->observe(Means::watch).pull, 250, 1);
 }
 
 TEST(Steering, WatchingDoesNotChangeTheRows) {
   const scene::Scene scene = sceneOf("rigid.toml");
   const auto watched = simulationOf(scene), alone = simulationOf(scene);
-  for (int k = 0; k < 6; ++k) watched->restartWatch(), stepTo(*watched, 100 * (k + 1));
+  for (int k = 0; k < 6; ++k) watched->restartMeans(Means::watch), stepTo(*watched, 100 * (k + 1));
   stepTo(*alone, 600);
   const vehicle::Observation a = watched->vehicle()->observe(), b = alone->vehicle()->observe();
   EXPECT_EQ(a.grossTraction, b.grossTraction);
@@ -186,7 +186,7 @@ TEST(Steering, WhatTheSceneDoesNotHaveIsRefusedAndNothingChanges) {
   stepTo(*s, 50);
   const std::string before = s->stateHash();
   const auto refused = [&](InputKind kind, std::int32_t target, const Values& value) {
-    return messageOf([&] { s->set(kind, target, value); });
+    return messageOf([&] { s->set({{0, kind, target, false, value}}); });
   };
   EXPECT_NE(refused(InputKind::sprocketTorque, 0, {5}).find("driver.drive = \"torque\""), std::string::npos);
   EXPECT_NE(refused(InputKind::throttle, 0, {0.5}).find("driver.drive = \"engine\""), std::string::npos);
@@ -195,7 +195,7 @@ TEST(Steering, WhatTheSceneDoesNotHaveIsRefusedAndNothingChanges) {
   EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {101}).find("outside [-100, 100]"), std::string::npos);
   EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {NAN}).find("nan is outside"), std::string::npos);
   EXPECT_NE(refused(InputKind::bodyLoad, 9999, {5}).find("no body 9999"), std::string::npos);
-  EXPECT_NE(messageOf([&] { s->bodyIndex("chasis"); }).find("\"chassis\""), std::string::npos);
+  EXPECT_NE(messageOf([&] { bodyIndex(*s, "chasis"); }).find("\"chassis\""), std::string::npos);
   EXPECT_TRUE(s->inputs().series().empty());
   EXPECT_EQ(s->stateHash(), before);
 }

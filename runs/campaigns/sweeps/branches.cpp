@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
-#include "runs/session/run_request.hpp"
+#include "runs/output/run_status.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/storage/scene_changes.hpp"
@@ -53,7 +53,7 @@ void requireOneState(const SweepRun& first, const SweepRun& run) {
 /// Whether the folder holds a run to rest, by this program, that this run can branch from.
 bool holdsState(const fs::path& folder, const SweepRun& run) {
   const RunManifest manifest(folder);
-  if (manifest.text("status") != "finished" || manifest.text("ended_by") != session::kUntilRest ||
+  if (manifest.text("status") != "finished" || manifest.text("ended_by") != output::kUntilRest ||
       manifest.commit() != support::buildInfo().commit)
     return false;
   try {
