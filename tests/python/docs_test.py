@@ -370,5 +370,22 @@ class Installed(FolderTest):
             self.assertIn(word, told)
 
 
+class FirstProgram(unittest.TestCase):
+    """The page of the C++ library shows the program that is installed, built and run as its example."""
+
+    def test_is_the_installed_example(self):
+        page = (ROOT / "docs/api.md").read_text()
+        example = (ROOT / "tests/install/example/example.cpp").read_text().split("\n", 1)[1].strip()
+        self.assertIn(f"```cpp\n{example}\n```", page)
+        cmake = (ROOT / "tests/install/example/CMakeLists.txt").read_text()
+        for line in re.search(r"```cmake\n(.*?)```", page, re.S)[1].splitlines():
+            self.assertIn(line, cmake)
+
+    def test_names_every_public_header(self):
+        page = (ROOT / "docs/api.md").read_text()
+        for header in (ROOT / "api/include/grouser").glob("*.hpp"):
+            self.assertIn(f"<grouser/{header.name}>", page)
+
+
 if __name__ == "__main__":
     unittest.main()

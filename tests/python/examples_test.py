@@ -8,8 +8,15 @@ import numpy
 from fixture import FolderTest
 
 import bouncing_grain
+import cruise_control
+import environment
 import error_bars
+import hello_world
+import live_plot
+import slip_control
 import track_sinkage
+
+import grouser  # noqa: E402
 
 GRAVITY = 9.81  # [m/s2]
 
@@ -92,6 +99,36 @@ class ErrorBars(FolderTest):
         self.assertIn("depth", check.not_run)
         self.assertEqual(len(bed), 40)
         self.assertGreater(bed.position[:, 2].min(), 0.5 * 0.01, "no grain lies below the ground")
+
+
+class Controllers(FolderTest):
+    """Each ends in an error of its own where it misses its goal."""
+
+    def test_cruise_control_holds_its_speed_up_the_slope_and_is_replayed(self):
+        self.assertAlmostEqual(cruise_control.main(str(self.folder / "held")), cruise_control.GOAL, delta=0.01)
+        said = grouser.call(["run", "--replay", str(self.folder / "held")])
+        self.assertIn("the same state hash", said)
+
+    def test_slip_control_finds_the_pull(self):
+        slip, pull = slip_control.main(0.1)
+        self.assertAlmostEqual(slip, 0.1, delta=0.01)
+        self.assertGreater(pull, 0.1)
+
+    def test_the_event_loop_logs_plots_and_stops(self):
+        rows = live_plot.main(str(self.folder / "live"))
+        self.assertGreater(rows[-1][1], live_plot.WAY)
+        self.assertTrue((self.folder / "live/log.csv").is_file())
+        self.assertTrue((self.folder / "live/live.png").is_file())
+
+    def test_the_environment_rewards_the_rule(self):
+        random, ruled = environment.main(limit=24)
+        self.assertGreater(ruled, random)
+
+    def test_hello_world_prints_the_hash_that_it_reached(self):
+        scene = grouser.Scene.read(hello_world.ROOT / "runs/scenes/rigid_control.toml")
+        scene["vehicle.sphere_radius"], scene["run.time_step"] = 0.03, 2e-4
+        scene.write(self.folder / "coarse.toml")
+        self.assertRegex(hello_world.main(str(self.folder / "coarse.toml")), "^[0-9a-f]{16}$")
 
 
 if __name__ == "__main__":

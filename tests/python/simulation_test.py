@@ -1,0 +1,201 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A simulation in process: stepped, read, steered, replayed; its views, errors and threads."""
+import gc
+import pickle
+import signal
+import threading
+import time
+import unittest
+import weakref
+
+import numpy
+from fixture import ROOT, FolderTest
+
+import grouser
+
+FALL = {
+    "version": 1,
+    "run": {"duration": 0.1, "time_step": 1e-3},
+    "material": {"glass": {"stiffness": 1e4}},
+    "plane": [{"material": "glass"}],
+    "grain": [{"position": [0, 0, 1], "radius": 0.01, "material": "glass"},
+              {"position": [1, 0, 2], "radius": 0.02, "material": "glass"}],
+}
+
+
+def vehicle_scene() -> grouser.Scene:
+    """Rigid ground, coarse spheres, a drive that begins at 40 ms."""
+    scene = grouser.Scene.read(ROOT / "tests/scenes/rigid.toml")
+    scene["vehicle.sphere_radius"] = 0.03
+    scene["driver"] = {"sprocket_speed": 0.0, "tension_ramp": 0.02, "weight_ramp": 0.02, "drive_start": 0.04,
+                       "drive_ramp": 0.01}
+    scene["output.plots"] = False
+    return scene
+
+
+class Grains(FolderTest):
+    def test_fall_as_symplectic_euler_has_it(self):
+        with grouser.Simulation(grouser.Scene(FALL)) as sim:
+            sim.step(100)
+            self.assertAlmostEqual(sim.time, 0.1)
+            numpy.testing.assert_allclose(sim.positions[:, 2], [1 - 9.81e-6 * 5050, 2 - 9.81e-6 * 5050], atol=1e-9)
+            grains = sim.grains()
+            numpy.testing.assert_allclose(grains.velocity[:, 2], -0.981, atol=1e-6)
+            self.assertEqual(grains.velocity.dtype, numpy.float32)
+            numpy.testing.assert_allclose(grains.radius, [0.01, 0.02], rtol=1e-6)
+            self.assertAlmostEqual(sim.energies().residual, 0, delta=1e-9)
+
+    def test_positions_are_a_read_only_view_that_no_step_changes_while_it_is_held(self):
+        with grouser.Simulation(grouser.Scene(FALL)) as sim:
+            held = sim.positions
+            self.assertEqual((held.shape, held.dtype), ((2, 3), numpy.float64))
+            self.assertIs(sim.positions, held)  # of one step there is one
+            before = held.copy()
+            with self.assertRaises(ValueError):
+                held[0, 0] = 1
+            sim.step(10)
+            self.assertIsNot(sim.positions, held)
+            numpy.testing.assert_array_equal(held, before)
+            self.assertLess(sim.positions[0, 2], before[0, 2])
+            # Nobody holds it: the memory is used again.
+            del held
+            address = sim.positions.ctypes.data
+            sim.step(1)
+            self.assertEqual(sim.positions.ctypes.data, address)
+
+    def test_a_view_outlives_its_simulation(self):
+        sim = grouser.Simulation(grouser.Scene(FALL))
+        held = sim.positions
+        sim.close()
+        gc.collect()
+        self.assertEqual(held[1, 2], 2)
+        with self.assertRaises(grouser.InputError):
+            sim.step()
+
+    def test_gravity_may_change(self):
+        with grouser.Simulation(grouser.Scene(FALL)) as sim:
+            sim.step(50)
+            sim.set_gravity([1, 0, 0])
+            sim.step(50)
+            numpy.testing.assert_allclose(sim.grains().velocity[0], [0.05, 0, -0.4905], atol=1e-6)
+
+
+class Vehicles(FolderTest):
+    def test_are_steered_recorded_and_replayed(self):
+        out = self.folder / "steered"
+        with grouser.Simulation(vehicle_scene(), out) as sim:
+            while sim.steps < 900:
+                speed = sim.vehicle.speed
+                sim.set_sprocket_speed(2 + 3 * (0.3 - speed), 2.5 + 3 * (0.3 - speed))
+                sim.step(100)
+            self.assertGreater(sim.vehicle.turn_rate, 0)
+            self.assertEqual(sim.vehicle.left.tension.shape, (46,))
+            self.assertGreater(sim.vehicle.speed, 0.05)
+            ended = sim.hash()
+        run = grouser.open_run(out)
+        self.assertEqual(run.status, "finished")
+        said = grouser.call(["run", "--replay", str(out), "--threads", "2", "--out", str(self.folder / "again")])
+        self.assertRegex(said, r"replay +\d+ inputs of .*: the same state hash")
+        self.assertEqual(grouser.open_run(self.folder / "again").manifest["state_hash"], ended)
+
+    def test_a_checkpoint_goes_on_with_what_acts(self):
+        file = self.folder / "state.h5"
+        with grouser.Simulation(vehicle_scene()) as sim:
+            sim.step(450)
+            sim.set_sprocket_speed(2.0)
+            sim.set_load("chassis", [0, 0, -200])
+            sim.step(50)
+            sim.save(file)
+            sim.step(100)
+            straight = sim.hash()
+            sim.restore(file)
+            self.assertEqual(sim.steps, 500)
+            sim.step(100)
+            self.assertEqual(sim.hash(), straight)
+        with grouser.Simulation(vehicle_scene(), checkpoint=file, threads=2) as sim:
+            sim.step(100)
+            self.assertEqual(sim.hash(), straight)
+
+    def test_what_the_scene_lacks_is_an_input_error(self):
+        with grouser.Simulation(vehicle_scene()) as sim:
+            for call, words in ((lambda: sim.set_throttle(1), "engine"), (lambda: sim.set_sprocket_torque(1), "torque"),
+                                (lambda: sim.set_hitch_force(1), "[hitch]"), (lambda: sim.set_load("chasis", [1, 0, 0]),
+                                                                              '"chassis"'),
+                                (lambda: sim.set_sprocket_speed(1e9), "outside [-100, 100]"),
+                                (lambda: sim.set_sprocket_speed(float("nan")), "nan is outside")):
+                with self.assertRaises(grouser.InputError) as caught:
+                    call()
+                self.assertIn(words, str(caught.exception))
+                self.assertEqual(caught.exception.exit_code, 2)
+
+
+class Process(FolderTest):
+    def test_several_simulations_run_in_threads_and_alike(self):
+        hashes = []
+
+        def run():
+            with grouser.Simulation(grouser.Scene(FALL), threads=1) as sim:
+                sim.step(100)
+                hashes.append(sim.hash())
+        threads = [threading.Thread(target=run) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(hashes), 3)
+        self.assertEqual(len(set(hashes)), 1)
+
+    def test_a_step_leaves_the_interpreter_to_other_threads_but_not_the_simulation(self):
+        with grouser.Simulation(vehicle_scene(), threads=1) as sim:
+            thread = threading.Thread(target=sim.step, args=(600,))
+            thread.start()
+            time.sleep(0.05)
+            counted, refused = 0, None
+            while thread.is_alive():
+                counted += 1
+                try:
+                    _ = sim.time
+                except grouser.InputError as error:
+                    refused = error
+                time.sleep(0.001)
+            thread.join()
+            self.assertGreater(counted, 20)
+            self.assertIn("another thread", str(refused))
+
+    def test_control_c_ends_a_step(self):
+        with grouser.Simulation(vehicle_scene(), threads=1) as sim:
+            begun = time.monotonic()
+            threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                sim.step(10_000_000)
+            self.assertLess(time.monotonic() - begun, 5)
+            sim.step(1)  # it is whole
+
+    def test_errors_free_what_they_leave(self):
+        sim = grouser.Simulation(grouser.Scene(FALL))
+        gone = weakref.ref(sim)
+        with self.assertRaises(TypeError):
+            pickle.dumps(sim)
+        with self.assertRaises(grouser.InputError):
+            sim.step(0)
+        del sim
+        gc.collect()
+        self.assertIsNone(gone())
+        with self.assertRaises(grouser.InputError):
+            scene = grouser.Scene(FALL)
+            scene["material.glass.stiffness"] = -1.0
+            grouser.Simulation(scene)
+
+    def test_an_unsound_simulation_says_so_and_can_be_looked_at(self):
+        scene = grouser.Scene(FALL)
+        scene["run.max_overlap"], scene["material.glass.stiffness"] = 0.01, 10.0
+        sim = grouser.Simulation(scene)
+        with self.assertRaises(grouser.SimulationError) as caught:
+            sim.step(2000)
+        self.assertEqual(caught.exception.exit_code, 3)
+        self.assertEqual(sim.positions.shape, (2, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()
