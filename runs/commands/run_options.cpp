@@ -36,8 +36,7 @@ void addRun(CLI::App& app, const Invocation& invocation) {
   run->add_option("--until", c.until,
                   "rest: stop, with a checkpoint to branch from, where the vehicle has been lowered and would begin to "
                   "drive")
-      ->check(CLI::IsMember({"rest"}))
-      ->type_name("rest");
+      ->check(CLI::IsMember({"rest"}));
   run->add_flag("!--no-cache", c.cache, "settle the bed and cut the parts anew, and keep neither");
   run->add_flag("--hash", c.hash, "print the hash of the final state as the last line");
   run->callback([command, resume] {

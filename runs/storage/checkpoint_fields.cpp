@@ -114,9 +114,9 @@ constexpr Meaning kMeanings[] = {
      "speed "
      "and of turning, and the way along it; of a branch that changed them under way: when, speeds and torques of the "
      "sprockets and speed of the hull then"},
-    {"vehicle/asked", "-, rad/s, N m, m/s",
-     "of the sprockets in the last step: whether they were driven, speeds and torques asked for, left and right; speed "
-     "of the hull after it"},
+    {"vehicle/asked", "-, s, rad/s, N m, m/s",
+     "of the sprockets in the last step: whether they were driven, when it ended, speeds and torques asked for, left "
+     "and right; speed of the hull after it"},
     {"vehicle/hitch", "-, m, m/s",
      "whether it has taken hold; its level place and heading then, and speed; place and velocity of the sled; way of "
      "sled or carriage, speed of the carriage; empty without a hitch"},

@@ -160,32 +160,33 @@ TEST_F(Branch, UntilRestEndsWhereAWaitingDriverWouldDriveOff) {
 }
 
 TEST_F(Branch, UntilRestOfAVehicleThatDoesNotComeToRestIsIncomplete) {
-  const output::Summary short_ = run("rest", scene("sprocket_speed = 2", "", {"driver.drive_start=auto"}), true);
+  const output::Summary short_ =
+      run("rest", scene("sprocket_speed = 2", "", {"driver.drive_start=auto", "run.duration=0.06"}), true);
   EXPECT_NE(short_.incomplete.find("had not come to rest"), std::string::npos) << short_.incomplete;
 }
 
 TEST_F(Branch, UnderWayPassesFromTheFormerSpeedIntoTheNewOne) {
-  run("fast", scene(), false, 1000);
+  run("fast", scene(), false, 900);
   EXPECT_NEAR(last("fast", "vehicle/left/sprocket_speed"), 2, 1e-9);
-  const auto slow = [&] { return scene("sprocket_speed = -1", "", {"run.output_interval=1e-3"}); };
+  const auto slow = [&] { return scene("sprocket_speed = 1", "", {"run.output_interval=1e-3"}); };
   branch("slow", "fast", slow());
   const std::vector<double> speed = series("slow", "vehicle/left/sprocket_speed");
-  ASSERT_EQ(speed.size(), 200u);
+  ASSERT_EQ(speed.size(), 30u);
   for (std::size_t ms = 1; ms <= 20; ++ms) {
     const double s = static_cast<double>(ms) / 20;
-    EXPECT_NEAR(speed[ms - 1], 2 - 3 * s * s * (3 - 2 * s), 0.03) << "a step behind"; // 1.5 * 3 / 20 ms * 0.1 ms
+    EXPECT_NEAR(speed[ms - 1], 2 - s * s * (3 - 2 * s), 0.01) << "a step behind"; // 1.5 / 20 ms * 0.1 ms
   }
-  EXPECT_NEAR(speed.back(), -1, 1e-9);
+  EXPECT_NEAR(speed.back(), 1, 1e-9);
   expectBalanced("slow");
   // Stopped within the ramp it goes on, and knows where it has come from.
-  branch("stopped", "fast", slow(), 1100);
+  branch("stopped", "fast", slow(), 1000);
   EXPECT_EQ(resume("stopped", slow()).stateHash, branch("once", "fast", slow()).stateHash);
-  EXPECT_NE(manifest("stopped").find("\"branched_from\": \"" + checkpoint("fast").string() + ", step 1000"),
+  EXPECT_NE(manifest("stopped").find("\"branched_from\": \"" + checkpoint("fast").string() + ", step 900"),
             std::string::npos);
 }
 
 TEST_F(Branch, ACourseUnderWayTakesUpItsSpeedFromTheHulls) {
-  run("fast", scene(), false, 1000);
+  run("fast", scene(), false, 900);
   branch("course", "fast", scene(kCourse, "", {"run.output_interval=1e-3"}));
   const std::vector<double> speed = series("course", "vehicle/left/sprocket_speed");
   double before = last("fast", "vehicle/left/sprocket_speed");
@@ -197,7 +198,7 @@ TEST_F(Branch, ACourseUnderWayTakesUpItsSpeedFromTheHulls) {
 }
 
 TEST_F(Branch, AHitchAddedUnderWayTakesHoldThereAndKeepsTheBooks) {
-  run("free", scene(), false, 1000);
+  run("free", scene(), false, 700);
   branch("towing", "free", scene("sprocket_speed = 2", kForce));
   expectBalanced("towing");
   EXPECT_LT(std::fabs(first("towing", "hitch/pull")), 0.8 * 10e3) << "comes on over its ramp";
@@ -214,7 +215,8 @@ TEST_F(Branch, AHitchThatIsRemovedLeavesItsWorkInTheLedger) {
     branch(name, "towing", scene("sprocket_speed = 2", more), 1100);
     expectBalanced(name);
     EXPECT_LT(std::fabs(last(name, "ledger/integration_error") - last("towing", "ledger/integration_error")),
-              0.05 * std::fabs(work));
+              0.3 * std::fabs(work))
+        << "without that work it would be the whole of it";
   }
   EXPECT_LT(std::fabs(last("carriage", "hitch/work")), 0.5 * std::fabs(work)) << "books of its own";
 }
