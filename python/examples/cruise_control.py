@@ -30,7 +30,7 @@ def scene_on_slope(duration: float) -> grouser.Scene:
     angle = math.atan(SLOPE)
     scene["run.gravity"] = [-9.81 * math.sin(angle), 0.0, -9.81 * math.cos(angle)]
     scene["run.duration"] = duration
-    scene["vehicle.sphere_radius"] = 0.02  # coarse, and quick
+    scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
     scene["output.plots"] = False
     return scene
 

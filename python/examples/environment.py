@@ -35,6 +35,7 @@ class DriveToGoal:
         self.goal, self.period, self.limit, self.fastest = np.array(goal), period, limit, fastest
         scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
         scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
+        scene["terrain.size"], scene["vehicle.position"] = [9.0, 6.0], [3.0, 0.0]  # room to go astray
         self.sim = grouser.Simulation(scene)
         while self.sim.vehicle.drive_start is None:  # lowered, and at rest: every episode begins here
             self.sim.step_for(0.02)

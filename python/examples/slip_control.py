@@ -19,13 +19,13 @@ import grouser  # noqa: E402
 
 SPEED = 3.0  # of the sprockets [rad/s]
 RATE = 12.0  # of the force, in weights a second and unit of slip [1/s]
-EVERY, DURATION = 0.01, 3.0  # [s]
+EVERY, DURATION = 0.01, 2.0  # [s]
 
 
 def pulling_scene() -> grouser.Scene:
     scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
     scene["run.duration"] = DURATION
-    scene["vehicle.sphere_radius"] = 0.02  # coarse, and quick
+    scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
     scene["driver.sprocket_speed"] = SPEED
     scene["hitch"] = {"kind": "force", "force": 0.0}
     return scene

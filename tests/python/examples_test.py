@@ -121,12 +121,12 @@ class Controllers(FolderTest):
         self.assertTrue((self.folder / "live/live.png").is_file())
 
     def test_the_environment_rewards_the_rule(self):
-        random, ruled = environment.main(limit=24)
+        random, ruled = environment.main(limit=12)
         self.assertGreater(ruled, random)
 
     def test_hello_world_prints_the_hash_that_it_reached(self):
         scene = grouser.Scene.read(hello_world.ROOT / "runs/scenes/rigid_control.toml")
-        scene["vehicle.sphere_radius"], scene["run.time_step"] = 0.03, 2e-4
+        scene["vehicle.sphere_radius"] = 0.03
         scene.write(self.folder / "coarse.toml")
         self.assertRegex(hello_world.main(str(self.folder / "coarse.toml")), "^[0-9a-f]{16}$")
 

@@ -32,7 +32,7 @@ std::unique_ptr<Simulation> simulationOf(const scene::Scene& scene, const base::
       setup::simulationSetup(scene), exec, [](double, double) {}, base::Comm{}, sharedBeds(), sharedSpheres());
 }
 
-void stepTo(Simulation& s, std::int64_t step) {
+void stepUntil(Simulation& s, std::int64_t step) {
   while (s.steps() < step) s.advance(step - s.steps());
 }
 
@@ -41,7 +41,7 @@ void control(Simulation& s, std::int64_t until) {
   while (s.steps() < until) {
     const double v = s.vehicle()->observe(Means::watch).velocity.x;
     for (const std::int32_t side : {0, 1}) s.set({{0, InputKind::sprocketSpeed, side, false, {1.5 + 3 * (0.3 - v)}}});
-    stepTo(s, std::min(until, s.steps() + 50));
+    stepUntil(s, std::min(until, s.steps() + 50));
   }
 }
 
@@ -50,7 +50,7 @@ TEST(Steering, AReplayHasTheHashOfTheControlledRunOnAnyThreads) {
     const scene::Scene scene = sceneOf(file);
     const auto controlled = simulationOf(scene), alone = simulationOf(scene);
     control(*controlled, 700);
-    stepTo(*alone, 700);
+    stepUntil(*alone, 700);
     EXPECT_NE(controlled->stateHash(), alone->stateHash()) << file;
 
     const auto repeated = simulationOf(scene, testExec(2));
@@ -64,16 +64,16 @@ TEST(Steering, ASavedStateGoesOnWithWhatActs) {
   const scene::Scene scene = sceneOf("rigid.toml");
   const auto straight = simulationOf(scene), first = simulationOf(scene);
   for (Simulation* s : {straight.get(), first.get()}) {
-    stepTo(*s, 300);
+    stepUntil(*s, 300);
     s->set({{0, InputKind::sprocketSpeed, 0, false, {2.5}}});
     s->set({{0, InputKind::gravity, 0, false, {0, 0, -5}}});
     s->set({{0, InputKind::bodyLoad, bodyIndex(*s, "chassis"), false, {100, 0, 0, 0, 0, 20}}});
-    stepTo(*s, 400);
+    stepUntil(*s, 400);
   }
   const SimulationState saved = first->save();
   Simulation second(setup::simulationSetup(scene), testExec(2), saved, base::Comm{}, sharedSpheres());
   EXPECT_EQ(second.stateHash(), straight->stateHash());
-  stepTo(*straight, 700), stepTo(second, 700);
+  stepUntil(*straight, 700), stepUntil(second, 700);
   EXPECT_EQ(second.stateHash(), straight->stateHash());
   EXPECT_EQ(second.inputs().series(), straight->inputs().series());
   EXPECT_EQ(second.ledger().driveWork, straight->ledger().driveWork);
@@ -82,14 +82,14 @@ TEST(Steering, ASavedStateGoesOnWithWhatActs) {
 TEST(Steering, TheDriverHasItsSprocketsBackWhenTheyAreReleased) {
   const scene::Scene scene = sceneOf("rigid.toml", {"driver.sprocket_speed=1"});
   const auto s = simulationOf(scene);
-  stepTo(*s, 600);
+  stepUntil(*s, 600);
   s->set({{0, InputKind::sprocketSpeed, 0, false, {3}}});
   s->set({{0, InputKind::sprocketSpeed, 1, false, {-2}}});
-  stepTo(*s, 601);
+  stepUntil(*s, 601);
   EXPECT_NEAR(s->vehicle()->observe(Means::watch).tracks[0].sprocketSpeed, 3, 1e-9);
   EXPECT_NEAR(s->vehicle()->observe(Means::watch).tracks[1].sprocketSpeed, -2, 1e-9);
   for (const std::int32_t side : {0, 1}) s->set({{0, InputKind::sprocketSpeed, side, true, {}}});
-  stepTo(*s, 602);
+  stepUntil(*s, 602);
   for (const auto& track : s->vehicle()->observe(Means::watch).tracks) EXPECT_NEAR(track.sprocketSpeed, 1, 1e-9);
 }
 
@@ -97,7 +97,7 @@ TEST(Steering, NothingActsBeforeTheDriveBegins) {
   const scene::Scene scene = sceneOf("rigid.toml");
   const auto steered = simulationOf(scene), alone = simulationOf(scene);
   for (const std::int32_t side : {0, 1}) steered->set({{0, InputKind::sprocketSpeed, side, false, {5}}});
-  stepTo(*steered, 390), stepTo(*alone, 390); // the drive begins at step 400
+  stepUntil(*steered, 390), stepUntil(*alone, 390); // the drive begins at step 400
   EXPECT_EQ(steered->vehicle()->state().save(), alone->vehicle()->state().save());
 }
 
@@ -108,7 +108,7 @@ TEST(Steering, ALoadOnABodyDoesItsWork) {
   for (const char* integrator : {"euler", "rattle"}) {
     const auto s = simulationOf(setup::parseScene(text, "ball.toml", {std::string("run.integrator=") + integrator}));
     s->set({{0, InputKind::bodyLoad, bodyIndex(*s, "ball"), false, {3, 0, 0, 0, 0, 0.2}}});
-    stepTo(*s, 1000);
+    stepUntil(*s, 1000);
     const multibody::Twist& V = s->mechanism()->state().twist.front();
     EXPECT_NEAR(V.v.x, 1.5, 1e-12) << integrator; // F t / m
     EXPECT_NEAR(V.w.z, 2, 1e-12) << integrator;   // M t / I
@@ -121,11 +121,11 @@ TEST(Steering, ALoadOnABodyDoesItsWork) {
 
 TEST(Steering, TheWorkOfALoadOnTheHullIsInTheBooks) {
   const auto s = simulationOf(sceneOf("rigid.toml"));
-  stepTo(*s, 400);
+  stepUntil(*s, 400);
   const double before = s->ledger().driveWork;
   const double x = s->vehicle()->state().pose.front().position.x;
   s->set({{0, InputKind::bodyLoad, bodyIndex(*s, "chassis"), false, {-400}}});
-  stepTo(*s, 900);
+  stepUntil(*s, 900);
   const multibody::State& now = s->vehicle()->state();
   const Ledger l = s->ledger();
   EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
@@ -140,9 +140,9 @@ TEST(Steering, AnotherGravityActsFromTheNextStepOn) {
                      "[[grain]]\nposition = [0, 0, 5]\nradius = 0.01\nmaterial = \"glass\"\n"
                      "[[grain]]\nposition = [1, 0, 5]\nradius = 0.01\nmaterial = \"glass\"\n";
   const auto s = simulationOf(setup::parseScene(text, "fall.toml"));
-  stepTo(*s, 1000);
+  stepUntil(*s, 1000);
   s->set({{0, InputKind::gravity, 0, false, {1.5, 0, -1.62}}});
-  stepTo(*s, 3000);
+  stepUntil(*s, 3000);
   const terrain::GrainSnapshot grains = s->ground().grains->snapshot();
   for (const auto& v : grains.velocity) {
     EXPECT_NEAR(v.x, 1.5 * 0.2, 1e-6);
@@ -154,17 +154,17 @@ TEST(Steering, AnotherGravityActsFromTheNextStepOn) {
   EXPECT_LT(std::fabs(l.integrationError), 1e-6 * l.turnover);
   EXPECT_LT(norm(l.momentumResidual), 1e-6 * norm(l.momentum));
   s->set({{0, InputKind::gravity, 0, true, {}}});
-  stepTo(*s, 3001);
+  stepUntil(*s, 3001);
   EXPECT_NEAR(s->ground().grains->snapshot().velocity.front().z, -9.81 * 0.1001 - 1.62 * 0.2, 1e-6);
 }
 
 TEST(Steering, AHitchHoldsWithTheForceThatIsSet) {
   const auto s =
       simulationOf(sceneOf("rigid.toml", {"hitch.kind=force", "hitch.force=0", "hitch.ramp=0", "hitch.start=0"}));
-  stepTo(*s, 600);
+  stepUntil(*s, 600);
   s->set({{0, InputKind::hitchForce, 0, false, {250}}});
   s->restartMeans(Means::watch);
-  stepTo(*s, 700);
+  stepUntil(*s, 700);
   EXPECT_NEAR(s->vehicle()->observe(Means::watch).drawbarPull, 250, 1);
   EXPECT_NEAR(s->vehicle()->towing()->observe(Means::watch).pull, 250, 1);
 }
@@ -172,8 +172,8 @@ TEST(Steering, AHitchHoldsWithTheForceThatIsSet) {
 TEST(Steering, WatchingDoesNotChangeTheRows) {
   const scene::Scene scene = sceneOf("rigid.toml");
   const auto watched = simulationOf(scene), alone = simulationOf(scene);
-  for (int k = 0; k < 6; ++k) watched->restartMeans(Means::watch), stepTo(*watched, 100 * (k + 1));
-  stepTo(*alone, 600);
+  for (int k = 0; k < 6; ++k) watched->restartMeans(Means::watch), stepUntil(*watched, 100 * (k + 1));
+  stepUntil(*alone, 600);
   const vehicle::Observation a = watched->vehicle()->observe(), b = alone->vehicle()->observe();
   EXPECT_EQ(a.grossTraction, b.grossTraction);
   EXPECT_EQ(a.groundForce.z, b.groundForce.z);
@@ -183,7 +183,7 @@ TEST(Steering, WatchingDoesNotChangeTheRows) {
 
 TEST(Steering, WhatTheSceneDoesNotHaveIsRefusedAndNothingChanges) {
   const auto s = simulationOf(sceneOf("rigid.toml"));
-  stepTo(*s, 50);
+  stepUntil(*s, 50);
   const std::string before = s->stateHash();
   const auto refused = [&](InputKind kind, std::int32_t target, const Values& value) {
     return messageOf([&] { s->set({{0, kind, target, false, value}}); });

@@ -2,9 +2,14 @@
 // What `grouser plan` says of a scene: what is on and off, which pairs of materials meet, what may go wrong.
 #include "runs/commands/plan.hpp"
 
+#include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/contact_pairs.hpp"
+#include "runs/setup/grain_memory.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "terrain/kernel_choice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -138,6 +143,23 @@ TEST(PlanOfPairs, SaysWhyNothingSticksToAVehicle) {
   EXPECT_EQ(line({"vehicle.adhesion=1"}, "rigid"),
             "off  soil sticks to vehicle     no grains: vehicle.adhesion does nothing");
   EXPECT_EQ(line({}, "rigid"), "");
+}
+
+TEST(PlanOfGrains, NamesTheKernelsOfTheRun) {
+  for (const std::string name : {"rain", "mixture", "moving"}) {
+    const scene::Scene scene = setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + name + ".toml");
+    const setup::KernelTraits traits = setup::kernelTraits(scene, setup::ContactPairs(scene));
+    const coupling::Simulation run(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
+    const terrain::GrainConstants& c = run.ground().grains->system().constants;
+    EXPECT_EQ(c.features, traits.features) << name;
+    const std::string plan = switchesText(scene);
+    EXPECT_NE(plan.find("kernel of the grains       " + terrain::stepKernelText(c.features, c.model) + "\n"),
+              std::string::npos)
+        << plan;
+    EXPECT_NE(plan.find("kernel of walls and floor  " + terrain::boundaryKernelText(c.features, c.model) + "\n"),
+              std::string::npos)
+        << plan;
+  }
 }
 
 } // namespace

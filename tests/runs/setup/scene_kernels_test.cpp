@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is shipped runs on kernels made for it: the scenes of runs/scenes, and beds of every soil of assets/soils.
-#include "coupling/simulation.hpp"
-#include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "runs/setup/simulation_setup.hpp"
 #include "terrain/kernel_choice.hpp"
 
 #include <fmt/format.h>
@@ -87,23 +84,6 @@ TEST(SceneKernels, ShippedScenesAndSoilsHaveTheirOwnAndSimd) {
 TEST(SceneKernels, NoExceptionIsOutOfDate) {
   const Slow slow = slowOfAll();
   for (const auto& [name, reason] : kExceptions) EXPECT_TRUE(slow.count(name)) << name << " needs no exception";
-}
-
-TEST(SceneKernels, PlanNamesThoseOfTheRun) {
-  for (const std::string name : {"rain", "mixture", "moving"}) {
-    const scene::Scene scene = loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + name + ".toml");
-    const KernelTraits traits = kernelTraits(scene, ContactPairs(scene));
-    const coupling::Simulation run(simulationSetup(scene), base::cpuExec(1), [](double, double) {});
-    const terrain::GrainConstants& c = run.ground().grains->system().constants;
-    EXPECT_EQ(c.features, traits.features) << name;
-    const std::string plan = commands::switchesText(scene);
-    EXPECT_NE(plan.find("kernel of the grains       " + terrain::stepKernelText(c.features, c.model) + "\n"),
-              std::string::npos)
-        << plan;
-    EXPECT_NE(plan.find("kernel of walls and floor  " + terrain::boundaryKernelText(c.features, c.model) + "\n"),
-              std::string::npos)
-        << plan;
-  }
 }
 
 } // namespace
