@@ -11,7 +11,7 @@ import grouser
 
 KINDS = {"results.h5": "results.h5", "frames.h5": "frames.h5", "checkpoint.h5": "checkpoint.h5, and beds that are kept"}
 #: Of what no small scene has: runs of several ranks.
-RARE = {"/FRAME/partition/AXIS"}
+RARE = {"/ground/state", "/FRAME/partition/AXIS"}
 QUIET = {"plots": False, "picture": False}
 
 
@@ -93,6 +93,14 @@ class FilesOfResults(FolderTest):
         rigid["vehicle.sphere_radius"] = 0.04
         rigid["hitch"] = {"kind": "sled", "mass": 100.0, "friction": 0.5}
         self.run_and_look(rigid, "rigid")
+        with grouser.Simulation(rigid, self.folder / "steered") as sim:
+            sim.set_gravity([0, 0, -9])
+            sim.step(5)
+        self.look_at("results.h5", self.folder / "steered/results.h5")
+        grouser.call(["run", str(self.folder / "rigid.toml"), "--resume", str(self.folder / "rigid/checkpoint.h5"),
+                      "--set", "driver.sprocket_speed=1", "--set", "run.duration=0.004",
+                      "--out", str(self.folder / "branch")])
+        self.look_at("results.h5", self.folder / "branch/results.h5")
         obstacles = grouser.Scene.read(ROOT / "tests/scenes/obstacles.toml")
         obstacles["run.duration"] = 0.002
         self.run_and_look(obstacles, "obstacles")

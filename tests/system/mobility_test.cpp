@@ -228,9 +228,8 @@ TEST(GranularBed, CarriesTheWholeWeightAtRest) {
                         testExec(), quiet, {}, sharedBeds(), sharedSpheres());
   // The lowest pad, from when the track is tight until the weight has come on.
   const auto lowest = [&] {
-    double height = 1e9;
-    for (const double pad : simulation.vehicle()->observe().tracks[0].padHeight) height = std::min(height, pad);
-    return height;
+    const std::vector<double> pads = simulation.vehicle()->observe().tracks[0].padHeight;
+    return *std::min_element(pads.begin(), pads.end());
   };
   while (simulation.time() < 0.1) simulation.step();
   const double before = lowest();
