@@ -20,7 +20,7 @@ import grouser  # noqa: E402
 
 GOAL = 0.5  # [m/s]
 SLOPE = 0.2  # [-]
-GAIN, INTEGRAL = 2.0, 8.0  # of the error of speed: [-], [1/s]
+GAIN, INTEGRAL = 0.5, 3.0  # of the error of speed: [-], [1/s]
 EVERY = 0.01  # [s]
 
 
@@ -35,7 +35,7 @@ def scene_on_slope(duration: float) -> grouser.Scene:
     return scene
 
 
-def main(folder: str = "out/cruise_control", duration: float = 2.0) -> float:
+def main(folder: str = "out/cruise_control", duration: float = 2.6) -> float:
     with grouser.Simulation(scene_on_slope(duration), folder, overwrite=True) as sim:
         integral, late = 0.0, []
         while sim.time < duration:

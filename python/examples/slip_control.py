@@ -19,7 +19,7 @@ import grouser  # noqa: E402
 
 SPEED = 3.0  # of the sprockets [rad/s]
 RATE = 12.0  # of the force, in weights a second and unit of slip [1/s]
-EVERY, DURATION = 0.01, 2.0  # [s]
+EVERY, DURATION = 0.01, 3.0  # [s]
 
 
 def pulling_scene() -> grouser.Scene:

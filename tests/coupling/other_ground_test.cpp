@@ -88,7 +88,7 @@ SimulationSetup onSprings() {
   setup.vehicle->single = true, setup.vehicle->guide = vehicle::HullGuide::pitching;
   setup.vehicle->sphereRadius = 0.01, setup.vehicle->sphereRadiusGiven = true;
   setup.vehicle->driver.tensionRamp = 0.05, setup.vehicle->driver.weightRamp = 0.1;
-  setup.vehicle->driver.driveStart = 0.15;
+  setup.vehicle->driver.driveStart = 0.16;
   return setup;
 }
 

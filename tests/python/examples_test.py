@@ -121,7 +121,7 @@ class Controllers(FolderTest):
         self.assertTrue((self.folder / "live/live.png").is_file())
 
     def test_the_environment_rewards_the_rule(self):
-        random, ruled = environment.main(limit=12)
+        random, ruled = environment.main(limit=20)
         self.assertGreater(ruled, random)
 
     def test_hello_world_prints_the_hash_that_it_reached(self):

@@ -64,7 +64,8 @@ TEST_F(Soils, ANameTakesThePresetWhereverAMaterialStands) {
 }
 
 TEST_F(Soils, StiffnessAndCohesionGoWithTheRadius) {
-  const Material& m = parse(grainOf("loam", 0.02)).material("loam");
+  const Scene s = parse(grainOf("loam", 0.02));
+  const Material& m = s.material("loam");
   EXPECT_DOUBLE_EQ(*m.stiffness, 4e5);
   EXPECT_DOUBLE_EQ(m.cohesion, 6);
   EXPECT_DOUBLE_EQ(*m.damping, 25) << "as sqrt(k / m)";
@@ -78,7 +79,8 @@ TEST_F(Soils, YoungsModulusIsKept) {
   put(folder_ / "soils/stone.toml",
       replaced(replaced(kLoam, "law = \"linear\"\nstiffness = 2e5\ndamping = 50\n", "law = \"hertz\"\nyoung = 3e8\n"),
                "title = \"loam\"", "title = \"stone\""));
-  const Material& m = parse(grainOf("stone", 0.03)).material("stone");
+  const Scene s = parse(grainOf("stone", 0.03));
+  const Material& m = s.material("stone");
   EXPECT_EQ(m.young, 3e8);
   EXPECT_DOUBLE_EQ(m.cohesion, 9);
 }

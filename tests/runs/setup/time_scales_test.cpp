@@ -213,7 +213,7 @@ TEST(TimeScales, StepThatDoesNotResolveASpringIsSaidAndNotRefused) {
   EXPECT_NE(
       note({"run.time_step=1e-3"})
           .find("spring 'rod' swings in 6.28e-06 s, 0.00628 steps of run.time_step = 0.001 s: implicit springs are "
-                "stable there, and show that swing too slow; for the swing itself choose 3.14e-07 s or less"),
+                "stable there, and show that swing too slow; for the swing itself choose 3.141e-07 s or less"),
       std::string::npos)
       << note({"run.time_step=1e-3"});
   EXPECT_NE(note({"run.time_step=1e-3", "run.integrator=symplectic_euler"}).find("damps that swing"),
@@ -242,7 +242,7 @@ TEST(TimeScales, StepsThatPassThroughABounceAreRefusedWithTheNumber) {
   EXPECT_EQ(error.rfind("--set: run.time_step = 0.001 [s] is too long for the end stops of ", 0), 0u) << error;
   EXPECT_NE(error.find("spring 'rail stops'"), std::string::npos) << error;
   EXPECT_NE(error.find("lasts 0.0003142 s, which is 0.314 steps and not 10, half of run.steps_per_period; choose "
-                       "3.14e-05 s or less (\"auto\": 1.57e-05 s)"),
+                       "3.141e-05 s or less (\"auto\": 1.57e-05 s)"),
             std::string::npos)
       << error;
   EXPECT_EQ(errorOf(scene, {"run.time_step=3.141e-5"}), "no error");

@@ -113,6 +113,7 @@ const NamedChange kHashed[] = {
     {"rolling angle on a mesh", [](coupling::SimulationState& s) { s.surfaces->patches.angles[1] += 1; }},
     {"body of the vehicle", [](coupling::SimulationState& s) { s.vehicle->bodies[0] += 1; }},
     {"hitch", [](coupling::SimulationState& s) { s.vehicle->hitch[1] += 1; }},
+    {"what was set from outside", [](coupling::SimulationState& s) { s.inputs[4] += 1; }},
     {"spring of the track", [](coupling::SimulationState& s) { s.vehicle->track.states[1].shear.y += 1; }},
     {"stiffness of a track's spring", [](coupling::SimulationState& s) { s.vehicle->track.states[1].stiffness += 1; }},
     {"spring on the ground", [](coupling::SimulationState& s) { s.vehicle->ground.states[2].shear.z += 1; }},
@@ -148,7 +149,10 @@ const NamedChange kUnhashed[] = {
 };
 
 TEST(StateHash, TakesWhatTheNextStepDependsOnAndNothingElse) {
-  const coupling::SimulationState state = filled();
+  coupling::SimulationState state = filled();
+  coupling::Inputs inputs;
+  inputs.set({7, coupling::InputKind::sprocketSpeed, 1, false, {1.25}});
+  state.inputs = inputs.save();
   const std::string hash = state.hash();
   for (const auto& [what, change] : kHashed) {
     coupling::SimulationState other = state;
