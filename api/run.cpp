@@ -96,7 +96,12 @@ void Run::requireAlike() const {
 
 void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
   if (finished) throw InputError("the simulation is finished: it cannot be stepped any more");
+  if (failed) throw InputError("the simulation has failed: it cannot be stepped any more; restore() a checkpoint");
   if (count < 1) throw InputError(fmt::format("step({}): at least one step", count));
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / 4;
+  if (count > kMost) throw InputError(fmt::format("step({}): at most {} steps", count, kMost));
+  if (const coupling::VehicleRig* rig = simulation->vehicle(); rig && !rig->ended().empty())
+    throw InputError("the scene's [stop] has ended the run: " + rig->ended());
   requireAlike();
   simulation->restartMeans(coupling::Means::watch);
   const std::int64_t end = simulation->steps() + count;
@@ -118,11 +123,20 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
       asked = {};
     }
   };
-  translated([&] { session ? session->record(advance) : advance(); });
+  failed = true; // unless it goes well, or what keepGoing throws ends it between two steps
+  try {
+    translated([&] { session ? session->record(advance) : advance(); });
+  } catch (const Error&) {
+    throw;
+  } catch (...) {
+    failed = false;
+    throw;
+  }
+  failed = false;
 }
 
 void Run::finish() {
-  if (finished) return;
+  if (finished || failed) return;
   finished = true;
   if (!session) return translated([this] { simulation->checkEnergy(); });
   translated([this] {

@@ -48,12 +48,14 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::step(std::int64_t count, const std::function<bool()>& keepGoing) { run_->step(count, keepGoing); }
 
 void Simulation::stepFor(double seconds) {
+  constexpr double kLongest = 1e9; // [s]
+  if (!(seconds > 0) || seconds > kLongest)
+    throw InputError(fmt::format("stepFor({:g}): is outside (0, {:g}] s", seconds, kLongest));
   step(std::max<std::int64_t>(1, std::llround(seconds / run_->simulation->timeStep())));
 }
 
-const std::string& Simulation::ended() const {
-  static const std::string none;
-  return run_->simulation->vehicle() ? run_->simulation->vehicle()->ended() : none;
+std::string Simulation::ended() const {
+  return run_->simulation->vehicle() ? run_->simulation->vehicle()->ended() : "";
 }
 
 double Simulation::time() const { return run_->simulation->time(); }
@@ -91,7 +93,7 @@ Grains Simulation::grains() const {
 std::size_t Simulation::ownGrainCount() const {
   const auto& grains = run_->simulation->ground().grains;
   if (!grains || run_->comm().alone()) return grainCount();
-  return grains->snapshot().id.size();
+  return detail::translated([&] { return grains->snapshot().id.size(); });
 }
 
 void Simulation::readPositions(std::span<Vec3> positions) const {
@@ -100,9 +102,11 @@ void Simulation::readPositions(std::span<Vec3> positions) const {
     throw InputError(fmt::format("readPositions(): room for {} grains, there are {}", positions.size(), ownGrainCount()));
   if (!grains || positions.empty()) return;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  if (run_->comm().alone()) return terrain::GrainCheckpoint::readPositions(grains->system(), &positions.front().x);
-  const terrain::GrainSnapshot s = grains->snapshot();
-  std::transform(s.position.begin(), s.position.end(), positions.begin(), outside);
+  detail::translated([&] {
+    if (run_->comm().alone()) return terrain::GrainCheckpoint::readPositions(grains->system(), &positions.front().x);
+    const terrain::GrainSnapshot s = grains->snapshot();
+    std::transform(s.position.begin(), s.position.end(), positions.begin(), outside);
+  });
 }
 
 std::vector<Body> Simulation::bodies() const {
@@ -121,7 +125,7 @@ std::vector<Body> Simulation::bodies() const {
 }
 
 Energies Simulation::energies() const {
-  const coupling::Ledger l = run_->simulation->ledger();
+  const coupling::Ledger l = detail::translated([&] { return run_->simulation->ledger(); });
   return {l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.driveWork, l.integrationError, l.residual};
 }
 
@@ -157,7 +161,7 @@ void Simulation::restore(const std::filesystem::path& checkpoint) {
                                                             run.former->state, run.comm(),
                                                             run.kept.spheres ? &*run.kept.spheres : nullptr);
     run.simulation->restartMeans(coupling::Means::watch);
-    run.finished = false;
+    run.finished = run.failed = false;
   });
 }
 

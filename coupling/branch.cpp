@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/branch.hpp"
 
+#include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/towing.hpp"
 
@@ -16,10 +17,27 @@ void keepWork(SimulationState& state, double work) {
   state.ledgerAtStart = start.counted();
 }
 
+/// What was set from outside on drive or hitch ends where the branch has another one.
+void releaseInputs(SimulationState& state, bool driver, bool hitch) {
+  Inputs inputs;
+  inputs.restore(state.inputs);
+  const std::vector<Input> acting = inputs.acting();
+  for (Input input : acting) {
+    const bool ofHitch = input.kind == InputKind::hitchForce || input.kind == InputKind::hitchSpeed;
+    const bool ofDrive = input.kind == InputKind::sprocketSpeed || input.kind == InputKind::sprocketTorque ||
+                         input.kind == InputKind::throttle;
+    if (!(ofDrive && driver) && !(ofHitch && hitch)) continue;
+    input.step = state.steps, input.released = true, input.value = {};
+    inputs.set(input);
+  }
+  state.inputs = inputs.save();
+}
+
 } // namespace
 
 void branch(SimulationState& state, const VehicleSetup& setup, bool otherDriver, bool otherHitch, double time) {
   VehicleState& vehicle = *state.vehicle;
+  releaseInputs(state, otherDriver, otherHitch);
   const vehicle::Handover asked = vehicle::Handover::of(vehicle.asked);
   vehicle::Driver driver(setup.driver);
   if (otherDriver) {

@@ -188,7 +188,7 @@ void VehicleRig::restartMeans(Means of) {
     observer_->restartMeans();
     return;
   }
-  if (!watch_) watch_.emplace(Watch{vehicle::Observer(assembly_, observerOptions())});
+  if (!watch_) watch_.emplace(Watch{*observer_});
   watch_->observer.restartMeans(), watch_->forces.restart();
 }
 

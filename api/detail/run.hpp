@@ -76,6 +76,7 @@ struct Run {
   std::unique_ptr<coupling::Simulation> simulation;
   std::optional<session::RunSession> session; ///< empty without a folder, and behind finish()
   bool finished = false;
+  bool failed = false; ///< by a step; its folder says so
   support::Stopwatch since;
 };
 

@@ -90,11 +90,14 @@ class Simulation:
     # Steps.
     @briefly
     def step(self, count: int = 1) -> None:
-        """Takes `count` steps, or fewer where the scene's [stop] ends the run: see `ended`."""
+        """Takes `count` steps, or fewer where the scene's [stop] ends the run: see `ended`; InputError behind that."""
+        self._seen = (-1, None)
         self._run.step(count)
 
     def step_for(self, seconds: float) -> None:
-        """The number of steps that is nearest to this time, at least one."""
+        """The number of steps that is nearest to this time > 0, at least one."""
+        if not 0 < seconds <= 1e9:
+            raise errors.InputError(f"step_for({seconds}): is outside (0, 1e9] s", 2, [], "")
         self.step(max(1, round(seconds / self.time_step)))
 
     @property

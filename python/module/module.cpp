@@ -57,6 +57,7 @@ public:
 
   void step(std::int64_t count) {
     bool interrupted = false;
+    filledAt_ = -1;
     free([&](grouser::Simulation& run) {
       run.step(count, [&] {
         py::gil_scoped_acquire acquire;
@@ -85,6 +86,17 @@ public:
     grouser::Grains grains;
     free([&](grouser::Simulation& run) { grains = run.grains(); });
     return grains;
+  }
+
+  void restore(const std::filesystem::path& file) {
+    filledAt_ = -1;
+    free([&](grouser::Simulation& run) { run.restore(file); });
+  }
+
+  std::string hash() {
+    std::string hash;
+    free([&](grouser::Simulation& run) { hash = run.hash(); });
+    return hash;
   }
 
   template <class Call> void free(const Call& call) {
@@ -212,9 +224,11 @@ PYBIND11_MODULE(_core, m) {
              return py::make_tuple(v.mass(), v.pitchRadius(), v.shoes());
            })
       .def("energies", &energiesOf)
-      .def("hash", [](Simulation& s) { return s.used().hash(); })
-      .def("save", [](Simulation& s, const std::filesystem::path& file) { s.used().save(file); })
-      .def("restore", [](Simulation& s, const std::filesystem::path& file) { s.used().restore(file); })
+      .def("hash", &Simulation::hash)
+      .def("save", [](Simulation& s, const std::filesystem::path& file) {
+        s.free([&](grouser::Simulation& run) { run.save(file); });
+      })
+      .def("restore", &Simulation::restore)
       .def("set_sprocket_speed", [](Simulation& s, double l, double r) { s.used().vehicle().setSprocketSpeed(l, r); })
       .def("set_sprocket_torque", [](Simulation& s, double l, double r) { s.used().vehicle().setSprocketTorque(l, r); })
       .def("set_throttle", [](Simulation& s, double l, double r) { s.used().vehicle().setThrottle(l, r); })

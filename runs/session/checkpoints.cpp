@@ -34,13 +34,14 @@ Checkpoints::Checkpoints(const setup::Provenance& provenance, const RunRequest& 
 }
 
 void Checkpoints::write(const coupling::Simulation& simulation, output::RunWriter& writer) {
-  if (writtenAt_ == simulation.steps()) return;
+  const std::size_t inputs = simulation.inputs().series().size();
+  if (writtenAt_ == simulation.steps() && writtenInputs_ == inputs) return;
   writer.sync();
   describe(simulation, writer.rows(), writer.frames());
   checkpoint_.state = simulation.save();
   storage::writeCheckpoint(path_, checkpoint_, simulation.comm());
   checkpoint_.state = {};
-  writtenAt_ = simulation.steps();
+  writtenAt_ = simulation.steps(), writtenInputs_ = inputs;
 }
 
 void Checkpoints::remember(const coupling::Simulation& simulation, const output::RunWriter& writer) {

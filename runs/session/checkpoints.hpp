@@ -34,7 +34,9 @@ public:
   /// The run goes on from this one, or branches from it.
   void goOnFrom(const storage::Checkpoint& former, bool branch) {
     checkpoint_.branchedFrom = former.branchedFrom;
-    if (!branch) writtenAt_ = former.state.steps;
+    if (branch) return;
+    writtenAt_ = former.state.steps;
+    writtenInputs_ = former.state.inputs.size() / coupling::Input::kNumbers;
   }
 
 private:
@@ -43,6 +45,7 @@ private:
   std::filesystem::path path_;
   storage::Checkpoint checkpoint_;
   std::int64_t writtenAt_ = -1;
+  std::size_t writtenInputs_ = 0; ///< settings in what was written then
   std::optional<coupling::SimulationState> good_;
   std::int64_t goodRows_ = 0, goodFrames_ = 0;
   double pause_ = 0; ///< until the next time [s]

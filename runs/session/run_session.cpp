@@ -57,7 +57,7 @@ void RunSession::advance(std::int64_t most) {
   simulation_.advance(
       std::min({most, total_ - simulation_.steps(), until(rowEvery_), until(frameEvery_), until(saveEvery_)}));
   const std::int64_t now = simulation_.steps();
-  if (!simulation_.inputs().series().empty()) writer().inputs(simulation_.inputs().save());
+  writeInputs();
   if (now % rowEvery_ == 0) recorder_.row();
   if (now % frameEvery_ == 0) recorder_.frame();
   if (now % rowEvery_ == 0) checkpoints_.remember(simulation_, writer());
@@ -69,8 +69,17 @@ void RunSession::advance(std::int64_t most) {
   }
 }
 
+void RunSession::writeInputs() {
+  const std::size_t made = simulation_.inputs().series().size();
+  if (made == inputsWritten_) return;
+  writer().inputs(simulation_.inputs().save());
+  inputsWritten_ = made;
+}
+
 void RunSession::end() {
   simulation_.checkEnergy(); // the end may fall between two looks
+  replay_.apply(simulation_, 0);
+  writeInputs(); // what was set behind the last step is part of the state too
   // Before the last row: a run that goes on from here does not have it.
   checkpoints_.write(simulation_, writer());
   // The end is always written, whether or not the intervals meet it.

@@ -50,6 +50,7 @@ public:
 
 private:
   std::int64_t stepsToDrive() const;
+  void writeInputs();
   void leaveState();
   void leaveCheckpoint();
   std::string withCheckpoint(const std::string& message) const;
@@ -65,6 +66,7 @@ private:
   const setup::RecordSetup& record_;
   bool resumed_, untilRest_;
   std::int64_t total_, rowEvery_, frameEvery_, saveEvery_; ///< [steps]
+  std::size_t inputsWritten_ = 0;
   Recorder recorder_;
   Checkpoints checkpoints_;
   SignalWatch signals_;

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -146,6 +148,10 @@ TEST_F(Api, WhatIsWrongIsAnErrorOfItsType) {
   Simulation unsound(Scene::fromText(kFall));
   EXPECT_THROW(unsound.step(2000), SimulationError);
   EXPECT_EQ(unsound.grains().position.size(), 2u);
+  EXPECT_THROW(unsound.step(), InputError) << "it has failed";
+  unsound.finish(); // nothing is left to do
+  EXPECT_THROW(simulation.stepFor(std::nan("")), InputError);
+  EXPECT_THROW(simulation.step(std::numeric_limits<std::int64_t>::max()), InputError);
 }
 
 TEST_F(Api, AskedOnTheWayAStepMayEndEarly) {

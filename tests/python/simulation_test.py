@@ -92,7 +92,8 @@ class Vehicles(FolderTest):
             self.assertAlmostEqual(sim.vehicle.right.sprocket_speed - sim.vehicle.left.sprocket_speed, 0.5, delta=1e-9)
             self.assertEqual(sim.vehicle.left.tension.shape, (46,))
             self.assertGreater(sim.vehicle.speed, 0.05)
-            ended = sim.hash()
+            sim.set_sprocket_speed(1.0)  # behind the last step: part of the state that is left
+        ended = grouser.open_run(out).manifest["state_hash"]
         run = grouser.open_run(out)
         self.assertEqual(run.status, "finished")
         said = grouser.call(["run", "--replay", str(out), "--threads", "2", "--out", str(self.folder / "again")])
@@ -193,6 +194,35 @@ class Process(FolderTest):
             sim.step(2000)
         self.assertEqual(caught.exception.exit_code, 3)
         self.assertEqual(sim.positions.shape, (2, 3))
+        with self.assertRaisesRegex(grouser.InputError, "has failed"):
+            sim.step()
+        sim.finish()  # there is nothing to finish
+
+    def test_positions_are_those_of_the_state_that_was_restored(self):
+        with grouser.Simulation(grouser.Scene(FALL)) as sim:
+            sim.step(10)
+            sim.save(self.folder / "ten.h5")
+            there = sim.positions.copy()
+            sim.restore(self.folder / "ten.h5")
+            sim.set_gravity([1, 0, 0])
+            sim.step(10)
+            sim.save(self.folder / "aside.h5")
+            aside = sim.positions.copy()
+            sim.restore(self.folder / "ten.h5")
+            self.assertTrue((sim.positions == there).all())
+            sim.step(10)
+            sim.positions
+            sim.restore(self.folder / "aside.h5")  # at the same step, another state
+            self.assertTrue((sim.positions == aside).all())
+
+    def test_steps_that_cannot_be_are_input_errors(self):
+        with grouser.Simulation(grouser.Scene(FALL)) as sim:
+            for seconds in (0, -1, float("nan"), float("inf")):
+                with self.assertRaises(grouser.InputError):
+                    sim.step_for(seconds)
+            with self.assertRaises(grouser.InputError):
+                sim.step(2**62)
+            self.assertEqual(sim.steps, 0)
 
 
 if __name__ == "__main__":

@@ -61,12 +61,12 @@ public:
   Simulation& operator=(Simulation&&) noexcept;
 
   /// Takes `count` steps, or fewer where what the scene's [stop] names comes to pass; see ended(). Throws
-  /// SimulationError where the simulation becomes unsound.
+  /// SimulationError where the simulation becomes unsound, InputError behind such an end, and behind a failed step.
   /// `keepGoing`, where given, is asked some ten times a second; false ends the call after the step it is at.
   void step(std::int64_t count = 1, const std::function<bool()>& keepGoing = {});
-  /// As many steps as are nearest to `seconds`, at least one.
+  /// As many steps as are nearest to `seconds` > 0, at least one.
   void stepFor(double seconds);
-  const std::string& ended() const; ///< why the scene's [stop] has ended the run; empty while it goes on
+  std::string ended() const; ///< why the scene's [stop] has ended the run; empty while it goes on
 
   double time() const;         ///< since the bed has settled [s]
   double timeStep() const;     ///< [s]
@@ -96,7 +96,8 @@ public:
   /// Goes back, or on, to a checkpoint of the same scene. Not while a folder is written: rows would come twice.
   void restore(const std::filesystem::path& checkpoint);
   std::string hash() const; ///< of the state, 16 hexadecimal digits: equal bits, equal hash
-  /// Ends the run: last row, checkpoint, plots and summary of the folder. Nothing may be stepped behind it.
+  /// Ends the run: last row, checkpoint, plots and summary of the folder. Nothing may be stepped behind it. Behind a
+  /// failed step it does nothing: the folder says why the run has failed.
   void finish();
 
 private:

@@ -3,6 +3,7 @@
 #include "runs/commands/run_scene.hpp"
 
 #include "base/error.hpp"
+#include "coupling/inputs.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
@@ -154,7 +155,7 @@ TEST_F(Branch, UntilRestEndsWhereAWaitingDriverWouldDriveOff) {
   const output::Summary rest = run("rest", scene("sprocket_speed = 2", "", waits), true);
   EXPECT_LT(rest.steps, 4000);
   EXPECT_EQ(rest.steps % 50, 0);
-  EXPECT_DOUBLE_EQ(rest.figures.at("drive_start_s"), 1e-4 * static_cast<double>(rest.steps));
+  EXPECT_NEAR(rest.figures.at("drive_start_s"), 1e-4 * static_cast<double>(rest.steps), 1e-12);
   const std::string hash = run("straight", scene("sprocket_speed = 1", "", waits), false, rest.steps + 300).stateHash;
   EXPECT_EQ(branch("slow", "rest", scene("sprocket_speed = 1", "", waits), rest.steps + 300).stateHash, hash);
 }
@@ -163,6 +164,23 @@ TEST_F(Branch, UntilRestOfAVehicleThatDoesNotComeToRestIsIncomplete) {
   const output::Summary short_ =
       run("rest", scene("sprocket_speed = 2", "", {"driver.drive_start=auto", "run.duration=0.06"}), true);
   EXPECT_NE(short_.incomplete.find("had not come to rest"), std::string::npos) << short_.incomplete;
+}
+
+/// What was set from outside on the drive was set on the former one.
+TEST_F(Branch, OfASteeredRunDrivesAsItsOwnSceneSays) {
+  run("steered", scene(), false, 900);
+  storage::Checkpoint state = storage::readCheckpoint(checkpoint("steered"));
+  coupling::Inputs inputs;
+  for (const std::int32_t side : {0, 1}) inputs.set({600, coupling::InputKind::sprocketSpeed, side, false, {3}});
+  state.state.inputs = inputs.save();
+  storage::writeCheckpoint(checkpoint("steered"), state);
+  branch("alike", "steered", scene());
+  EXPECT_NEAR(last("alike", "vehicle/left/sprocket_speed"), 3, 1e-9) << "with the same keys it goes on as it was";
+  branch("slow", "steered", scene("sprocket_speed = 1"));
+  EXPECT_NEAR(last("slow", "vehicle/left/sprocket_speed"), 1, 1e-9);
+  EXPECT_EQ(support::Hdf5File::open(folder_ / "slow/results.h5").numbers("/inputs/series").size(),
+            4u * coupling::Input::kNumbers)
+      << "two settings, two releases";
 }
 
 TEST_F(Branch, UnderWayPassesFromTheFormerSpeedIntoTheNewOne) {

@@ -42,11 +42,14 @@ TEST(PlanOfGrains, SaysWhatTheyHaveAndWhichKernelRuns) {
                       "material = \"clay\"\n"));
   expectSaid(mixed, "on   rolling history");
   expectSaid(mixed, "on   radius of each grain");
-  expectSaid(mixed, "general: hertz, friction, rolling friction, cohesion, many radii, many materials");
+  expectSaid(mixed,
+             "kernel of the grains       hertz, friction, rolling friction, cohesion, many radii, many materials, "
+             "planes or floor, ledger; single precision: general kernel, same results but slower");
   const std::string plain = planText(parsed("[material.soil]\n[[plane]]\nmaterial = \"soil\"\n" + kGrain));
   expectSaid(plain, "off  rolling history");
   expectSaid(plain, "off  radius of each grain");
-  expectSaid(plain, "special: linear, friction, planes or floor, ledger");
+  expectSaid(plain,
+             "kernel of the grains       linear, friction, planes or floor, ledger; single precision: its own kernel");
 }
 
 TEST(PlanOfGrains, NamesPeriodicBoundaries) {
