@@ -62,7 +62,7 @@ const coupling::VehicleRig& Run::rig() const {
   return *simulation->vehicle();
 }
 
-void Run::set(const std::vector<coupling::Input>& inputs) {
+void Run::set(const std::vector<coupling::Input>& inputs) const {
   translated([&] { simulation->set(inputs); });
 }
 

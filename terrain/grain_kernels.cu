@@ -48,7 +48,10 @@ void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
 template <template <unsigned, class> class Kernel, unsigned... kSets>
 void runChosen(KernelList<kSets...>, const KernelChoice& choice, const base::Exec& exec, const char* name,
                const GrainKernelData& d, const ForceData<float>& f, std::int64_t count) {
-  ((choice.compiledFor == kSets && (runBody<Kernel, kSets>(exec, name, d, f, count), true)) || ...);
+  const auto runIf = [&]<unsigned kSet>() {
+    if (choice.compiledFor == kSet) runBody<Kernel, kSet>(exec, name, d, f, count);
+  };
+  (runIf.template operator()<kSets>(), ...);
 }
 
 } // namespace

@@ -55,7 +55,7 @@ struct Run {
 
   /// The vehicle's rig; throws InputError without one.
   const coupling::VehicleRig& rig() const;
-  void set(const std::vector<coupling::Input>& inputs);
+  void set(const std::vector<coupling::Input>& inputs) const;
   /// Left and right, where the scene has both.
   void setTracks(coupling::InputKind kind, double left, double right);
   /// Back to what the scene says; all targets where none is given.

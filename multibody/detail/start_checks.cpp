@@ -115,8 +115,7 @@ std::string namesOf(const Model& model, const std::vector<int>& couplings) {
 
 void checkClosed(const ConstraintSystem& system, const Model& model) {
   const std::vector<Frame> frames = system.framesOfModel();
-  for (std::size_t k = 0; k < system.constraints().size(); ++k) {
-    const Constraint& c = system.constraints()[k];
+  for (const Constraint& c : system.constraints()) {
     const JointFrames f = framesOf(c, frames[at(c.bodyA)], frames[at(c.bodyB)]);
     double error[6];
     positionError(c, f, error);

@@ -161,9 +161,9 @@ TEST_F(Branch, UntilRestEndsWhereAWaitingDriverWouldDriveOff) {
 }
 
 TEST_F(Branch, UntilRestOfAVehicleThatDoesNotComeToRestIsIncomplete) {
-  const output::Summary short_ =
+  const output::Summary brief =
       run("rest", scene("sprocket_speed = 2", "", {"driver.drive_start=auto", "run.duration=0.06"}), true);
-  EXPECT_NE(short_.incomplete.find("had not come to rest"), std::string::npos) << short_.incomplete;
+  EXPECT_NE(brief.incomplete.find("had not come to rest"), std::string::npos) << brief.incomplete;
 }
 
 /// What was set from outside on the drive was set on the former one.
