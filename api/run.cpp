@@ -66,13 +66,14 @@ void Run::set(const std::vector<coupling::Input>& inputs) const {
   translated([&] { simulation->set(inputs); });
 }
 
-void Run::setTracks(coupling::InputKind kind, double left, double right) {
+void Run::setTracks(coupling::InputKind kind, double left, double right) const {
   std::vector<coupling::Input> inputs{{0, kind, 0, false, {left}}};
   if (rig().assembly().tracks.size() > 1) inputs.push_back({0, kind, 1, false, {right}});
   set(inputs);
 }
 
-void Run::release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target) {
+void Run::release(std::initializer_list<coupling::InputKind> kinds,
+                  const std::optional<std::int32_t>& target) const {
   std::vector<coupling::Input> acting;
   for (coupling::Input input : simulation->inputs().acting()) {
     const bool meant = std::find(kinds.begin(), kinds.end(), input.kind) != kinds.end();

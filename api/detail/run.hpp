@@ -57,9 +57,9 @@ struct Run {
   const coupling::VehicleRig& rig() const;
   void set(const std::vector<coupling::Input>& inputs) const;
   /// Left and right, where the scene has both.
-  void setTracks(coupling::InputKind kind, double left, double right);
+  void setTracks(coupling::InputKind kind, double left, double right) const;
   /// Back to what the scene says; all targets where none is given.
-  void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {});
+  void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {}) const;
   /// Throws InputError naming the rank whose inputs differ from those of rank 0.
   void requireAlike() const;
   void step(std::int64_t count, const std::function<bool()>& keepGoing);
