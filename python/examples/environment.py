@@ -46,7 +46,7 @@ class DriveToGoal:
     def reset(self, *, seed: int | None = None, options: dict | None = None) -> tuple[np.ndarray, dict]:
         self.rng = np.random.default_rng(seed)
         self.sim.restore(self._start)
-        self.origin, self.taken = self.sim.vehicle.position[:2].copy(), 0
+        self.origin, self.taken = self._place(), 0
         return self._observation(), {}
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict]:
@@ -62,8 +62,12 @@ class DriveToGoal:
         self.sim.close()
         self._folder.cleanup()
 
+    def _place(self) -> np.ndarray:
+        # Of the hull's centre: the vehicle's own position is the origin of its frame, which swings out in a turn.
+        return self.sim.bodies()["chassis"].position[:2]
+
     def _to_goal(self) -> np.ndarray:
-        way, heading = self.origin + self.goal - self.sim.vehicle.position[:2], self.sim.vehicle.heading
+        way, heading = self.origin + self.goal - self._place(), self.sim.vehicle.heading
         c, s = math.cos(heading), math.sin(heading)
         return np.array([c * way[0] + s * way[1], c * way[1] - s * way[0]])
 

@@ -141,7 +141,8 @@ class Simulation:
     @property
     @briefly
     def vehicle(self) -> SimpleNamespace:
-        """The vehicle now, as copies: time, position, velocity, speed [m/s], heading, pitch, roll [rad], turn_rate
+        """The vehicle now, as copies: time, position [m] and velocity of the middle of the sprockets' axle line, speed
+        [m/s], heading, pitch, roll [rad], turn_rate
         [rad/s], ground_force, drawbar_pull [N], drive_start [s] (None while it is lowered), and `left` and `right`, each
         with sprocket_speed [rad/s], drive_torque [N m], drive_power [W], speed [m/s], slip [-] and, shoe by shoe,
         tension, normal_force, shear_force [N], sinkage [m]. Forces, torques and powers are means over the last step().
