@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The rules of the house that tests/rooms checks. Each takes a House and yields faults as 'place: what is wrong'."""
-import fnmatch
 import re
-import tomllib
-from functools import cached_property
 from pathlib import Path
 
-from cpp_outline import comments, outline, without_comments
+from checkout import GENERATED, OTHERS, SCRIPTS, SUFFIXES, TOPS, line_at, room_of
+from cpp_outline import outline
 from include_graph import chains_from, circles_of
+from references import links, long_tests, mutants, prose
 
 # A room, and the rooms beside itself that it may include.
 LIBRARIES = {
@@ -36,19 +35,11 @@ NARROW = {
 BLIND = ['coupling', 'runs/storage', 'runs/output', 'runs/render', 'runs/session']
 # Folders of tests that mirror no room: whole scenes, and what several ranks run.
 TEST_ROOMS = {'tests/system', 'tests/ranks'}
-GENERATED = {'grouser_commit.hpp'}  # written by the build
 MAX_FILE_LINES = 500
 MAX_FUNCTION_LINES = 80
 MAX_PUBLIC_FUNCTIONS = 25
-MAX_PROSE_COLUMNS = 120
-
-SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
-SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and what begins with #!
-OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html', '.mp4'}
-TOPS = [*LIBRARIES, 'api', 'runs', 'tests', 'docs', 'cmake', 'python']
 # Beside the tops a checkout may hold results, but nothing that one would compile or run.
 STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp', '.tpp', '.cl', '.hip', '.f90', '.rs'}
-UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')  # no part of the tree
 
 # Rooms that have a part in what a state becomes: elementary functions there are those of base/math.hpp.
 STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'runs/storage']
@@ -69,87 +60,6 @@ def allowed_rooms():
                 may[room] = may[room] - {'runs/scene'}
         before = before | {'runs/' + name for name in line}
     return may
-
-
-def room_of(path):
-    """'terrain' of terrain/detail/x.hpp, 'runs/campaigns/sweeps' of runs/campaigns/sweeps/x.hpp,
-    'tests/runs/campaigns/sweeps' of its tests."""
-    parts = Path(path).parts[:-1]
-    if 'detail' in parts:
-        parts = parts[:parts.index('detail')]
-    if parts[:1] == ('assets',):
-        parts = parts[:1]  # its folders are programs that make what lies in it
-    return '/'.join(parts)
-
-
-INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*([^\s"<]*)(["<]?)([^">\n]*)', re.M)
-
-
-class House:
-    """The files of a checkout, read once."""
-
-    def __init__(self, root):
-        self.root = Path(root)
-        self.files = sorted(str(path.relative_to(self.root)) for path in files_below(self.root))
-        self.code = [path for path in self.files if Path(path).suffix in SUFFIXES]
-        self.documents = [path for path in self.files if path.endswith('.md')]
-        self.scripts = [path for path in self.files if is_script(self.root / path)]
-        self.text = {path: (self.root / path).read_text() for path in self.code + self.documents + self.scripts}
-
-    @cached_property
-    def plain(self):
-        """{file of code: its text without comments and strings}; lines keep their numbers."""
-        return {path: without_comments(self.text[path]) for path in self.code}
-
-    @cached_property
-    def endings(self):
-        """All that a file may be called: of a/b/c.hpp also b/c.hpp and c.hpp."""
-        return {'/'.join(Path(path).parts[k:]) for path in self.files for k in range(len(Path(path).parts))}
-
-    @cached_property
-    def includes(self):
-        """{file: [(line, what it names, the file it is or None)]}, without those that lie outside the house."""
-        found = {}
-        for path in self.code:
-            found[path] = []
-            plain = without_comments(self.text[path], keep_strings=True)
-            for match in INCLUDE.finditer(plain):
-                line = plain.count('\n', 0, match.start()) + 1
-                macro, opening, name = match.groups()
-                target = None if macro else self._resolve(path, name, beside=opening == '"')
-                if macro or target or opening == '"':
-                    found[path].append((line, macro or name, target))
-        return found
-
-    def _resolve(self, path, name, beside):
-        near = str((self.root / path).parent.joinpath(name).resolve()).removeprefix(str(self.root.resolve()) + '/')
-        for candidate in (name, near) if beside else (name,):
-            if candidate in self.text:
-                return candidate
-        return None
-
-
-def files_below(root, top=True):
-    for path in root.iterdir():
-        if UNREAD.fullmatch(path.name) or (top and UNREAD_AT_TOP.fullmatch(path.name) and path.is_dir()):
-            continue
-        if path.is_dir():
-            yield from files_below(path, top=False)
-        else:
-            yield path
-
-
-def is_script(path):
-    if path.suffix in SCRIPTS or path.name == 'CMakeLists.txt':
-        return True
-    if path.suffix:
-        return False
-    with path.open('rb') as file:
-        return file.read(2) == b'#!'
-
-
-def line_at(text, at):
-    return text.count('\n', 0, at) + 1
 
 
 def places(house):
@@ -382,118 +292,6 @@ def licence(house):
         number = 1 if lines[0].startswith('#!') and len(lines) > 1 else 0
         if 'SPDX-License-Identifier: BSD-3-Clause' not in lines[number]:
             yield f'{path}:{number + 1}: here stands the licence: SPDX-License-Identifier: BSD-3-Clause'
-
-
-def prose(house):
-    """Documents are wrapped: but for tables, code, and what has no place to break."""
-    for path in house.documents:
-        for number, line in prose_lines(house.text[path]):
-            # A line of one long word (a link, an address) behind its list mark cannot be shorter.
-            words = re.sub(r'^[\s>*\-\d.]*', '', line).split()
-            if len(line) > MAX_PROSE_COLUMNS and not line.lstrip().startswith('|') and len(words) > 1:
-                yield f'{path}:{number}: {len(line)} columns, at most {MAX_PROSE_COLUMNS}'
-
-
-def prose_lines(text):
-    """Numbered lines outside fenced and indented code."""
-    fenced, blank, listed = False, True, False
-    for number, line in enumerate(text.split('\n'), 1):
-        if re.match(r'\s*(```|~~~)', line):
-            fenced = not fenced
-            continue
-        if re.match(r'\s*([-*]|\d+\.)\s', line):
-            listed = True
-        elif line and not line[0].isspace():
-            listed = False
-        indented = line.startswith('    ') and not listed
-        if not fenced and not indented:
-            yield number, line
-
-
-def links(house):
-    """Links of documents, paths named as `room/file`, and files of code named in documents and comments are there."""
-    tops = '|'.join(TOPS)
-    for path in house.documents:
-        for number, line in prose_lines(house.text[path]):
-            for target in re.findall(r'\]\(([^)\s]+)\)', re.sub(r'`[^`]*`', '', line)):
-                fault = link_fault(house, path, target)
-                if fault:
-                    yield f'{path}:{number}: {fault}'
-            # Without a suffix a unit is meant: `base/comm` for base/comm.hpp and base/comm.cpp.
-            for name in re.findall(rf'`((?:{tops})/[\w./]+)`', line):
-                if not (house.root / name).exists() and not list(house.root.glob(name + '.*')):
-                    yield f'{path}:{number}: there is no {name}'
-            for span in re.findall(r'`([^`]*)`', line):
-                for name in code_named(span):
-                    if name not in house.endings and not re.match(rf'(?:{tops})/', name):
-                        yield f'{path}:{number}: there is no {name} anywhere'
-    for path in house.code:
-        for match in comments(house.text[path]):
-            for name in code_named(match[0]):
-                if name not in house.endings and name not in GENERATED:
-                    yield f'{path}:{line_at(house.text[path], match.start() + match[0].find(name))}: there is no {name}'
-
-
-def code_named(text):
-    """Names of files of code in a text; NAME.cpp and *_test.cpp are patterns."""
-    for name in re.findall(r'[\w./*<>{}-]*\.(?:hpp|cpp|cuh|cu|py)\b', text):
-        if not re.search(r'[*<>{}]|[A-Z]{2}|^\.', name) and not name.startswith('/'):
-            yield name
-
-
-def link_fault(house, path, target):
-    if re.match(r'\w+:', target):
-        return None
-    name, _, heading = target.partition('#')
-    place = (house.root / path).parent / name if name else house.root / path
-    if not place.exists():
-        return f'there is no {name}'
-    if heading and place.suffix == '.md' and heading not in headings(place.read_text()):
-        return f'{name or path} has no heading #{heading}'
-    return None
-
-
-def headings(text):
-    """Anchors as GitHub makes them of the headings of a document."""
-    titles = [line for _, line in prose_lines(text) if line.startswith('#')]
-    plain = [re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', title.lstrip('#').strip()).lower() for title in titles]
-    return {re.sub(r'[^\w\- ]', '', title).replace(' ', '-') for title in plain}
-
-
-def tests_of(house):
-    """{room of tests: names as GoogleTest has them}"""
-    tests = {}
-    for path in house.code:
-        if path.startswith('tests/'):
-            named = re.findall(r'\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)', house.plain[path])
-            tests.setdefault(room_of(path).split('/')[-1], []).extend('.'.join(name) for name in named)
-    return tests
-
-
-def long_tests(house):
-    """Long tests are there, and so are the quicker ones of their claims: ctest is silent about a name without a test."""
-    path = house.root / 'tests/long_tests.cmake'
-    there = {name for names in tests_of(house).values() for name in names}
-    rows = [row.split() for row in re.findall(r'^ +"(\w+\.\w+.*)"', path.read_text() if path.exists() else '', re.M)]
-    long = {row[0] for row in rows if not row[-1].isdigit()}
-    for row in rows:
-        yield from (f'tests/long_tests.cmake: there is no test {name}' for name in row if '.' in name and name not in there)
-        yield from (f'tests/long_tests.cmake: {name} is itself a long one' for name in row[1:] if name in long)
-
-
-def mutants(house):
-    """What tests/mutate changes stands in its file, just once, and the tests that should see it are there: else no test
-    is asked about that fault any more."""
-    tests = tests_of(house)
-    for path in (path for path in house.files if re.fullmatch(r'tests/mutation/.+\.toml', path)):
-        for number, fault in enumerate(tomllib.loads((house.root / path).read_text()).get('fault', []), 1):
-            count = house.text.get(fault['file'], '').count(fault['old'])
-            if count != 1:
-                yield f'{path}: fault {number} stands {count} times in {fault["file"]}: {fault["old"]}'
-            for room, filters in (test.split(':', 1) for test in fault.get('tests', [])):
-                for wanted in filters.split('-')[0].split(':'):
-                    if not fnmatch.filter(tests.get(room, []), wanted.split('/')[-1]):  # Laws/Scale.* are Scale's
-                        yield f'{path}: fault {number}: there is no test {wanted} in {room}'
 
 
 RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links,

@@ -9,6 +9,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import rules  # noqa: E402
+from checkout import House  # noqa: E402
 from cpp_outline import outline  # noqa: E402
 
 LICENCE = '// SPDX-License-Identifier: BSD-3-Clause\n'
@@ -27,7 +28,7 @@ def faults(rule, files):
             place = Path(folder, path)
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_text(LICENCE + text if path.endswith(('.hpp', '.cpp', '.cu', '.cuh')) else text)
-        return list(rule(rules.House(folder)))
+        return list(rule(House(folder)))
 
 
 class Places(unittest.TestCase):
@@ -368,44 +369,7 @@ class Code(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, 'base').mkdir()
             Path(folder, 'base/a.hpp').write_text('#pragma once\n')
-            self.assertEqual(len(list(rules.licence(rules.House(folder)))), 1)
-
-
-class Documents(unittest.TestCase):
-    WIDE = 'word ' * 30
-
-    def test_prose_is_wrapped(self):
-        for text in (self.WIDE, '- ' + self.WIDE, '  ' + self.WIDE, '- item\n\n    ' + self.WIDE):
-            self.assertEqual(len(faults(rules.prose, {'docs/a.md': text})), 1, text)
-
-    def test_tables_code_and_long_links_are_not(self):
-        for text in ('| ' + self.WIDE, '    ' + self.WIDE, '```\n' + self.WIDE + '\n```\n',
-                     '- <https://' + 'a' * 130 + '>'):
-            self.assertEqual(faults(rules.prose, {'docs/a.md': text}), [], text)
-
-    def test_links(self):
-        files = {'docs/a.md': '# Title: of `code`\n\n## Part two\n', 'README.md': ''}
-        for good in ('(docs/a.md)', '(docs/a.md#part-two)', '(docs/a.md#title-of-code)', '(https://x.org/y)', '(docs)'):
-            self.assertEqual(faults(rules.links, {**files, 'README.md': f'[x]{good}\n'}), [], good)
-        for bad in ('(docs/b.md)', '(docs/a.md#part-three)', '(#nowhere)'):
-            self.assertEqual(len(faults(rules.links, {**files, 'README.md': f'[x]{bad}\n'})), 1, bad)
-
-    def test_paths(self):
-        files = {'base/comm.hpp': ''}
-        for good in ('base/comm.hpp', 'base/comm', 'base/', 'comm.hpp', 'elsewhere/x.csv', 'base/ROOM-NAME'):
-            self.assertEqual(faults(rules.links, {**files, 'README.md': f'`{good}`\n'}), [], good)
-        for bad in ('base/com', 'base/comm.cpp', 'contact/exchange', 'elsewhere/comm.hpp', 'com.hpp',
-                    'python3 gone.py'):
-            self.assertEqual(len(faults(rules.links, {**files, 'README.md': f'`{bad}`\n'})), 1, bad)
-
-    def test_files_named_in_comments(self):
-        files = {'base/comm.hpp': '', 'tests/base/comm_test.cpp': ''}
-        for good in ('// see comm.hpp', '/* tests/base/comm_test.cpp */', '/// `base/comm_test.cpp`', '// *_test.cpp',
-                     '// NAME_options.cpp', 'f("gone.hpp");', '// grouser_commit.hpp', '// grain_step.{hpp,cu}'):
-            self.assertEqual(faults(rules.links, {**files, 'base/a.cpp': good + '\n'}), [], good)
-        for bad in ('// see gone.hpp', '/*\n gone.hpp */', '/// tests/comm_test.cpp', 'int a; // (plots/gone.py)'):
-            self.assertEqual(len(faults(rules.links, {**files, 'base/a.cpp': bad + '\n'})), 1, bad)
-        self.assertIn('base/a.cpp:4:', faults(rules.links, {'base/a.cpp': '/*\n\n gone.hpp */\n'})[0])
+            self.assertEqual(len(list(rules.licence(House(folder)))), 1)
 
 
 class Outline(unittest.TestCase):
@@ -456,39 +420,6 @@ class Outline(unittest.TestCase):
 '''
         found = {one.name: one.public for one in outline(text)[1]}
         self.assertEqual(found, {'A': ['A', 'size', 'get', 'operator_'], 'Inner': ['inner']})
-
-
-class Mutants(unittest.TestCase):
-    def test_the_text_of_a_fault_stands_just_once_where_it_says(self):
-        table = '[[fault]]\nfile = "base/a.cpp"\nold = "x += 1;"\nnew = "x -= 1;"\nuser = "counts down"\n'
-        for code, count in (('x += 1;\n', 1), ('x += 2;\n', 0), ('x += 1; x += 1;\n', 2)):
-            told = faults(rules.mutants, {'base/a.cpp': code, 'tests/mutation/base.toml': table})
-            self.assertEqual(len(told), 0 if count == 1 else 1, code)
-        self.assertIn('stands 0 times in base/b.cpp', faults(rules.mutants, {
-            'base/a.cpp': 'x += 1;\n', 'tests/mutation/base.toml': table.replace('base/a', 'base/b')})[0])
-
-    def test_the_tests_that_should_see_a_fault_are_there(self):
-        house = {'base/a.cpp': 'x += 1;\n', 'tests/runs/campaigns/sweeps/a_test.cpp': 'TEST(Sum, Grows) {}\n',
-                 'tests/system/b_test.cpp': 'TEST_F(Bed, Rests) {}\nTEST_P(Laws, Hold) {}\n'}
-        table = '[[fault]]\nfile = "base/a.cpp"\nold = "x += 1;"\nnew = "x -= 1;"\nuser = "counts down"\ntests = [{}]\n'
-        for good in ('"sweeps:Sum.*"', '"sweeps:*Grow*"', '"sweeps:Sum.*", "system:Bed.Rests:All/Laws.*"', '"system:*"'):
-            self.assertEqual(faults(rules.mutants, {**house, 'tests/mutation/a.toml': table.format(good)}), [], good)
-        for bad in ('"system:Sum.*"', '"sweeps:Bed.*"', '"simulation:Bed.*"', '"system:Bed.*:Beds.*"', '"sweeps:sum.*"'):
-            told = faults(rules.mutants, {**house, 'tests/mutation/a.toml': table.format(bad)})
-            self.assertEqual(len(told), 1, bad)
-            self.assertIn('there is no test', told[0])
-
-
-class LongTests(unittest.TestCase):
-    def test_they_and_quicker_ones_of_their_claims_are_there(self):
-        house = {'tests/system/a_test.cpp': 'TEST(Bed, Sinks) {}\nTEST(Bed, Rests) {}\nTEST_F(Ground, Holds) {}\n'}
-        table = 'foreach(row\n    "Bed.Sinks 60 Bed.Rests"\n    "{}")\nendforeach()\nforeach(row\n    "Bed.Rests 20")\n'
-        def told(row):
-            return faults(rules.long_tests, {**house, 'tests/long_tests.cmake': table.format(row)})
-        self.assertEqual(told('Ground.Holds 30 Bed.Rests'), [])
-        self.assertEqual(told('Ground.Gives 30 Bed.Rests'), ['tests/long_tests.cmake: there is no test Ground.Gives'])
-        self.assertEqual(told('Ground.Holds 30 Bed.Rest'), ['tests/long_tests.cmake: there is no test Bed.Rest'])
-        self.assertEqual(told('Ground.Holds 30 Bed.Sinks'), ['tests/long_tests.cmake: Bed.Sinks is itself a long one'])
 
 
 if __name__ == '__main__':

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rules of documents and lists: what one file names in another is there."""
+import fnmatch
+import re
+import tomllib
+
+from checkout import GENERATED, TOPS, is_there, line_at, room_of
+from cpp_outline import comments
+
+MAX_PROSE_COLUMNS = 120
+
+
+def prose(house):
+    """Documents are wrapped: but for tables, code, and what has no place to break."""
+    for path in house.documents:
+        for number, line in prose_lines(house.text[path]):
+            # A line of one long word (a link, an address) behind its list mark cannot be shorter.
+            words = re.sub(r'^[\s>*\-\d.]*', '', line).split()
+            if len(line) > MAX_PROSE_COLUMNS and not line.lstrip().startswith('|') and len(words) > 1:
+                yield f'{path}:{number}: {len(line)} columns, at most {MAX_PROSE_COLUMNS}'
+
+
+def prose_lines(text):
+    """Numbered lines outside fenced and indented code."""
+    fenced, blank, listed = False, True, False
+    for number, line in enumerate(text.split('\n'), 1):
+        if re.match(r'\s*(```|~~~)', line):
+            fenced = not fenced
+            continue
+        if re.match(r'\s*([-*]|\d+\.)\s', line):
+            listed = True
+        elif line and not line[0].isspace():
+            listed = False
+        indented = line.startswith('    ') and not listed
+        if not fenced and not indented:
+            yield number, line
+
+
+def links(house):
+    """Links of documents, paths named as `room/file`, and files of code named in documents and comments are there."""
+    tops = '|'.join(TOPS)
+    for path in house.documents:
+        for number, line in prose_lines(house.text[path]):
+            for target in re.findall(r'\]\(([^)\s]+)\)', re.sub(r'`[^`]*`', '', line)):
+                fault = link_fault(house, path, target)
+                if fault:
+                    yield f'{path}:{number}: {fault}'
+            # Without a suffix a unit is meant: `base/comm` for base/comm.hpp and base/comm.cpp.
+            for name in re.findall(rf'`((?:{tops})/[\w./]+)`', line):
+                if not is_there(house.root / name) and not list(house.root.glob(name + '.*')):
+                    yield f'{path}:{number}: there is no {name}'
+            for span in re.findall(r'`([^`]*)`', line):
+                for name in code_named(span):
+                    if name not in house.endings and not re.match(rf'(?:{tops})/', name):
+                        yield f'{path}:{number}: there is no {name} anywhere'
+    for path in house.code:
+        for match in comments(house.text[path]):
+            for name in code_named(match[0]):
+                if name not in house.endings and name not in GENERATED:
+                    yield f'{path}:{line_at(house.text[path], match.start() + match[0].find(name))}: there is no {name}'
+
+
+def code_named(text):
+    """Names of files of code in a text; NAME.cpp and *_test.cpp are patterns."""
+    for name in re.findall(r'[\w./*<>{}-]*\.(?:hpp|cpp|cuh|cu|py)\b', text):
+        if not re.search(r'[*<>{}]|[A-Z]{2}|^\.', name) and not name.startswith('/'):
+            yield name
+
+
+def link_fault(house, path, target):
+    if re.match(r'\w+:', target):
+        return None
+    name, _, heading = target.partition('#')
+    place = (house.root / path).parent / name if name else house.root / path
+    if not place.exists():
+        return f'there is no {name}'
+    if heading and place.suffix == '.md' and heading not in headings(place.read_text()):
+        return f'{name or path} has no heading #{heading}'
+    return None
+
+
+def headings(text):
+    """Anchors as GitHub makes them of the headings of a document."""
+    titles = [line for _, line in prose_lines(text) if line.startswith('#')]
+    plain = [re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', title.lstrip('#').strip()).lower() for title in titles]
+    return {re.sub(r'[^\w\- ]', '', title).replace(' ', '-') for title in plain}
+
+
+def tests_of(house):
+    """{room of tests: names as GoogleTest has them}"""
+    tests = {}
+    for path in house.code:
+        if path.startswith('tests/'):
+            named = re.findall(r'\bTEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)', house.plain[path])
+            tests.setdefault(room_of(path).split('/')[-1], []).extend('.'.join(name) for name in named)
+    return tests
+
+
+def long_tests(house):
+    """Long tests are there, and so are the quicker ones of their claims: ctest is silent about a name without a test."""
+    path = house.root / 'tests/long_tests.cmake'
+    there = {name for names in tests_of(house).values() for name in names}
+    rows = [row.split() for row in re.findall(r'^ +"(\w+\.\w+.*)"', path.read_text() if path.exists() else '', re.M)]
+    long = {row[0] for row in rows if not row[-1].isdigit()}
+    for row in rows:
+        yield from (f'tests/long_tests.cmake: there is no test {name}' for name in row if '.' in name and name not in there)
+        yield from (f'tests/long_tests.cmake: {name} is itself a long one' for name in row[1:] if name in long)
+
+
+def mutants(house):
+    """What tests/mutate changes stands in its file, just once, and the tests that should see it are there: else no test
+    is asked about that fault any more."""
+    tests = tests_of(house)
+    for path in (path for path in house.files if re.fullmatch(r'tests/mutation/.+\.toml', path)):
+        for number, fault in enumerate(tomllib.loads((house.root / path).read_text()).get('fault', []), 1):
+            count = house.text.get(fault['file'], '').count(fault['old'])
+            if count != 1:
+                yield f'{path}: fault {number} stands {count} times in {fault["file"]}: {fault["old"]}'
+            for room, filters in (test.split(':', 1) for test in fault.get('tests', [])):
+                for wanted in filters.split('-')[0].split(':'):
+                    if not fnmatch.filter(tests.get(room, []), wanted.split('/')[-1]):  # Laws/Scale.* are Scale's
+                        yield f'{path}: fault {number}: there is no test {wanted} in {room}'
