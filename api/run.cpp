@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "api/detail/run.hpp"
 #include "runs/output/manifest.hpp"
+#include "runs/session/branch.hpp"
 #include "runs/session/failed_run.hpp"
+#include "runs/session/final_figures.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/build_info.hpp"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace grouser::detail {
 
@@ -17,39 +20,56 @@ namespace {
 
 constexpr double kBetweenQuestions = 0.1; ///< that keepGoing is asked [s]
 
-scene::Scene onDevice(const Scene::Impl& of, const Options& options) {
+scene::Scene onDevice(const SceneData& of, const Options& options) {
   std::vector<std::string> overrides = of.overrides;
   if (!options.device.empty()) overrides.push_back("run.device=" + options.device);
   if (options.threads >= 0) overrides.push_back(fmt::format("run.threads={}", options.threads));
-  return of.text ? setup::parseScene(*of.text, of.file, overrides) : setup::loadScene(of.file, overrides);
+  return setup::parseScene(of.text, of.file, overrides);
+}
+
+bool isSameFolder(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
 }
 
 session::RunRequest requestOf(const Options& options, const std::optional<std::filesystem::path>& resume) {
   session::RunRequest request;
   request.folder = options.folder, request.force = options.overwrite, request.cache = options.cache;
-  request.resume = resume, request.hash = true, request.commandLine = "library";
-  request.ranks = options.ranks ? &options.ranks->impl().ranks : nullptr;
+  request.resume = resume, request.resumeOption = "the checkpoint", request.hash = true;
+  request.branch = resume && (options.folder.empty() || !isSameFolder(resume->parent_path(), options.folder));
+  request.commandLine = "library", request.ranks = Run::ranksOf(options);
   return request;
+}
+
+/// Before a bed settles for nothing.
+void claim(const session::RunRequest& request, support::FileLock& lock) {
+  std::error_code error;
+  if (request.folder.empty() || !request.comm().first()) return;
+  if (request.resume && !request.branch) return output::claimFolder(lock, request.folder);
+  if (!request.force && std::filesystem::exists(request.folder, error) &&
+      !std::filesystem::is_empty(request.folder, error))
+    throw base::InputError(fmt::format("{}: the folder is not empty; name another, or let it be overwritten (overwrite)",
+                                       request.folder.string()));
 }
 
 } // namespace
 
 Run::Run(const Scene& of, const Options& given, const std::optional<std::filesystem::path>& resume)
-    : scene(onDevice(of.impl(), given)), options(given), request(requestOf(given, resume)),
+    : scene(onDevice(dataOf(of), given)), options(given), request(requestOf(given, resume)),
       record(setup::recordSetup(scene, setup::provenanceOf(scene))),
       exec(support::chooseDevice(scene.run.device, scene.run.threads, request.ranks)),
-      kept(session::cachesOf(scene.terrain && scene.terrain->cache, request)),
-      former(session::formerRun(record.provenance, request)) {
-  coupling::SimulationSetup setup = setup::simulationSetup(scene, comm().size());
-  coupling::SphereSets* spheres = kept.spheres ? &*kept.spheres : nullptr;
-  if (former) {
-    simulation = std::make_unique<coupling::Simulation>(std::move(setup), exec, former->state, comm(), spheres);
+      kept(session::cachesOf(scene.terrain && scene.terrain->cache, request)) {
+  claim(request, lock);
+  std::unique_ptr<storage::Checkpoint> former;
+  if (resume) {
+    former = goOn();
   } else {
     const coupling::SettleProgress progress = [this](double time, double agitation) {
       if (options.settling) options.settling(time, agitation);
     };
-    simulation = std::make_unique<coupling::Simulation>(std::move(setup), exec, progress, comm(),
-                                                        kept.beds ? &*kept.beds : nullptr, spheres);
+    simulation = std::make_unique<coupling::Simulation>(setup::simulationSetup(scene, comm().size()), exec, progress,
+                                                        comm(), kept.beds ? &*kept.beds : nullptr,
+                                                        kept.spheres ? &*kept.spheres : nullptr);
   }
   simulation->restartMeans(coupling::Means::watch);
   if (options.folder.empty()) return;
@@ -57,42 +77,78 @@ Run::Run(const Scene& of, const Options& given, const std::optional<std::filesys
   session->record([this] { session->begin(); });
 }
 
+std::unique_ptr<storage::Checkpoint> Run::goOn() {
+  auto read = session::formerRun(record.provenance, request);
+  coupling::SimulationSetup setup = setup::simulationSetup(scene, comm().size());
+  if (read->timeStep != setup.timeStep)
+    throw base::InputError(fmt::format("{}: was written with steps of {:g} s, this scene takes {:g} s; give run.time_step",
+                                       request.resume->string(), read->timeStep, setup.timeStep));
+  if (request.branch) session::branch(*read, record.provenance, setup, request);
+  simulation.reset(); // memory may not hold two of them
+  simulation = std::make_unique<coupling::Simulation>(std::move(setup), exec, read->state, comm(),
+                                                      kept.spheres ? &*kept.spheres : nullptr);
+  pending.clear();
+  return read;
+}
+
+coupling::Simulation& Run::now() const {
+  if (!simulation) throw InputError("the simulation is lost, since the last restore() failed midway; make another");
+  return *simulation;
+}
+
 const coupling::VehicleRig& Run::rig() const {
-  if (!simulation->vehicle()) throw InputError("the scene has no vehicle; give it [vehicle] spec = \"vehicles/light_tracked.toml\"");
-  return *simulation->vehicle();
+  const coupling::VehicleRig* rig = now().vehicle();
+  if (!rig) throw InputError("the scene has no vehicle; give it [vehicle] spec = \"vehicles/light_tracked.toml\"");
+  return *rig;
 }
 
-void Run::set(const std::vector<coupling::Input>& inputs) const {
-  translated([&] { simulation->set(inputs); });
+void Run::set(const std::vector<coupling::Input>& inputs) {
+  translated([&] {
+    for (const coupling::Input& input : inputs) now().require(input);
+  });
+  pending.insert(pending.end(), inputs.begin(), inputs.end());
+  if (comm().alone()) act();
 }
 
-void Run::setTracks(coupling::InputKind kind, double left, double right) const {
+void Run::setTracks(coupling::InputKind kind, double left, double right) {
+  using coupling::InputKind;
   std::vector<coupling::Input> inputs{{0, kind, 0, false, {left}}};
   if (rig().assembly().tracks.size() > 1) inputs.push_back({0, kind, 1, false, {right}});
   set(inputs);
+  // The last one counts: an engine has either a throttle or a governor.
+  if (kind == InputKind::throttle) release({InputKind::sprocketSpeed});
+  if (kind == InputKind::sprocketSpeed) release({InputKind::throttle});
 }
 
-void Run::release(std::initializer_list<coupling::InputKind> kinds,
-                  const std::optional<std::int32_t>& target) const {
-  std::vector<coupling::Input> acting;
-  for (coupling::Input input : simulation->inputs().acting()) {
+void Run::release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target) {
+  std::vector<coupling::Input> acting = now().inputs().acting();
+  acting.insert(acting.end(), pending.begin(), pending.end());
+  std::vector<coupling::Input> released;
+  for (coupling::Input input : acting) {
     const bool meant = std::find(kinds.begin(), kinds.end(), input.kind) != kinds.end();
     if (!meant || (target && input.target != *target)) continue;
     input.released = true, input.value = {};
-    acting.push_back(input);
+    released.push_back(input);
   }
-  if (!acting.empty()) set(acting);
+  if (!released.empty()) set(released);
 }
 
-void Run::requireAlike() const {
-  if (comm().alone()) return;
-  const auto all = comm().gatherAll(simulation->inputs().save());
-  for (std::size_t r = 1; r < all.size(); ++r)
-    if (all[r] != all[0])
-      throw InputError(fmt::format("step {}: rank {} has set other inputs than rank 0 ({} beside {} so far); all ranks "
-                                   "must set the same before the same step",
-                                   simulation->steps(), r, all[r].size() / coupling::Input::kNumbers,
-                                   all[0].size() / coupling::Input::kNumbers));
+void Run::act(std::int64_t steps) {
+  const std::vector<coupling::Input> inputs = std::exchange(pending, {});
+  if (!comm().alone()) {
+    std::vector<double> mine{static_cast<double>(steps)};
+    for (const coupling::Input& input : inputs) {
+      const auto numbers = input.numbers();
+      mine.insert(mine.end(), numbers.begin(), numbers.end());
+    }
+    const auto all = comm().gatherAll(mine);
+    for (std::size_t r = 1; r < all.size(); ++r)
+      if (all[r] != all[0])
+        throw InputError(fmt::format("step {}: rank {} has set other inputs than rank 0, or takes another number of "
+                                     "steps; all ranks must set the same and step alike",
+                                     now().steps(), r));
+  }
+  if (!inputs.empty()) translated([&] { now().set(inputs); });
 }
 
 void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
@@ -101,32 +157,14 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
   if (count < 1) throw InputError(fmt::format("step({}): at least one step", count));
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / 4;
   if (count > kMost) throw InputError(fmt::format("step({}): at most {} steps", count, kMost));
-  if (const coupling::VehicleRig* rig = simulation->vehicle(); rig && !rig->ended().empty())
+  if (const coupling::VehicleRig* rig = now().vehicle(); rig && !rig->ended().empty())
     throw InputError("the scene's [stop] has ended the run: " + rig->ended());
-  requireAlike();
-  simulation->restartMeans(coupling::Means::watch);
-  const std::int64_t end = simulation->steps() + count;
-  const auto goesOn = [&] {
-    return simulation->steps() < end && !(simulation->vehicle() && !simulation->vehicle()->ended().empty());
-  };
-  support::Stopwatch asked;
-  std::int64_t together = keepGoing ? 16 : count; // between two questions
-  const auto advance = [&] {
-    for (std::int64_t next = simulation->steps() + together; goesOn();) {
-      const std::int64_t most = std::min(end, next) - simulation->steps();
-      session ? session->advance(most) : static_cast<void>(simulation->advance(most));
-      if (!keepGoing || simulation->steps() < next) continue;
-      const double seconds = asked.seconds();
-      if (seconds < 0.5 * kBetweenQuestions) together *= 2;
-      if (seconds > 2 * kBetweenQuestions) together = std::max<std::int64_t>(1, together / 2);
-      next = simulation->steps() + together;
-      if (!keepGoing()) return;
-      asked = {};
-    }
-  };
+  act(count);
+  now().restartMeans(coupling::Means::watch);
   failed = true; // unless it goes well, or what keepGoing throws ends it between two steps
   try {
-    translated([&] { session ? session->record(advance) : advance(); });
+    const auto all = [&] { advance(count, keepGoing); };
+    translated([&] { session ? session->record(all) : all(); });
   } catch (const Error&) {
     throw;
   } catch (...) {
@@ -136,17 +174,41 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
   failed = false;
 }
 
+void Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
+  const std::int64_t end = now().steps() + count;
+  const auto goesOn = [&] {
+    return now().steps() < end && !(now().vehicle() && !now().vehicle()->ended().empty());
+  };
+  // Ranks must be asked at the same step, which their clocks would not find.
+  constexpr std::int64_t kOfRanks = 16;
+  while (goesOn()) {
+    const support::Stopwatch lap;
+    const std::int64_t next =
+        keepGoing ? std::min(end, now().steps() + (comm().alone() ? stepsAtATime : kOfRanks)) : end;
+    while (now().steps() < next && goesOn()) {
+      const std::int64_t most = next - now().steps();
+      session ? session->advance(most) : static_cast<void>(now().advance(most));
+    }
+    if (!keepGoing) continue;
+    if (lap.seconds() < 0.5 * kBetweenQuestions && next < end) stepsAtATime *= 2;
+    if (lap.seconds() > 2 * kBetweenQuestions) stepsAtATime = std::max<std::int64_t>(1, stepsAtATime / 2);
+    if (comm().sumOf(keepGoing() ? 0 : 1) > 0) return;
+  }
+}
+
 void Run::finish() {
   if (finished || failed) return;
+  act();
   finished = true;
-  if (!session) return translated([this] { simulation->checkEnergy(); });
+  if (!session) return translated([this] { now().checkEnergy(); });
   translated([this] {
     session->record([this] {
       session->end();
       if (record.output.picture) session->recorder().picture(record.output.pictureWidth);
       output::Summary summary;
-      summary.steps = simulation->steps(), summary.simulatedTime = simulation->time();
-      summary.wallTime = since.seconds(), summary.stateHash = simulation->stateHash();
+      summary.steps = now().steps(), summary.simulatedTime = now().time();
+      summary.wallTime = since.seconds(), summary.stateHash = now().stateHash();
+      session::noteFigures(*session, summary);
       session->writer().finish(summary);
     });
     session.reset(); // closes its files

@@ -7,18 +7,26 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 
 namespace grouser {
 
 namespace {
 
-std::shared_ptr<const Scene::Impl> loaded(std::optional<std::string> text, const std::filesystem::path& file,
+std::string textOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::shared_ptr<const detail::SceneData> loaded(std::optional<std::string> text, const std::filesystem::path& file,
                                           std::vector<std::string> overrides) {
   return detail::translated([&] {
-    auto impl = std::make_shared<Scene::Impl>();
-    impl->scene = text ? setup::parseScene(*text, file, overrides) : setup::loadScene(file, overrides);
-    impl->text = std::move(text), impl->file = file, impl->overrides = std::move(overrides);
-    return std::shared_ptr<const Scene::Impl>(std::move(impl));
+    auto data = std::make_shared<detail::SceneData>();
+    data->scene = text ? setup::parseScene(*text, file, overrides) : setup::loadScene(file, overrides);
+    data->text = text ? std::move(*text) : textOf(file);
+    data->file = file, data->overrides = std::move(overrides);
+    return std::shared_ptr<const detail::SceneData>(std::move(data));
   });
 }
 
@@ -33,7 +41,9 @@ std::string quoted(std::string_view text) {
 
 } // namespace
 
-Scene Scene::fromFile(const std::filesystem::path& file) { return Scene(loaded({}, file, {})); }
+Scene Scene::fromFile(const std::filesystem::path& file) {
+  return Scene(loaded({}, file, {}));
+}
 
 Scene Scene::fromText(std::string_view toml, const std::filesystem::path& folder, const std::string& file) {
   return Scene(loaded(std::string(toml), folder / file, {}));
@@ -41,18 +51,17 @@ Scene Scene::fromText(std::string_view toml, const std::filesystem::path& folder
 
 /// In place of what was set for the same key.
 Scene& Scene::put(std::string_view key, std::string value) {
-  std::vector<std::string> overrides = impl_->overrides;
+  std::vector<std::string> overrides = data_->overrides;
   const std::string begin = std::string(key) + '=';
   overrides.erase(std::remove_if(overrides.begin(), overrides.end(),
                                  [&](const std::string& o) { return o.compare(0, begin.size(), begin) == 0; }),
                   overrides.end());
   overrides.push_back(begin + std::move(value));
-  impl_ = loaded(impl_->text, impl_->file, std::move(overrides));
+  data_ = loaded(data_->text, data_->file, std::move(overrides));
   return *this;
 }
 
 Scene& Scene::set(std::string_view key, double value) { return put(key, fmt::format("{}", value)); }
-Scene& Scene::set(std::string_view key, int value) { return put(key, fmt::format("{}", value)); }
 Scene& Scene::set(std::string_view key, bool value) { return put(key, value ? "true" : "false"); }
 Scene& Scene::set(std::string_view key, const char* value) { return put(key, quoted(value)); }
 Scene& Scene::set(std::string_view key, std::string_view value) { return put(key, quoted(value)); }
@@ -63,10 +72,10 @@ Scene& Scene::set(std::string_view key, const std::vector<double>& values) {
   return put(key, list + "]");
 }
 
-std::string Scene::name() const { return impl_->scene.name(); }
-double Scene::duration() const { return impl_->scene.run.duration; }
+std::string Scene::name() const { return data_->scene.name(); }
+double Scene::duration() const { return data_->scene.run.duration; }
 std::string Scene::resolved() const {
-  return detail::translated([&] { return setup::provenanceOf(impl_->scene).resolved; });
+  return detail::translated([&] { return setup::provenanceOf(data_->scene).resolved; });
 }
 
 } // namespace grouser

@@ -30,10 +30,11 @@ const char* commit() {
   return text.c_str();
 }
 
-Ranks::Ranks(int& argc, char**& argv) : impl_(std::make_unique<Impl>(argc, argv)) {}
+Ranks::Ranks(int& argc, char**& argv) : data_(std::make_unique<detail::RanksData>(argc, argv)) {}
 Ranks::~Ranks() = default;
-int Ranks::rank() const { return impl_->ranks.comm().rank(); }
-int Ranks::size() const { return impl_->ranks.comm().size(); }
+int Ranks::rank() const { return data_->ranks.comm().rank(); }
+int Ranks::size() const { return data_->ranks.comm().size(); }
+void Ranks::abort(int code) const { data_->ranks.abort(code); }
 
 Simulation::Simulation(std::unique_ptr<detail::Run> run) : run_(std::move(run)) {}
 Simulation::Simulation(const Scene& scene, const Options& options)
@@ -51,18 +52,18 @@ void Simulation::stepFor(double seconds) {
   constexpr double kLongest = 1e9; // [s]
   if (!(seconds > 0) || seconds > kLongest)
     throw InputError(fmt::format("stepFor({:g}): is outside (0, {:g}] s", seconds, kLongest));
-  step(std::max<std::int64_t>(1, std::llround(seconds / run_->simulation->timeStep())));
+  step(std::max<std::int64_t>(1, std::llround(seconds / run_->now().timeStep())));
 }
 
 std::string Simulation::ended() const {
-  return run_->simulation->vehicle() ? run_->simulation->vehicle()->ended() : "";
+  return run_->now().vehicle() ? run_->now().vehicle()->ended() : "";
 }
 
-double Simulation::time() const { return run_->simulation->time(); }
-double Simulation::timeStep() const { return run_->simulation->timeStep(); }
-std::int64_t Simulation::steps() const { return run_->simulation->steps(); }
+double Simulation::time() const { return run_->now().time(); }
+double Simulation::timeStep() const { return run_->now().timeStep(); }
+std::int64_t Simulation::steps() const { return run_->now().steps(); }
 std::string Simulation::device() const { return base::describe(run_->exec); }
-bool Simulation::hasVehicle() const { return run_->simulation->vehicle() != nullptr; }
+bool Simulation::hasVehicle() const { return run_->now().vehicle() != nullptr; }
 
 Vehicle Simulation::vehicle() {
   run_->rig();
@@ -70,13 +71,13 @@ Vehicle Simulation::vehicle() {
 }
 
 std::size_t Simulation::grainCount() const {
-  const auto& grains = run_->simulation->ground().grains;
+  const auto& grains = run_->now().ground().grains;
   return grains ? grains->count() : 0;
 }
 
 Grains Simulation::grains() const {
   Grains out;
-  const auto& grains = run_->simulation->ground().grains;
+  const auto& grains = run_->now().ground().grains;
   if (!grains) return out;
   return detail::translated([&] {
     const terrain::GrainSnapshot s = grains->snapshot();
@@ -91,13 +92,13 @@ Grains Simulation::grains() const {
 }
 
 std::size_t Simulation::ownGrainCount() const {
-  const auto& grains = run_->simulation->ground().grains;
+  const auto& grains = run_->now().ground().grains;
   if (!grains || run_->comm().alone()) return grainCount();
   return detail::translated([&] { return grains->snapshot().id.size(); });
 }
 
 void Simulation::readPositions(std::span<Vec3> positions) const {
-  const auto& grains = run_->simulation->ground().grains;
+  const auto& grains = run_->now().ground().grains;
   if (positions.size() != ownGrainCount())
     throw InputError(fmt::format("readPositions(): room for {} grains, there are {}", positions.size(), ownGrainCount()));
   if (!grains || positions.empty()) return;
@@ -110,7 +111,7 @@ void Simulation::readPositions(std::span<Vec3> positions) const {
 }
 
 std::vector<Body> Simulation::bodies() const {
-  const coupling::Simulation& s = *run_->simulation;
+  const coupling::Simulation& s = run_->now();
   const multibody::Model* model = s.vehicle() ? &s.vehicle()->assembly().model : nullptr;
   const multibody::State* state = s.vehicle() ? &s.vehicle()->state() : nullptr;
   if (s.mechanism()) model = &s.mechanism()->model(), state = &s.mechanism()->state();
@@ -125,7 +126,8 @@ std::vector<Body> Simulation::bodies() const {
 }
 
 Energies Simulation::energies() const {
-  const coupling::Ledger l = detail::translated([&] { return run_->simulation->ledger(); });
+  run_->act();
+  const coupling::Ledger l = detail::translated([&] { return run_->now().ledger(); });
   return {l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.driveWork, l.integrationError, l.residual};
 }
 
@@ -133,18 +135,19 @@ void Simulation::setGravity(const Vec3& g) { run_->set({{0, coupling::InputKind:
 void Simulation::releaseGravity() { run_->release({coupling::InputKind::gravity}); }
 
 void Simulation::setLoad(std::string_view body, const Vec3& f, const Vec3& t) {
-  const auto index = detail::translated([&] { return coupling::bodyIndex(*run_->simulation, std::string(body)); });
+  const auto index = detail::translated([&] { return coupling::bodyIndex(run_->now(), std::string(body)); });
   run_->set({{0, coupling::InputKind::bodyLoad, index, false, {f.x, f.y, f.z, t.x, t.y, t.z}}});
 }
 
 void Simulation::releaseLoad(std::string_view body) {
-  const auto index = detail::translated([&] { return coupling::bodyIndex(*run_->simulation, std::string(body)); });
+  const auto index = detail::translated([&] { return coupling::bodyIndex(run_->now(), std::string(body)); });
   run_->release({coupling::InputKind::bodyLoad}, index);
 }
 
 void Simulation::save(const std::filesystem::path& checkpoint) const {
+  run_->act();
   detail::translated([&] {
-    storage::writeCheckpoint(checkpoint, session::checkpointOf(*run_->simulation, run_->record.provenance), run_->comm());
+    storage::writeCheckpoint(checkpoint, session::checkpointOf(run_->now(), run_->record.provenance), run_->comm());
   });
 }
 
@@ -153,20 +156,21 @@ void Simulation::restore(const std::filesystem::path& checkpoint) {
   if (run.session)
     throw InputError("restore(): a folder is being written, whose rows would come twice; make the simulation without "
                      "a folder, or Simulation::resumed() with another");
-  detail::translated([&] {
-    session::RunRequest request = run.request;
-    request.resume = checkpoint;
-    run.former = session::formerRun(run.record.provenance, request);
-    run.simulation = std::make_unique<coupling::Simulation>(setup::simulationSetup(run.scene, run.comm().size()), run.exec,
-                                                            run.former->state, run.comm(),
-                                                            run.kept.spheres ? &*run.kept.spheres : nullptr);
-    run.simulation->restartMeans(coupling::Means::watch);
-    run.finished = run.failed = false;
-  });
+  const session::RunRequest before = run.request;
+  run.request.resume = checkpoint, run.request.branch = true;
+  try {
+    detail::translated([&] { run.goOn(); });
+  } catch (...) {
+    run.request = before;
+    throw;
+  }
+  run.simulation->restartMeans(coupling::Means::watch);
+  run.finished = run.failed = false;
 }
 
 std::string Simulation::hash() const {
-  return detail::translated([&] { return run_->simulation->stateHash(); });
+  run_->act();
+  return detail::translated([&] { return run_->now().stateHash(); });
 }
 
 void Simulation::finish() { run_->finish(); }

@@ -53,6 +53,8 @@ public:
   /// kept in checkpoints, and in the state hash as long as they act. All ranks call it alike. Throws base::InputError
   /// where the scene has nothing of the kind, or a value is no number or out of range.
   void set(std::vector<Input> inputs);
+  /// What set() would throw for this one. A rank may ask it alone.
+  void require(const Input& input) const;
   const Inputs& inputs() const { return inputs_; }
 
   const SimulationSetup& setup() const { return setup_; }
@@ -92,7 +94,6 @@ public:
   std::string stateHash() const;
 
 private:
-  void require(const Input& input) const;
   void command();
   bool canStepAhead() const;
   void stepAhead(bool last);

@@ -20,19 +20,19 @@
 
 namespace grouser {
 
-struct Scene::Impl {
-  std::optional<std::string> text; ///< empty: the file's
-  std::filesystem::path file;      ///< for messages, and for what the scene names
+namespace detail {
+
+struct SceneData {
+  std::string text;
+  std::filesystem::path file; ///< for messages, and for what the scene names
   std::vector<std::string> overrides;
   scene::Scene scene;
 };
 
-struct Ranks::Impl {
+struct RanksData {
   base::Ranks ranks;
-  Impl(int& argc, char**& argv) : ranks(argc, argv) {}
+  RanksData(int& argc, char**& argv) : ranks(argc, argv) {}
 };
-
-namespace detail {
 
 /// What errors inside become outside.
 template <class Call> auto translated(const Call& call) -> decltype(call()) {
@@ -55,16 +55,27 @@ struct Run {
 
   /// The vehicle's rig; throws InputError without one.
   const coupling::VehicleRig& rig() const;
-  void set(const std::vector<coupling::Input>& inputs) const;
+  /// Checks these. They act once act() is called, since a rank may be the only one that sets them.
+  void set(const std::vector<coupling::Input>& inputs);
   /// Left and right, where the scene has both.
-  void setTracks(coupling::InputKind kind, double left, double right) const;
+  void setTracks(coupling::InputKind kind, double left, double right);
   /// Back to what the scene says; all targets where none is given.
-  void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {}) const;
-  /// Throws InputError naming the rank whose inputs differ from those of rank 0.
-  void requireAlike() const;
+  void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {});
+  /// Gives the simulation what was set. Called by all ranks; throws InputError naming the rank that has set otherwise
+  /// than rank 0, or wants to take another number of steps.
+  void act(std::int64_t steps = 0);
+  /// Makes the simulation of the request's checkpoint, which may be one with another [driver] or [hitch]; returns that.
+  std::unique_ptr<storage::Checkpoint> goOn();
+  /// Throws InputError where a failed restore() has left none.
+  coupling::Simulation& now() const;
   void step(std::int64_t count, const std::function<bool()>& keepGoing);
+  void advance(std::int64_t count, const std::function<bool()>& keepGoing);
   void finish();
   base::Comm comm() const { return request.comm(); }
+  static const SceneData& dataOf(const Scene& scene) { return *scene.data_; }
+  static const base::Ranks* ranksOf(const Options& options) {
+    return options.ranks ? &options.ranks->data_->ranks : nullptr;
+  }
 
   scene::Scene scene;
   Options options;
@@ -72,11 +83,13 @@ struct Run {
   setup::RecordSetup record;
   base::Exec exec;
   session::Caches kept;
-  std::unique_ptr<storage::Checkpoint> former; ///< that it goes on from; null from the start
   std::unique_ptr<coupling::Simulation> simulation;
   std::optional<session::RunSession> session; ///< empty without a folder, and behind finish()
+  support::FileLock lock;                     ///< of a folder in which it goes on
+  std::vector<coupling::Input> pending;       ///< set, and not yet with the simulation
   bool finished = false;
   bool failed = false; ///< by a step; its folder says so
+  std::int64_t stepsAtATime = 1; ///< between two questions whether to go on
   support::Stopwatch since;
 };
 

@@ -48,7 +48,8 @@ class Simulation:
     scene: a Scene, or a scene file. folder: of results as `grouser run` leaves them; None: nothing is written. device:
     "auto", "cpu" or "cuda"; threads: of the CPU, 0 for all; None: as the scene says. overwrite: a folder that holds
     results. cache: take settled beds and cut meshes from earlier runs. settling: called with time [s] and kinetic energy
-    ratio while a bed settles. checkpoint: file of the same scene to go on from.
+    ratio while a bed settles. checkpoint: file of the same scene to go on from; [driver] and [hitch] may differ unless
+    `folder` is that of the checkpoint.
 
     What is set acts from the next step on until it is set again or released. It is part of the answer: kept with its
     step in checkpoints and results, so that `grouser run --replay FOLDER` repeats the run without this program, to the
@@ -142,10 +143,10 @@ class Simulation:
     @briefly
     def vehicle(self) -> SimpleNamespace:
         """The vehicle now, as copies: time, position [m] and velocity of the middle of the sprockets' axle line, speed
-        [m/s], heading, pitch, roll [rad], turn_rate
-        [rad/s], ground_force, drawbar_pull [N], drive_start [s] (None while it is lowered), and `left` and `right`, each
-        with sprocket_speed [rad/s], drive_torque [N m], drive_power [W], speed [m/s], slip [-] and, shoe by shoe,
-        tension, normal_force, shear_force [N], sinkage [m]. Forces, torques and powers are means over the last step().
+        [m/s], heading, pitch, roll [rad], turn_rate [rad/s], ground_force, drawbar_pull [N], drive_start [s] (None
+        while it is lowered), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque [N m],
+        drive_power [W], speed [m/s], slip [-] and, shoe by shoe, tension, normal_force, shear_force [N], sinkage [m].
+        Forces, torques and powers are means over the last step().
         """
         if self._seen[0] != self.steps:
             state = self._run.vehicle()

@@ -28,20 +28,16 @@ std::string incompleteText(const scene::Scene& scene, const coupling::Simulation
 }
 
 void describeDrive(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth,
-                   output::RunWriter& writer, output::Summary& summary, bool endsAtRest) {
+                   output::Summary& summary, bool endsAtRest) {
   if (!simulation.vehicle()) return;
   if (!endsAtRest) summary.incomplete = incompleteText(scene, simulation, teeth);
   if (!summary.incomplete.empty()) fmt::print("WARNING: {}\n", summary.incomplete);
-  const std::optional<double> start = simulation.vehicle()->driveStart();
-  if (start) summary.figures["drive_start_s"] = *start;
-  if (start && *start <= simulation.time()) fmt::print("drive     from {:.6g} s on\n", *start);
-  if (const std::string& end = simulation.vehicle()->ended(); !end.empty()) {
+  if (const std::optional<double> start = simulation.vehicle()->driveStart(); start && *start <= simulation.time())
+    fmt::print("drive     from {:.6g} s on\n", *start);
+  if (const std::string& end = simulation.vehicle()->ended(); !end.empty())
     fmt::print("ended     at {:.6g} s by {}\n", simulation.time(), end);
-    writer.fact("ended_by", end);
-  }
-  const vehicle::BlowMeter blows = simulation.vehicle()->observe().blows;
-  summary.figures["ground_force_most_over_weight"] = blows.most;
-  if (blows.isBlow()) fmt::print("blows     {}\n", blows.text());
+  if (const vehicle::BlowMeter blows = simulation.vehicle()->observe().blows; blows.isBlow())
+    fmt::print("blows     {}\n", blows.text());
 }
 
 } // namespace grouser::commands

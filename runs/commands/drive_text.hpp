@@ -15,6 +15,6 @@ std::string incompleteText(const scene::Scene& scene, const coupling::Simulation
 /// Prints and notes that, before all else that is said of the run; then when the vehicle drove off, and what has ended
 /// the run before its time. A run that `endsAtRest`, as it was asked to, is not to drive.
 void describeDrive(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth,
-                   output::RunWriter& writer, output::Summary& summary, bool endsAtRest);
+                   output::Summary& summary, bool endsAtRest);
 
 } // namespace grouser::commands

@@ -18,9 +18,11 @@
 #include "runs/scene/soil.hpp"
 #include "runs/session/branch.hpp"
 #include "runs/session/failed_run.hpp"
+#include "runs/session/final_figures.hpp"
 #include "runs/session/preparation.hpp"
 #include "runs/session/run_session.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "runs/storage/scene_changes.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -116,33 +118,22 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
 constexpr double kSuspect = 0.01;
 
 /// Grains that are squeezed or crush do not end a run; they are shown.
-void describeSqueezed(coupling::Simulation& simulation, session::Recorder& recorder, output::Summary& summary) {
+void describeSqueezed(const coupling::Simulation& simulation, session::Recorder& recorder,
+                      const output::Summary& summary) {
   if (simulation.setup().crushes()) {
-    const double cut = simulation.ledger().cutImpulse;
     std::string share;
-    if (const coupling::VehicleRig* rig = simulation.vehicle()) {
-      const double of = cut / (rig->assembly().mass * norm(simulation.setup().gravity) * simulation.time());
+    if (simulation.vehicle()) {
+      const double of = summary.figures.at("crushing_cut_over_weight");
       share = fmt::format(", {:.3g} % of weight x time{}", 100 * of,
                           of > kSuspect ? ": the run is suspect; take larger or stronger grains" : "");
-      summary.figures["crushing_cut_over_weight"] = of;
     }
-    fmt::print("crushing  has cut off {:.4g} N s{}\n", cut, share);
-    summary.figures["crushing_cut_impulse"] = cut;
+    fmt::print("crushing  has cut off {:.4g} N s{}\n", summary.figures.at("crushing_cut_impulse"), share);
     const coupling::TakenOut& gone = simulation.takenOut();
     if (gone.grains > 0)
       fmt::print("crushed   {:g} grains of {:.4g} kg, taken out with {:.4g} J and ({:.2g}, {:.2g}, {:.2g}) N s\n",
                  gone.grains, gone.mass, gone.energy, gone.momentum.x, gone.momentum.y, gone.momentum.z);
-    summary.figures["crushed_grains"] = gone.grains, summary.figures["crushed_mass_kg"] = gone.mass;
-    summary.figures["crushed_energy_J"] = gone.energy;
   }
-  const session::SqueezedRecord& squeezed = recorder.squeezed();
-  const std::string text = squeezed.text();
-  if (text.empty()) return;
-  fmt::print("{}", text);
-  summary.figures["squeezed_pairs_most"] = squeezed.pairs;
-  summary.figures["squeezed_at_boundaries_most"] = squeezed.atBoundaries;
-  summary.figures["squeezed_by_parts_most"] = squeezed.byParts;
-  if (squeezed.share > 0) recorder.writer().fact("deepest_in_a_part", squeezed.deepest());
+  fmt::print("{}", recorder.squeezed().text());
 }
 
 /// What steps an error chose.
@@ -176,7 +167,13 @@ void drive(session::RunSession& run) {
 }
 
 /// Compares the end of a repeated run with that of the recorded one. Throws SimulationError where they differ.
-void describeReplay(const session::RecordedRun& recorded, const std::string& stateHash) {
+void describeReplay(const session::RecordedRun& recorded, const setup::Provenance& provenance,
+                    const std::string& stateHash) {
+  if (const auto changes = storage::changedKeys(recorded.scene, provenance.resolved); !changes.empty()) {
+    fmt::print("replay    {} of {} in another scene ({} differs): not compared\n",
+               base::counted(recorded.inputs.size(), "input"), recorded.folder.string(), changes.front().key);
+    return;
+  }
   fmt::print("replay    {} of {}: {}\n", base::counted(recorded.inputs.size(), "input"), recorded.folder.string(),
              recorded.stateHash.empty()        ? "no state hash there to compare with"
              : recorded.stateHash == stateHash ? "the same state hash"
@@ -206,18 +203,6 @@ void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
     run.writer().fact("ended_by", output::kUntilRest);
   else if (cut && run.simulation().steps() == run.total())
     run.writer().fact("ended_by", fmt::format("--steps {}", run.total()));
-}
-
-void noteBed(const coupling::Simulation& simulation, output::Summary& summary) {
-  if (simulation.settled().steps > 0) {
-    summary.figures["bed_highest_m"] = simulation.settled().highest;
-    summary.figures["bed_mean_height_m"] = simulation.settled().meanHeight;
-  }
-  if (const auto& bed = simulation.ground().structure) {
-    summary.figures["bed_porosity"] = bed->porosity;
-    summary.figures["bed_order"] = bed->order;
-    summary.figures["bed_thickness_in_mean_diameters"] = bed->thickness / bed->meanDiameter;
-  }
 }
 
 /// `hasFolder`: whether it came so far that the folder is that of this run.
@@ -275,16 +260,16 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = whole.seconds();
-    describeDrive(scene, simulation, run.recorder().drive().teeth(), run.writer(), summary, endsAtRest);
+    session::noteFigures(run, summary);
+    describeDrive(scene, simulation, run.recorder().drive().teeth(), summary, endsAtRest);
     if (former) noteOrigin(*former, options.branch, summary);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;
     summary.figures["wall_cutting_s"] = kept.spheres ? kept.spheres->cutting() : 0;
-    noteBed(simulation, summary);
     summary.figures["wall_steps_s"] = drove, summary.figures["cpu_steps_s"] = cpu;
     summary.figures["microseconds_a_step"] =
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, simulation.steps() - begin));
     if (options.hash) summary.stateHash = simulation.stateHash();
-    if (options.replay && total == all) describeReplay(recorded, summary.stateHash);
+    if (options.replay && total == all) describeReplay(recorded, provenance, summary.stateHash);
     describeLedger(simulation);
     describeSqueezed(simulation, run.recorder(), summary);
     fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step), {:.1f} s of CPU "

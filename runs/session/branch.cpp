@@ -10,7 +10,8 @@ void branch(storage::Checkpoint& former, const setup::Provenance& provenance, co
             const RunRequest& request) {
   former.branchedFrom = storage::branchPoint(*request.resume, former, request.comm());
   former.rows = former.frames = 0;
-  const storage::BranchChanges changes = storage::checkSameScene(former, *request.resume, provenance);
+  const storage::BranchChanges changes =
+      storage::checkSameScene(former, *request.resume, provenance, request.resumeOption);
   if (changes.any())
     coupling::branch(former.state, *setup.vehicle, changes.driver, changes.hitch,
                      static_cast<double>(former.state.steps) * former.timeStep);

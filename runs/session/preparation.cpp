@@ -29,7 +29,8 @@ Caches cachesOf(bool beds, const RunRequest& request) {
 std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenance, const RunRequest& request) {
   if (!request.resume) return nullptr;
   auto former = std::make_unique<storage::Checkpoint>(storage::readCheckpoint(*request.resume, request.comm()));
-  const storage::BranchChanges changes = storage::checkSameScene(*former, *request.resume, provenance);
+  const storage::BranchChanges changes =
+      storage::checkSameScene(*former, *request.resume, provenance, request.resumeOption);
   if (changes.any() && !request.branch)
     throw base::InputError(fmt::format("{}: [{}] differs from that of the run in {}; such a branch of it goes to a "
                                        "folder of its own, which --out names",

@@ -11,7 +11,7 @@ namespace grouser::session {
 RecordedRun recordedRun(const std::filesystem::path& folder) {
   const support::Hdf5File results = support::Hdf5File::open(folder / "results.h5");
   RecordedRun run;
-  run.folder = folder, run.stateHash = results.text("/", "state_hash");
+  run.folder = folder, run.stateHash = results.text("/", "state_hash"), run.scene = results.text("/", "scene");
   if (const std::vector<double> steps = results.numbers("/series/step"); !steps.empty())
     run.steps = static_cast<std::int64_t>(steps.back());
   if (!results.has(output::kInputs.path)) return run;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +20,19 @@ namespace grouser::support {
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 namespace {
+
+/// HDF5 is built here for one thread at a time: those of several simulations take turns.
+class Turn {
+public:
+  Turn() : held_(library()) {}
+
+private:
+  static std::recursive_mutex& library() {
+    static std::recursive_mutex mutex;
+    return mutex;
+  }
+  std::lock_guard<std::recursive_mutex> held_;
+};
 
 /// Closes an HDF5 handle at the end of a scope.
 class Handle {
@@ -105,11 +119,18 @@ GrowingDataset& GrowingDataset::operator=(GrowingDataset&& other) noexcept {
 }
 
 GrowingDataset::~GrowingDataset() {
+  const Turn turn;
   if (dataset_ >= 0) H5Dclose(dataset_);
 }
 
-void GrowingDataset::append(const double* numbers) { appendRow(numbers, H5T_NATIVE_DOUBLE); }
-void GrowingDataset::append(const std::int64_t* numbers) { appendRow(numbers, H5T_NATIVE_INT64); }
+void GrowingDataset::append(const double* numbers) {
+  const Turn turn;
+  appendRow(numbers, H5T_NATIVE_DOUBLE);
+}
+void GrowingDataset::append(const std::int64_t* numbers) {
+  const Turn turn;
+  appendRow(numbers, H5T_NATIVE_INT64);
+}
 
 void GrowingDataset::appendRow(const void* numbers, std::int64_t type) {
   const int rank = width_ ? 2 : 1;
@@ -125,6 +146,7 @@ void GrowingDataset::appendRow(const void* numbers, std::int64_t type) {
 }
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlock) {
+  const Turn turn;
   quiet();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_userblock(creation, userBlock);
@@ -136,6 +158,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlo
 
 namespace {
 hid_t openedAs(unsigned access, const std::filesystem::path& path) {
+  const Turn turn;
   quiet();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
@@ -153,6 +176,7 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) { return {openedAs(H5
 Hdf5File Hdf5File::openToChange(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDWR, path), path}; }
 
 Hdf5File Hdf5File::openShared(const std::filesystem::path& path, const base::Comm& comm) {
+  const Turn turn;
   if (comm.alone()) return openToChange(path);
   quiet();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -175,6 +199,7 @@ Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
 Hdf5File::~Hdf5File() {
   // All ranks close a shared file together; with an error on its way out they will not.
   if (shared_ && std::uncaught_exceptions() > 0) return;
+  const Turn turn;
   if (file_ >= 0) H5Fclose(file_);
 }
 
@@ -183,6 +208,7 @@ void Hdf5File::check(std::int64_t status, const char* what) const {
 }
 
 void Hdf5File::makeGroup(const std::string& group) {
+  const Turn turn;
   if (has(group)) return;
   const Handle parents(makeParents(), H5Pclose);
   const Handle id(H5Gcreate2(file_, group.c_str(), parents, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
@@ -190,6 +216,7 @@ void Hdf5File::makeGroup(const std::string& group) {
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const Turn turn;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle type(stringType(), H5Tclose);
   const Handle id(
@@ -201,6 +228,7 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, double value) {
+  const Turn turn;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle id(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
                                     H5P_DEFAULT, H5P_DEFAULT),
@@ -210,6 +238,7 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, dou
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values) {
+  const Turn turn;
   const hsize_t count = values.size();
   const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
   const Handle type(stringType(), H5Tclose);
@@ -224,6 +253,7 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
 
 void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
                             const std::vector<std::uint64_t>& shape) {
+  const Turn turn;
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
   const Handle parents(makeParents(), H5Pclose);
@@ -235,6 +265,7 @@ void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, Num
 }
 
 void Hdf5File::reserveNumbers(const std::string& dataset, NumberType type, const std::vector<std::uint64_t>& shape) {
+  const Turn turn;
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
   const Handle parents(makeParents(), H5Pclose);
@@ -275,6 +306,7 @@ private:
 
 void Hdf5File::writeRowNumbers(const std::string& dataset, std::uint64_t first, const void* numbers, std::size_t count,
                                NumberType type) {
+  const Turn turn;
   const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   check(id, "open a dataset");
   std::uint64_t width = 1;
@@ -289,6 +321,7 @@ void Hdf5File::writeRowNumbers(const std::string& dataset, std::uint64_t first, 
 
 void Hdf5File::readRowNumbers(const std::string& dataset, std::uint64_t first, std::uint64_t count, void* numbers,
                               NumberType type) const {
+  const Turn turn;
   const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   const Handle stored(H5Dget_type(id), H5Tclose);
   const RowSelection rows(id, first, count);
@@ -298,6 +331,7 @@ void Hdf5File::readRowNumbers(const std::string& dataset, std::uint64_t first, s
 }
 
 GrowingDataset Hdf5File::growing(const std::string& dataset, NumberType type, int width, int chunkRows) {
+  const Turn turn;
   const int rank = width ? 2 : 1;
   const hsize_t none[2] = {0, static_cast<hsize_t>(width)};
   const hsize_t most[2] = {H5S_UNLIMITED, static_cast<hsize_t>(width)};
@@ -312,23 +346,30 @@ GrowingDataset Hdf5File::growing(const std::string& dataset, NumberType type, in
 }
 
 void Hdf5File::link(const std::string& existing, const std::string& name) {
+  const Turn turn;
   const Handle parents(makeParents(), H5Pclose);
   check(H5Lcreate_hard(file_, existing.c_str(), file_, name.c_str(), parents, H5P_DEFAULT), "make a link");
 }
 
 void Hdf5File::remove(const std::string& object) {
+  const Turn turn;
   check(H5Ldelete(file_, object.c_str(), H5P_DEFAULT), "remove an object");
 }
 
-void Hdf5File::flush() { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush the file"); }
+void Hdf5File::flush() {
+  const Turn turn;
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush the file");
+}
 
 void requireRoom(const Hdf5File& file, std::uint64_t bytes) {
+  const Turn turn;
   void* handle = nullptr; // to the descriptor of the file, which may have another name by now
   file.check(H5Fget_vfd_handle(file.file_, H5P_DEFAULT, &handle), "say where the file is open");
   requireRoom(*static_cast<const int*>(handle), file.path_, bytes);
 }
 
 bool Hdf5File::has(const std::string& object) const {
+  const Turn turn;
   // Each group on the way must exist before HDF5 may be asked for the next.
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string part = object.substr(0, end);
@@ -338,6 +379,7 @@ bool Hdf5File::has(const std::string& object) const {
 }
 
 std::vector<std::string> Hdf5File::members(const std::string& group) const {
+  const Turn turn;
   std::vector<std::string> names;
   if (!has(group)) return names;
   const auto take = [](hid_t, const char* name, const H5L_info_t*, void* found) -> herr_t {
@@ -350,6 +392,7 @@ std::vector<std::string> Hdf5File::members(const std::string& group) const {
 }
 
 std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
+  const Turn turn;
   const Handle id(has(dataset) ? H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT) : hid_t{-1}, H5Dclose);
   if (id < 0)
     throw base::InputError(
@@ -361,6 +404,7 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
 }
 
 std::vector<double> Hdf5File::numbers(const std::string& dataset) const {
+  const Turn turn;
   std::uint64_t count = 1;
   for (const std::uint64_t n : shape(dataset)) count *= n;
   std::vector<double> values(count);
@@ -371,6 +415,7 @@ std::vector<double> Hdf5File::numbers(const std::string& dataset) const {
 }
 
 void Hdf5File::readNumbers(const std::string& dataset, void* numbers, NumberType type, std::uint64_t count) const {
+  const Turn turn;
   const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   const Handle stored(H5Dget_type(id), H5Tclose);
   if (H5Tequal(stored, fileType(type)) <= 0 ||
@@ -379,6 +424,7 @@ void Hdf5File::readNumbers(const std::string& dataset, void* numbers, NumberType
 }
 
 double Hdf5File::number(const std::string& object, const std::string& name) const {
+  const Turn turn;
   double value = std::numeric_limits<double>::quiet_NaN();
   if (!has(object) || H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return value;
   const Handle id(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -392,6 +438,7 @@ std::string Hdf5File::text(const std::string& object, const std::string& name) c
 }
 
 std::vector<std::string> Hdf5File::texts(const std::string& object, const std::string& name) const {
+  const Turn turn;
   if (!has(object) || H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return {};
   const Handle id(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const Handle stored(H5Aget_type(id), H5Tclose);

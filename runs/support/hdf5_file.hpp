@@ -10,7 +10,8 @@
 #include <vector>
 
 /// A thin owner of HDF5 handles. One process writes or reads a file; the rows of a dataset can also be written by all
-/// ranks together. Failures throw; HDF5's own error stack is kept off the terminal.
+/// ranks together. Several threads may have files of their own. Failures throw; HDF5's own error stack is kept off the
+/// terminal.
 namespace grouser::support {
 
 /// Number types that go into a file; always stored little-endian.

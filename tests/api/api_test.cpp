@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <thread>
@@ -124,6 +125,9 @@ TEST_F(Api, AFolderHoldsWhatARunLeavesAndTheInputs) {
   }
   for (const char* name : {"results.h5", "timeseries.csv", "scene.toml", "manifest.json", "checkpoint.h5"})
     EXPECT_TRUE(fs::exists(options.folder / name)) << name;
+  std::ifstream manifest(options.folder / "manifest.json");
+  const std::string said{std::istreambuf_iterator<char>(manifest), {}};
+  EXPECT_NE(said.find("ground_force_most_over_weight"), std::string::npos) << said;
   EXPECT_THROW(Simulation(vehicleScene(), options), InputError); // the folder is not empty
   Simulation again = Simulation::resumed(vehicleScene(), options.folder / "checkpoint.h5");
   EXPECT_EQ(again.hash(), hash);
@@ -160,6 +164,89 @@ TEST_F(Api, AskedOnTheWayAStepMayEndEarly) {
   simulation.step(1'000'000, [&] { return ++asked < 2; });
   EXPECT_EQ(asked, 2);
   EXPECT_LT(simulation.steps(), 1'000'000);
+}
+
+TEST_F(Api, SeveralThreadsWriteFoldersAtOnce) {
+  std::vector<std::string> hashes(4);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < hashes.size(); ++i)
+    threads.emplace_back([&, i] {
+      Options one;
+      one.threads = 1, one.folder = folder_ / std::to_string(i);
+      Simulation simulation(Scene::fromText(kFall).set("run.output_interval", 1e-3).set("output.plots", false), one);
+      simulation.step(100);
+      hashes[i] = simulation.hash();
+      simulation.finish();
+    });
+  for (std::thread& t : threads) t.join();
+  for (std::size_t i = 1; i < hashes.size(); ++i) EXPECT_EQ(hashes[i], hashes[0]);
+}
+
+TEST_F(Api, ARunGoesOnInItsFolderOrInAnotherOne) {
+  Options options;
+  options.folder = folder_ / "first";
+  const fs::path checkpoint = options.folder / "checkpoint.h5";
+  {
+    Simulation first(vehicleScene(), options);
+    first.step(500);
+    first.finish();
+  }
+  Options elsewhere;
+  elsewhere.folder = folder_ / "second";
+  std::string hash;
+  {
+    Simulation second = Simulation::resumed(vehicleScene(), checkpoint, elsewhere);
+    second.step(50);
+    hash = second.hash();
+    second.finish();
+  }
+  Simulation again = Simulation::resumed(vehicleScene(), checkpoint, options);
+  EXPECT_THROW(Simulation::resumed(vehicleScene(), checkpoint, options), InputError) << "two in a folder at once";
+  again.step(50);
+  EXPECT_EQ(again.hash(), hash);
+  again.finish();
+  // A branch with another drive.
+  Simulation branch = Simulation::resumed(vehicleScene().set("driver.sprocket_speed", 3), checkpoint);
+  branch.step(100);
+  EXPECT_NE(branch.hash(), hash);
+}
+
+TEST_F(Api, ARestoreThatIsRefusedChangesNothing) {
+  Simulation simulation(vehicleScene());
+  simulation.step(10);
+  Simulation other(vehicleScene().set("vehicle.clearance", 0.02));
+  other.save(folder_ / "other.h5");
+  const std::string before = simulation.hash();
+  EXPECT_THROW(simulation.restore(folder_ / "other.h5"), InputError);
+  EXPECT_THROW(simulation.restore(folder_ / "none.h5"), InputError);
+  EXPECT_EQ(simulation.hash(), before);
+  simulation.step(1);
+}
+
+TEST_F(Api, AFolderIsRefusedBeforeTheBedSettles) {
+  Options options;
+  options.folder = folder_;
+  std::ofstream(folder_ / "mine.txt") << "kept";
+  options.settling = [](double, double) { FAIL() << "settled for nothing"; };
+  EXPECT_THROW(Simulation(Scene::fromFile(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml"), options),
+               InputError);
+  EXPECT_TRUE(fs::exists(folder_ / "mine.txt"));
+}
+
+TEST_F(Api, OfThrottleAndSpeedTheLastOneCounts) {
+  Scene scene = vehicleScene();
+  scene.set("driver.drive", "engine").set("spec.engine.speed", std::vector<double>{0, 300});
+  scene.set("spec.engine.torque", std::vector<double>{400, 300}).set("spec.engine.ratio", 20);
+  scene.set("spec.engine.governed_speed", 250).set("spec.engine.droop", 10).set("spec.engine.inertia", 40);
+  Simulation simulation(scene);
+  simulation.step(600);
+  Vehicle vehicle = simulation.vehicle();
+  vehicle.setSprocketSpeed(2, 2);
+  const std::string speed = simulation.hash();
+  vehicle.setThrottle(0.5, 0.5);
+  EXPECT_NE(simulation.hash(), speed);
+  vehicle.setSprocketSpeed(2, 2);
+  EXPECT_EQ(simulation.hash(), speed);
 }
 
 } // namespace

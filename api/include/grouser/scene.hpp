@@ -7,16 +7,23 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace grouser {
+
+namespace detail {
+struct Run;
+struct SceneData;
+} // namespace detail
 
 /// What is to be simulated: a scene file, or the same as text, with changed values. docs/keys.md lists all keys. Each
 /// function that changes it checks the whole scene and throws InputError, with nothing changed, where that is wrong.
 /// Values are copied; copies are cheap.
 class Scene {
 public:
-  /// Reads a scene file.
+  /// Reads a scene file, once.
   static Scene fromFile(const std::filesystem::path& file);
   /// A scene as TOML text. Paths in it are relative to `folder`, and assets by name are found as in a file; `file` is
   /// what messages call it.
@@ -25,8 +32,12 @@ public:
 
   /// Sets a key by its whole name, e.g. set("driver.sprocket_speed", 1.5) or set("material.soil.friction", 0.6).
   Scene& set(std::string_view key, double value);
-  Scene& set(std::string_view key, int value);
   Scene& set(std::string_view key, bool value);
+  template <class Integer>
+    requires std::is_integral_v<Integer>
+  Scene& set(std::string_view key, Integer value) {
+    return put(key, std::to_string(value));
+  }
   Scene& set(std::string_view key, const char* value);
   Scene& set(std::string_view key, std::string_view value);
   Scene& set(std::string_view key, const std::vector<double>& values);
@@ -35,13 +46,11 @@ public:
   double duration() const;     ///< run.duration [s]; Simulation::step() may go beyond it
   std::string resolved() const; ///< with every default filled in, as TOML
 
-  struct Impl;
-  const Impl& impl() const { return *impl_; }
-
 private:
-  explicit Scene(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  friend struct detail::Run;
+  explicit Scene(std::shared_ptr<const detail::SceneData> data) : data_(std::move(data)) {}
   Scene& put(std::string_view key, std::string value);
-  std::shared_ptr<const Impl> impl_;
+  std::shared_ptr<const detail::SceneData> data_;
 };
 
 } // namespace grouser

@@ -16,6 +16,10 @@
 
 namespace grouser {
 
+namespace detail {
+struct RanksData;
+} // namespace detail
+
 /// The connection with the other ranks, where mpirun has started this program with several: one for the life of the
 /// program, made first in main(). Alone it does nothing.
 class Ranks {
@@ -26,12 +30,12 @@ public:
   Ranks& operator=(const Ranks&) = delete;
   int rank() const;
   int size() const;
-
-  struct Impl;
-  const Impl& impl() const { return *impl_; }
+  /// Ends all ranks with this exit code, where one cannot go on and the others would wait for it.
+  void abort(int code) const;
 
 private:
-  std::unique_ptr<Impl> impl_;
+  friend struct detail::Run;
+  std::unique_ptr<detail::RanksData> data_;
 };
 
 /// How a simulation is run. No option changes the answer.
@@ -41,7 +45,8 @@ struct Options {
   std::filesystem::path folder; ///< for results as `grouser run` leaves them; empty: nothing is written
   bool overwrite = false;       ///< a folder that holds results
   bool cache = true;            ///< take settled beds and cut meshes from earlier runs, and keep them
-  const Ranks* ranks = nullptr; ///< that share the scene: all make the simulation, step it and set alike
+  /// That share the scene: all make the simulation, step, read, set and save alike, from the thread that made it.
+  const Ranks* ranks = nullptr;
   /// Called while a bed settles, with its time [s] and its kinetic energy ratio. What it throws ends the settling.
   std::function<void(double time, double energy)> settling;
 };
@@ -54,7 +59,8 @@ class Simulation {
 public:
   /// Lays and settles the bed, sets the vehicle down. Throws InputError, SimulationError, DeviceError.
   explicit Simulation(const Scene& scene, const Options& options = {});
-  /// Goes on from a checkpoint of the same scene, as if it had not been stopped.
+  /// Goes on from a checkpoint of the same scene, in the checkpoint's folder as if it had not been stopped, or in another
+  /// one. [driver] and [hitch] may differ where `options.folder` is another one, or none.
   static Simulation resumed(const Scene& scene, const std::filesystem::path& checkpoint, const Options& options = {});
   ~Simulation(); ///< an unfinished folder says that the run was left
   Simulation(Simulation&&) noexcept;
@@ -93,7 +99,7 @@ public:
   /// Writes a checkpoint, with which resumed() and `grouser run --resume` go on. The former file stays whole if that
   /// fails.
   void save(const std::filesystem::path& checkpoint) const;
-  /// Goes back, or on, to a checkpoint of the same scene. Not while a folder is written: rows would come twice.
+  /// Goes back, or on, to a checkpoint, as resumed(). Not while a folder is written: rows would come twice.
   void restore(const std::filesystem::path& checkpoint);
   std::string hash() const; ///< of the state, 16 hexadecimal digits: equal bits, equal hash
   /// Ends the run: last row, checkpoint, plots and summary of the folder. Nothing may be stepped behind it. Behind a

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/session/final_figures.hpp"
+
+#include <optional>
+
+namespace grouser::session {
+
+namespace {
+
+void noteBed(const coupling::Simulation& simulation, output::Summary& summary) {
+  if (simulation.settled().steps > 0) {
+    summary.figures["bed_highest_m"] = simulation.settled().highest;
+    summary.figures["bed_mean_height_m"] = simulation.settled().meanHeight;
+  }
+  if (const auto& bed = simulation.ground().structure) {
+    summary.figures["bed_porosity"] = bed->porosity;
+    summary.figures["bed_order"] = bed->order;
+    summary.figures["bed_thickness_in_mean_diameters"] = bed->thickness / bed->meanDiameter;
+  }
+}
+
+void noteDrive(const coupling::VehicleRig& rig, output::RunWriter& writer, output::Summary& summary) {
+  if (const std::optional<double> start = rig.driveStart()) summary.figures["drive_start_s"] = *start;
+  if (!rig.ended().empty()) writer.fact("ended_by", rig.ended());
+  summary.figures["ground_force_most_over_weight"] = rig.observe().blows.most;
+}
+
+void noteCrushing(coupling::Simulation& simulation, output::Summary& summary) {
+  const double cut = simulation.ledger().cutImpulse;
+  if (const coupling::VehicleRig* rig = simulation.vehicle())
+    summary.figures["crushing_cut_over_weight"] =
+        cut / (rig->assembly().mass * norm(simulation.setup().gravity) * simulation.time());
+  summary.figures["crushing_cut_impulse"] = cut;
+  const coupling::TakenOut& gone = simulation.takenOut();
+  summary.figures["crushed_grains"] = gone.grains, summary.figures["crushed_mass_kg"] = gone.mass;
+  summary.figures["crushed_energy_J"] = gone.energy;
+}
+
+void noteSqueezed(Recorder& recorder, output::Summary& summary) {
+  const SqueezedRecord& squeezed = recorder.squeezed();
+  if (squeezed.text().empty()) return;
+  summary.figures["squeezed_pairs_most"] = squeezed.pairs;
+  summary.figures["squeezed_at_boundaries_most"] = squeezed.atBoundaries;
+  summary.figures["squeezed_by_parts_most"] = squeezed.byParts;
+  if (squeezed.share > 0) recorder.writer().fact("deepest_in_a_part", squeezed.deepest());
+}
+
+} // namespace
+
+void noteFigures(RunSession& run, output::Summary& summary) {
+  coupling::Simulation& simulation = run.simulation();
+  noteBed(simulation, summary);
+  if (simulation.vehicle()) noteDrive(*simulation.vehicle(), run.writer(), summary);
+  if (simulation.setup().crushes()) noteCrushing(simulation, summary);
+  noteSqueezed(run.recorder(), summary);
+}
+
+} // namespace grouser::session
