@@ -104,7 +104,7 @@ const coupling::VehicleRig& Run::rig() const {
 
 void Run::set(const std::vector<coupling::Input>& inputs) {
   translated([&] {
-    for (const coupling::Input& input : inputs) now().require(input);
+    for (const coupling::Input& input : inputs) coupling::require(now(), input);
   });
   pending.insert(pending.end(), inputs.begin(), inputs.end());
   if (comm().alone()) act();

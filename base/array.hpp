@@ -49,11 +49,6 @@ public:
     }
     size_ = size;
   }
-  /// As resize(), but memory grows in leaps, so that small changes cost nothing.
-  void resizeInLeaps(std::size_t size) {
-    if (size > capacity_) resize(size + size / 8);
-    size_ = size;
-  }
   /// Changes the size and keeps what fits. Memory grows in leaps, so that small changes cost nothing.
   void resizeKeeping(std::size_t size) {
     if (size > capacity_) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/cause.hpp"
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -34,7 +36,12 @@ public:
 /// The message names step, time, id, place and remedy.
 class SimulationError : public std::runtime_error {
 public:
-  using std::runtime_error::runtime_error;
+  explicit SimulationError(const std::string& message, Cause cause = Cause::unknown)
+      : std::runtime_error(message), cause_(cause) {}
+  Cause cause() const { return cause_; }
+
+private:
+  Cause cause_;
 };
 
 /// A device call failed; carries the code it returned. Exit code 4.

@@ -101,8 +101,7 @@ GROUSER_HD double atan2(double y, double x) {
   return y < 0 ? -a : a;
 }
 
-/// Arc cosine and arc sine [rad], |x| <= 1.
-GROUSER_HD double acos(double x) { return base::atan2(::sqrt((1 - x) * (1 + x)), x); }
+/// Arc sine [rad], |x| <= 1.
 GROUSER_HD double asin(double x) { return base::atan2(x, ::sqrt((1 - x) * (1 + x))); }
 
 /// e^x, |x| <= 700.

@@ -13,7 +13,7 @@ namespace grouser::coupling {
 /// What the guard says: the energies are wrong, while the state is still one that could go on.
 class EnergyAlarm : public base::SimulationError {
 public:
-  using SimulationError::SimulationError;
+  explicit EnergyAlarm(const std::string& message) : SimulationError(message, base::Cause::unstableContacts) {}
 };
 
 /// Judges whether steps are short enough for what happens, by the energy that they make or lose against the energy that

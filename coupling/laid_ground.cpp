@@ -84,7 +84,8 @@ void checkStructure(const BedSetup& bed, const terrain::BedStructure& structure)
       fmt::format("the settled bed has a solid fraction of {:.4f}, and disordered grains of these radii reach at most "
                   "{:.4f}: it has crystallised ({:.0f} % of its grains lie in crystals); give it a wider "
                   "radius_distribution or a larger porosity, or stiffer contacts if they overlap much",
-                  1 - structure.porosity, *bed.densest, 100 * structure.order));
+                  1 - structure.porosity, *bed.densest, 100 * structure.order),
+      base::Cause::unsettledBed);
 }
 
 std::function<double(double, double)> surfaceHeight(const LaidGround& ground) {

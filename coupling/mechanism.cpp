@@ -38,8 +38,8 @@ Mechanism::Mechanism(const MechanismSetup& setup, double timeStep)
   for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
 }
 
-void Mechanism::fail(const std::string& message) const {
-  throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, state_.time, message));
+void Mechanism::fail(base::Cause cause, const std::string& message) const {
+  throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, state_.time, message), cause);
 }
 
 void Mechanism::require(const Input& input) const {
@@ -71,9 +71,10 @@ void Mechanism::advance() {
     solver_.step(state_, loads_, timeStep_);
   } catch (const base::SimulationError& error) {
     throw base::SimulationError(tensionStepWarning_.empty() ? error.what()
-                                                            : fmt::format("{}; {}", error.what(), tensionStepWarning_));
+                                                            : fmt::format("{}; {}", error.what(), tensionStepWarning_),
+                                error.cause());
   } catch (const base::InputError& error) { // what the step bore at the start it no longer bears
-    fail(error.what());
+    fail(base::Cause::growingSwings, error.what());
   }
   ++steps_;
   watchDrift();
@@ -101,7 +102,8 @@ void Mechanism::judgeTurns() const {
     if (turn <= largestTurn_ * (1 + kTurnDigits)) continue;
     const std::string spunUp =
         turn > 2 * startTurn_[b] ? fmt::format(" (spun up from {:.4g} rad a step at the start)", startTurn_[b]) : "";
-    fail(fmt::format("body \"{}\" turns by {:.4g} rad a step{}, above the {:.4g} rad of run.steps_per_period = {:g} "
+    fail(base::Cause::fastTurn,
+         fmt::format("body \"{}\" turns by {:.4g} rad a step{}, above the {:.4g} rad of run.steps_per_period = {:g} "
                      "steps a turn, beyond which its motion is no longer resolved; set run.time_step to {} s or less, "
                      "limit what drives it, or lower run.steps_per_period if you mean it{}",
                      model_.bodies()[b].name, turn, spunUp, largestTurn_, 2 * base::kPi / largestTurn_,
@@ -115,10 +117,11 @@ void Mechanism::judgeTension() {
   const double r = timeStep_ / stableStepUnderTension(&part);
   overTension_ = r > 1;
   if (swings_.bears(r, kJudgeInterval)) return;
-  fail(fmt::format(
-      "swings across the pull in joints may have grown {:g} times, for it stays above what the step bears, now "
-      "{:.3g} times that ({}): {}; set run.time_step to {} s or less",
-      SwingGrowth::kMost, r, part, tensionStepWarning_, base::roundedDown(0.5 * timeStep_ / r, 4)));
+  fail(base::Cause::growingSwings,
+       fmt::format(
+           "swings across the pull in joints may have grown {:g} times, for it stays above what the step bears, now "
+           "{:.3g} times that ({}): {}; set run.time_step to {} s or less",
+           SwingGrowth::kMost, r, part, tensionStepWarning_, base::roundedDown(0.5 * timeStep_ / r, 4)));
 }
 
 /// Growing forces in joints and springs lower the longest stable step. That is noted, and judged from the next

@@ -92,7 +92,7 @@ private:
   void judgeTension();
   void watchTension();
   double checkTension();
-  [[noreturn]] void fail(const std::string& message) const;
+  [[noreturn]] void fail(base::Cause cause, const std::string& message) const;
 
   const double timeStep_, largestTurn_;
   const multibody::Model model_;

@@ -77,7 +77,8 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
       for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
     } catch (const base::SimulationError& error) {
       throw base::SimulationError(fmt::format("while the {} settled, before the run begins: {}",
-                                              bed.tile ? "bed of copied tiles" : "bed", error.what()));
+                                              bed.tile ? "bed of copied tiles" : "bed", error.what()),
+                                  base::Cause::unsettledBed);
     }
     report.steps += checkEvery;
     report.time = static_cast<double>(report.steps) * dt;
@@ -94,17 +95,19 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
     ratios[looks++ % kCalmLooks] = forceRatio;
   }
   const auto most = [](const auto& values) { return *std::max_element(values.begin(), values.end()); };
-  throw base::SimulationError(fmt::format(
-      "the bed has not settled within {:g} s: in the last {} looks, {:.2g} s apart, the kinetic energy a grain "
-      "is up to {:.3g} of m g radius, wanted is less than {:.3g}{}; raise terrain.settle_time_limit, lower "
-      "the material's restitution or raise terrain.settle_kinetic_energy{}",
-      wanted.timeLimit, std::min(looks, kCalmLooks), static_cast<double>(checkEvery) * dt, most(energies),
-      wanted.kineticEnergy,
-      wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain up to {:.3g} of its weight, "
-                                      "wanted is {:.3g}",
-                                      most(ratios), *wanted.forceRatio)
-                        : "",
-      wanted.forceRatio ? " and settle_force_ratio" : ""));
+  throw base::SimulationError(
+      fmt::format(
+          "the bed has not settled within {:g} s: in the last {} looks, {:.2g} s apart, the kinetic energy a grain "
+          "is up to {:.3g} of m g radius, wanted is less than {:.3g}{}; raise terrain.settle_time_limit, lower "
+          "the material's restitution or raise terrain.settle_kinetic_energy{}",
+          wanted.timeLimit, std::min(looks, kCalmLooks), static_cast<double>(checkEvery) * dt, most(energies),
+          wanted.kineticEnergy,
+          wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain up to {:.3g} of its weight, "
+                                          "wanted is {:.3g}",
+                                          most(ratios), *wanted.forceRatio)
+                            : "",
+          wanted.forceRatio ? " and settle_force_ratio" : ""),
+      base::Cause::unsettledBed);
 }
 
 void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double friction, const SettleProgress& progress,
@@ -170,8 +173,8 @@ SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleP
     }
   } catch (const base::SimulationError& error) {
     const std::string message = error.what() + steepnessText(ground);
-    if (progress.failed) progress.failed(grains, message);
-    throw base::SimulationError(message);
+    if (progress.failed) progress.failed(grains, message, error.cause());
+    throw base::SimulationError(message, error.cause());
   }
   measureHeight(ground, report);
   return report;

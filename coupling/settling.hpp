@@ -20,7 +20,7 @@ struct SettleProgress {
   std::function<void(double time, double agitation)> tell;
   /// Where it ends in a SimulationError: the bed as it is then, and the message of the error, which is thrown when this
   /// returns. May be empty; must not throw.
-  std::function<void(const terrain::Grains& bed, const std::string& message)> failed{};
+  std::function<void(const terrain::Grains& bed, const std::string& message, base::Cause cause)> failed{};
 };
 
 /// How settling ended.

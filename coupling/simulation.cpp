@@ -53,9 +53,9 @@ template <class Advance> void Simulation::namingCause(const Advance& advance) {
   try {
     advance();
   } catch (const terrain::GrainFault& fault) {
-    const std::string cause = causeOf(fault);
-    if (cause.empty()) throw;
-    throw base::SimulationError(fault.fact + "; " + cause);
+    const base::Alarm alarm = alarmOf(fault);
+    if (alarm.empty()) throw;
+    throw base::SimulationError(fault.fact + "; " + alarm.text, alarm.cause);
   }
 }
 
@@ -102,7 +102,8 @@ void Simulation::stepAhead(bool last) {
     throw base::SimulationError(fmt::format("step {}, time {:.4g} s: a part of the vehicle was thrown: within one step "
                                             "it has moved more than four times as "
                                             "far as in the step before; use a smaller time_step or gentler driving",
-                                            steps_, time()));
+                                            steps_, time()),
+                                base::Cause::thrownPart);
   }
   ahead_->begin();
   // An alarm leaves the state as this step has made it, to be looked at.
@@ -212,8 +213,9 @@ void Simulation::takeOutCrushed() {
 }
 
 void Simulation::checkAlarm() {
-  const std::string alarm = vehicle_->alarm(steps_);
-  if (!alarm.empty()) throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm));
+  const base::Alarm alarm = vehicle_->alarm(steps_);
+  if (!alarm.empty())
+    throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), alarm.text), alarm.cause);
 }
 
 Ledger Simulation::wholeLedger() {
@@ -258,28 +260,31 @@ std::string Simulation::impactNote(const Ledger& now) const {
       now.fastestGrain, chosen);
 }
 
-std::string Simulation::causeOf(const terrain::GrainFault& fault) {
+base::Alarm Simulation::alarmOf(const terrain::GrainFault& fault) {
   using terrain::Fault;
   if (fault.fault != Fault::overlap && fault.fault != Fault::speed && fault.fault != Fault::through) return {};
   const Ledger now = ledger();
   if (const std::string verdict = energyVerdict(now); !verdict.empty())
-    return verdict + fmt::format(": the step of {:.4g} s is too long for these contacts; use a smaller time_step{}",
-                                 timeStep(), impactNote(now));
+    return {fmt::format("{}: the step of {:.4g} s is too long for these contacts; use a smaller time_step{}", verdict,
+                        timeStep(), impactNote(now)),
+            base::Cause::unstableContacts};
   const PressedGrain grain = pressed(fault.id);
-  if (fault.fault == Fault::speed)
-    return grain.fallsFreely(gravity_)
-               ? "it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before"
-               : "";
+  if (fault.fault == Fault::speed) {
+    if (!grain.fallsFreely(gravity_)) return {};
+    return {"it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before",
+            base::Cause::lostGrain};
+  }
   std::string by = grain.sentence();
   if (const PressedGrain::Presser* through = fault.fault == Fault::through ? grain.rigidPresser() : nullptr)
     by = fmt::format("{} has taken {:.3g} mm of its radius of {:.3g} mm{}", through->name, 1e3 * through->overlap,
                      1e3 * grain.radius, by.empty() ? by : "; " + by);
-  return fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
-                     "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or {}",
-                     by.empty() ? by : by + "; ", norm(grain.velocity),
-                     vehicle_ && fault.fault == Fault::through
-                         ? "keep soil out of the running gear (vehicle.soil_meets)"
-                         : "raise run.max_overlap");
+  return {
+      fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
+                  "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or {}",
+                  by.empty() ? by : by + "; ", norm(grain.velocity),
+                  vehicle_ && fault.fault == Fault::through ? "keep soil out of the running gear (vehicle.soil_meets)"
+                                                            : "raise run.max_overlap"),
+      base::Cause::pressedGrain};
 }
 
 /// Ledger and guard, after each step.

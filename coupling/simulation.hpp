@@ -53,8 +53,6 @@ public:
   /// kept in checkpoints, and in the state hash as long as they act. All ranks call it alike. Throws base::InputError
   /// where the scene has nothing of the kind, or a value is no number or out of range.
   void set(std::vector<Input> inputs);
-  /// What set() would throw for this one. A rank may ask it alone.
-  void require(const Input& input) const;
   const Inputs& inputs() const { return inputs_; }
 
   const SimulationSetup& setup() const { return setup_; }
@@ -109,7 +107,7 @@ private:
   double weightHeld() const; ///< m g radius of all grains [J]
   void checkEnergy(const Ledger& now);
   template <class Advance> void namingCause(const Advance& advance);
-  std::string causeOf(const terrain::GrainFault& fault);
+  base::Alarm alarmOf(const terrain::GrainFault& fault);
   PressedGrain pressed(std::uint32_t grain);
   std::string impactNote(const Ledger& now) const;
   void makeActingGround();
@@ -141,6 +139,9 @@ private:
   TakenOut taken_;
   Ledger start_; ///< before the first step; the ledger counts from here
 };
+
+/// Throws as Simulation::set() would for this one. A rank may ask it alone.
+void require(const Simulation& simulation, const Input& input);
 
 /// Place of a body among those of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the
 /// nearest name.

@@ -35,15 +35,15 @@ double largest(InputKind kind) {
 
 } // namespace
 
-void Simulation::require(const Input& input) const {
+void require(const Simulation& simulation, const Input& input) {
   if (input.released) return; // of what a branch may lack
   const double most = largest(input.kind);
   for (const double v : input.value)
     if (!(std::fabs(v) <= most))
       throw base::InputError(
           fmt::format("{} = {:g} is outside [{:g}, {:g}]", base::wordOf(input.kind), v, -most, most));
-  if (vehicle_) return vehicle_->require(input);
-  if (mechanism_) return mechanism_->require(input);
+  if (simulation.vehicle()) return simulation.vehicle()->require(input);
+  if (simulation.mechanism()) return simulation.mechanism()->require(input);
   if (input.kind != InputKind::gravity)
     throw base::InputError(
         fmt::format("{} cannot be set: the scene has neither vehicle nor mechanism", base::wordOf(input.kind)));
@@ -52,7 +52,7 @@ void Simulation::require(const Input& input) const {
 void Simulation::set(std::vector<Input> inputs) {
   for (Input& input : inputs) {
     input.step = steps_;
-    require(input);
+    require(*this, input);
   }
   for (const Input& input : inputs) inputs_.set(input);
   const auto isGravity = [](const Input& i) { return i.kind == InputKind::gravity; };

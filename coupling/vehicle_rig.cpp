@@ -276,17 +276,19 @@ std::string VehicleRig::judgeEnd() const {
   return {};
 }
 
-std::string VehicleRig::alarm(std::int64_t step) {
+base::Alarm VehicleRig::alarm(std::int64_t step) {
+  using base::Cause;
   // Both before the track: what they see throws it.
-  std::string alarm = step % kTensionInterval == 0 ? judgeTension() : "";
-  if (alarm.empty()) alarm = judgeTurns();
+  base::Alarm alarm{step % kTensionInterval == 0 ? judgeTension() : "", Cause::growingSwings};
+  if (alarm.empty()) alarm = {judgeTurns(), Cause::fastTurn};
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
-  if (alarm.empty()) alarm = judgeRest();
+  if (alarm.empty()) alarm = {judgeRest(), Cause::noRest};
   if (const double g = norm(gravity_); g > 0) blows_.add(state_.time, -dot(groundForce(alarmMeans_), gravity_) / g);
   alarmMeans_.restart();
   stalledSteps_ = stalls() ? stalledSteps_ + kAlarmInterval : 0;
   ended_ = judgeEnd();
-  return alarm.empty() && ended_.empty() ? offTerrain(area_, assembly_, state_) : alarm;
+  if (alarm.empty() && ended_.empty()) alarm = {offTerrain(area_, assembly_, state_), Cause::offTerrain};
+  return alarm;
 }
 
 void VehicleRig::addTo(Ledger& ledger) const {

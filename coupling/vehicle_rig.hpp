@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/cause.hpp"
 #include "coupling/applied_loads.hpp"
 #include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
@@ -71,7 +72,7 @@ public:
   /// shoe that has left the terrain, a vehicle that does not come to rest, in words; empty while all is well. Judges by
   /// the loads since it was last asked, and so whether a vehicle that was set down rests and drives off: to be called
   /// at fixed steps.
-  std::string alarm(std::int64_t step);
+  base::Alarm alarm(std::int64_t step);
 
   /// What of the scene's [stop] has come to pass, in words, as alarm() has found it: the run is over. Empty: it goes
   /// on.

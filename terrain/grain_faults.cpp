@@ -46,4 +46,18 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
   }
 }
 
+base::Cause GrainFault::causeOf(Fault fault) {
+  switch (fault) {
+  case Fault::overlap:
+  case Fault::through:
+    return base::Cause::pressedGrain;
+  case Fault::range:
+    return base::Cause::lostGrain;
+  case Fault::speed:
+    return base::Cause::fastGrain;
+  default:
+    return base::Cause::noNumber;
+  }
+}
+
 } // namespace grouser::terrain

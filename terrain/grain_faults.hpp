@@ -16,7 +16,8 @@ struct GrainSystem;
 class GrainFault : public base::SimulationError {
 public:
   GrainFault(Fault which, std::uint32_t grain, const std::string& what, const std::string& remedy)
-      : base::SimulationError(what + "; " + remedy), fault(which), id(grain), fact(what) {}
+      : base::SimulationError(what + "; " + remedy, causeOf(which)), fault(which), id(grain), fact(what) {}
+  static base::Cause causeOf(Fault fault);
   Fault fault;
   std::uint32_t id;
   std::string fact; ///< step, time, grain, place and what is wrong there, without a remedy

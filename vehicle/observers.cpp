@@ -173,18 +173,20 @@ void Observer::restartMeans() {
   updates_ = 0;
 }
 
-std::string Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
+base::Alarm Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
   // A track that hangs free, or whose load is not known, may sag off its wheels; and wheels roll over stones.
   const double allowed =
       vehicle_->spec.shoe.hornHeight + stone_ +
       (stands(*vehicle_, ground, gravity_) ? 0.0 : suspendedSag(vehicle_->spec, base::norm(gravity_)));
   for (int i = 0; i < static_cast<int>(vehicle_->tracks.size()); ++i) {
-    if (std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty()) return thrown;
+    if (std::string thrown = thrownTrack(*vehicle_, i, state, allowed); !thrown.empty())
+      return {thrown, base::Cause::thrownTrack};
     if (!(std::fabs(travel_[i].skipped()) <= kSkip))
-      return fmt::format("{} track skips: {:.2f} teeth have passed, but {:.2f} pitches; tighten the track "
-                         "(idler.preload of the vehicle file, {:g} N), or drive more gently (driver)",
-                         sideName(vehicle_->tracks[i].side), travel_[i].teethPassed(), travel_[i].pitchesPassed(),
-                         vehicle_->spec.idler.preload);
+      return {fmt::format("{} track skips: {:.2f} teeth have passed, but {:.2f} pitches; tighten the track "
+                          "(idler.preload of the vehicle file, {:g} N), or drive more gently (driver)",
+                          sideName(vehicle_->tracks[i].side), travel_[i].teethPassed(), travel_[i].pitchesPassed(),
+                          vehicle_->spec.idler.preload),
+              base::Cause::skippingTrack};
   }
   return {};
 }

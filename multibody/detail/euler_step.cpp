@@ -262,7 +262,7 @@ void EulerStep::fail(const State& state, double gap, int iterations, double dt) 
             << " [m or rad]";
   message << " (largest residual " << gap << ") after " << iterations
           << " iterations; the motion is too fast for dt = " << dt << " s: reduce the step, or check the loads";
-  throw base::SimulationError(message.str());
+  throw base::SimulationError(message.str(), base::Cause::fastMotion);
 }
 
 /// Of all rows that should hold, those without a pivot too.

@@ -18,7 +18,8 @@ void checkTwist(const Body& body, const Twist& twist, double time, double dt) {
             << kLargestTurn << "; reduce the step, or check the loads on it";
   else
     message << "the velocity of body '" << body.name << "' is not finite; check the loads on it";
-  throw base::SimulationError(message.str());
+  throw base::SimulationError(message.str(), std::isfinite(turn) && turn > kLargestTurn ? base::Cause::fastTurn
+                                                                                        : base::Cause::noNumber);
 }
 
 } // namespace grouser::multibody::detail

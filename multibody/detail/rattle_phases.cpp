@@ -195,7 +195,7 @@ void RattleStep::fail(const Part& part, const State& state, double gap, double h
   message << " (largest residual " << gap << ") after " << options_.maxIterations
           << " iterations; the motion is too fast for a stage of " << h
           << " s: reduce the step, or check loads, drives and whether the mechanism can reach where it is driven";
-  throw base::SimulationError(message.str());
+  throw base::SimulationError(message.str(), base::Cause::fastMotion);
 }
 
 } // namespace grouser::multibody::detail

@@ -345,9 +345,10 @@ void RunWriter::finish(const Summary& summary) {
   w.series->manifest.write(summary.incomplete.empty() ? RunStatus::finished : RunStatus::incomplete);
 }
 
-void RunWriter::abandon(const std::string& reason) {
+void RunWriter::abandon(const std::string& reason, base::Cause cause) {
   if (!impl_->series) return;
   impl_->series->manifest.note("error", reason);
+  if (cause != base::Cause::unknown) impl_->series->manifest.note("cause", std::string(base::wordOf(cause)));
   try {
     impl_->series->manifest.write(RunStatus::failed);
   } catch (const std::exception&) {

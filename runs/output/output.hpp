@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/cause.hpp"
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
 #include "runs/output/records.hpp"
@@ -83,7 +84,7 @@ public:
   /// that the run did not end.
   void finish(const Summary& summary);
   /// Instead of finish: the run was stopped by an error, whose message goes into the manifest, if that can be written.
-  void abandon(const std::string& reason);
+  void abandon(const std::string& reason, base::Cause cause = base::Cause::unknown);
   /// Instead of finish: the run was stopped and may be resumed.
   void stop(const std::string& reason);
 

@@ -21,17 +21,17 @@ FailedBed::FailedBed(const coupling::GroundSetup& ground, const setup::RecordSet
       ground_(ground.rigid ? groundMesh(*ground.rigid) : output::planeMesh(record.planes)),
       device_(base::describe(exec)) {}
 
-void FailedBed::leave(const terrain::Grains* bed, const std::string& message) {
+void FailedBed::leave(const terrain::Grains* bed, const std::string& message, base::Cause cause) {
   if (left_ || !options_.comm().first()) return;
   left_ = true;
   try {
-    write(options_.comm().alone() ? bed : nullptr, message);
+    write(options_.comm().alone() ? bed : nullptr, message, cause);
   } catch (const std::exception&) {
     // A full disk, say.
   }
 }
 
-void FailedBed::write(const terrain::Grains* bed, const std::string& message) const {
+void FailedBed::write(const terrain::Grains* bed, const std::string& message, base::Cause cause) const {
   output::RunWriter::Options options;
   options.force = options_.force;
   options.frames = bed && output_.frames;
@@ -40,7 +40,7 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message) co
                       {"phase", "settling"},
                       {"switches", options_.switches}};
   output::RunWriter writer(options_.folder, provenance_, {}, options);
-  writer.abandon(message); // first of all, should the rest fail
+  writer.abandon(message, cause); // first of all, should the rest fail
   if (!bed) return;
   output::Frame frame;
   frame.step = bed->steps(), frame.time = static_cast<double>(bed->steps()) * bed->model().timeStep;
@@ -49,7 +49,7 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message) co
   writer.frame(frame);
   if (output_.picture)
     render::writePng(render::drawFrame(frame, {}, {}, output_.pictureWidth), options_.folder / "picture.png");
-  writer.abandon(message); // with all files
+  writer.abandon(message, cause); // with all files
 }
 
 void leavePlots(const std::filesystem::path& folder, bool ofVehicle) {

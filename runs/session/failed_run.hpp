@@ -21,10 +21,10 @@ public:
   FailedBed(const coupling::GroundSetup& ground, const setup::RecordSetup& record, const RunRequest& options,
             const base::Exec& exec);
   /// `bed`: as it is now; null where it is lost. The first call counts.
-  void leave(const terrain::Grains* bed, const std::string& message);
+  void leave(const terrain::Grains* bed, const std::string& message, base::Cause cause);
 
 private:
-  void write(const terrain::Grains* bed, const std::string& message) const;
+  void write(const terrain::Grains* bed, const std::string& message, base::Cause cause) const;
 
   const RunRequest& options_;
   setup::Provenance provenance_;

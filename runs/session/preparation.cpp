@@ -73,13 +73,15 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
     if (begun) kept.settling = begun->seconds();
     settling->update(time / limit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
   };
-  settle.failed = [&](const terrain::Grains& bed, const std::string& message) { failed.leave(&bed, message); };
+  settle.failed = [&](const terrain::Grains& bed, const std::string& message, base::Cause cause) {
+    failed.leave(&bed, message, cause);
+  };
   try {
     auto simulation = std::make_unique<coupling::Simulation>(std::move(setup), exec, settle, comm, beds, spheres);
     if (settling) settling->finish("at rest");
     return simulation;
   } catch (const base::SimulationError& error) {
-    failed.leave(nullptr, error.what());
+    failed.leave(nullptr, error.what(), error.cause());
     throw;
   }
 }

@@ -56,10 +56,10 @@ private:
   std::string withCheckpoint(const std::string& message) const;
   std::string atStep(const std::string& message) const;
   /// Ends the run by this error, which names the checkpoint that is left.
-  template <class Error> [[noreturn]] void abandon(const std::string& what) {
+  template <class Error, class... With> [[noreturn]] void abandon(const std::string& what, With... with) {
     const std::string message = withCheckpoint(what);
-    writer().abandon(message);
-    throw Error(message);
+    writer().abandon(message, with...);
+    throw Error(message, with...);
   }
 
   coupling::Simulation& simulation_;
@@ -81,7 +81,7 @@ template <class Write> void RunSession::record(const Write& write) {
     throw;
   } catch (const base::SimulationError& error) {
     leaveState();
-    abandon<base::SimulationError>(error.what());
+    abandon<base::SimulationError>(error.what(), error.cause());
   } catch (const support::NotWritten& error) {
     leaveCheckpoint();
     abandon<support::NotWritten>(error.what());

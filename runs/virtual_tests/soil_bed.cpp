@@ -183,7 +183,8 @@ void failRestless(std::int64_t seed, double limit, double energy) {
   throw base::SimulationError(
       fmt::format("the bed of seed {} did not come to rest within {:.1f} s: its grains move on with {:.2g} of m g r; "
                   "give it less rolling friction, or more preparation friction or steps a contact",
-                  seed, limit, energy));
+                  seed, limit, energy),
+      base::Cause::unsettledBed);
 }
 
 double comeToRest(coupling::Simulation& simulation, double energy, double limit) {

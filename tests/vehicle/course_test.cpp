@@ -225,7 +225,7 @@ TEST(CourseOfAVehicle, TurnsInTheCircleThatIsAskedFor) {
   double speed = 0, turn = 0;
   ride.until(7, [&] { speed += ride.motion().speed, turn += ride.motion().turnRate; });
   EXPECT_NEAR(speed / turn, 8, 0.16);
-  EXPECT_EQ(ride.observe().alarm, "");
+  EXPECT_EQ(ride.observe().alarm.text, "");
 }
 
 TEST(CourseOfAVehicle, StaysBesideAPathThatSwervesByLessThanAQuarterOfALookAhead) {
@@ -237,5 +237,5 @@ TEST(CourseOfAVehicle, StaysBesideAPathThatSwervesByLessThanAQuarterOfALookAhead
   EXPECT_GT(ride.motion().x, 7);
   EXPECT_LT(worst, 0.25 * 4 * 0.4458);
   EXPECT_NEAR(ride.motion().y, 1, 0.1) << "in the end on the line";
-  EXPECT_EQ(ride.observe().alarm, "");
+  EXPECT_EQ(ride.observe().alarm.text, "");
 }

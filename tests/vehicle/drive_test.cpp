@@ -63,7 +63,7 @@ TEST(Drive, RigidGround_KeepsShoesLevelAndSpeedAtThePitchRadius) {
           lowest = std::min(lowest, track.padHeight[i]);
           highest = std::max(highest, track.padHeight[i]);
         }
-    ASSERT_EQ(o.alarm, "") << "at t = " << o.time;
+    ASSERT_EQ(o.alarm.text, "") << "at t = " << o.time;
   });
   const auto o = ride.observe();
   // The control experiment of a shoe's height: constant within 1 mm, a grouser's height above ground less the overlap.
@@ -99,5 +99,5 @@ TEST(Drive, FasterLeftTrack_TurnsRight) {
   EXPECT_GT(o.tracks[0].speed, o.tracks[1].speed);
   // The outer track drives, the inner one is dragged along.
   EXPECT_GT(o.tracks[0].driveTorque, o.tracks[1].driveTorque);
-  EXPECT_EQ(o.alarm, "");
+  EXPECT_EQ(o.alarm.text, "");
 }

@@ -75,7 +75,7 @@ TEST_F(Observers, Sinkage_IsSurfaceMinusPadWhereLoadIsCarried) {
       EXPECT_TRUE(std::isnan(o.tracks[0].sinkage[i]));
   }
   EXPECT_NEAR(o.tracks[0].groundPressure[test::firstGroundShoe(v.wrap)], 5018 * 9.81 / 24 / (0.136 * 0.28), 1e-9);
-  EXPECT_EQ(o.alarm, "");
+  EXPECT_EQ(o.alarm.text, "");
 }
 
 TEST_F(Observers, WithoutGroundLoads_NothingIsClaimed) {
@@ -112,7 +112,7 @@ TEST_F(Observers, TrackAndSprocketTogether_SkipNothing) {
   EXPECT_NEAR(observer.travel(0).pitchesPassed(), 60, 1e-12);
   EXPECT_NEAR(observer.travel(0).skipped(), 0, 1e-12);
   EXPECT_EQ(observer.travel(1).pitchesPassed(), 0);
-  EXPECT_EQ(observer.alarm(state, standing()), "");
+  EXPECT_EQ(observer.alarm(state, standing()).text, "");
 }
 
 TEST_F(Observers, TrackThatMissesATooth_RaisesTheSkipAlarm) {
@@ -123,7 +123,7 @@ TEST_F(Observers, TrackThatMissesATooth_RaisesTheSkipAlarm) {
     observer.update(state, 0.1);
   }
   EXPECT_NEAR(observer.travel(0).skipped(), 1, 1e-12);
-  EXPECT_NE(observer.alarm(state, standing()).find("left track skips"), std::string::npos);
+  EXPECT_NE(observer.alarm(state, standing()).text.find("left track skips"), std::string::npos);
 }
 
 TEST_F(Observers, BackwardTrack_CountsBackward) {
@@ -195,25 +195,25 @@ TEST_F(Observers, WheelLiftedMoreThanAHorn_IsAThrownTrackOnlyBesideItsHornsAndSt
   const Observer observer(v);
   state.pose[left.wheels[2]].position.z += 0.077;
   EXPECT_NEAR(vehicle::wheelLift(v, 0, state), 0.077, 1e-14);
-  EXPECT_EQ(observer.alarm(state, standing()), "") << "in its plane";
+  EXPECT_EQ(observer.alarm(state, standing()).text, "") << "in its plane";
   for (const int shoe : left.shoes) state.pose[shoe].position.y += 0.04;
-  EXPECT_NE(observer.alarm(state, standing()).find("left track thrown"), std::string::npos);
+  EXPECT_NE(observer.alarm(state, standing()).text.find("left track thrown"), std::string::npos);
   // A suspended lower run sags so far by itself.
-  EXPECT_EQ(observer.alarm(state, {}), "");
+  EXPECT_EQ(observer.alarm(state, {}).text, "");
   state.pose[left.wheels[2]].position.z += 0.2;
-  EXPECT_NE(observer.alarm(state, {}).find("left track thrown"), std::string::npos);
+  EXPECT_NE(observer.alarm(state, {}).text.find("left track thrown"), std::string::npos);
 }
 
 TEST_F(Observers, AWheelThatRollsOverAStone_IsNoThrownTrack) {
   state.pose[left.wheels[2]].position.z += 0.067; // the largest grain of 27 mm +- 25 %
   for (const int shoe : left.shoes) state.pose[shoe].position.y += 0.04;
-  EXPECT_NE(Observer(v).alarm(state, standing()), "");
+  EXPECT_NE(Observer(v).alarm(state, standing()).text, "");
   const Observer onStones(v, {.stone = 0.0675});
-  EXPECT_EQ(onStones.alarm(state, standing()), "");
+  EXPECT_EQ(onStones.alarm(state, standing()).text, "");
   state.pose[left.wheels[2]].position.z += 0.062;
-  EXPECT_NE(onStones.alarm(state, standing()).find("left road wheel 2 is 129 mm off its plates, more than 128 mm"),
+  EXPECT_NE(onStones.alarm(state, standing()).text.find("left road wheel 2 is 129 mm off its plates, more than 128 mm"),
             std::string::npos)
-      << onStones.alarm(state, standing());
+      << onStones.alarm(state, standing()).text;
 }
 
 TEST_F(Observers, SuspendedSag_CoversTheKnownOne) {
@@ -225,14 +225,14 @@ TEST_F(Observers, SuspendedSag_CoversTheKnownOne) {
 TEST_F(Observers, ShoeBesideItsWheels_IsAThrownTrack) {
   const Observer observer(v);
   state.pose[v.tracks[1].shoes[20]].position.y -= 0.059;
-  EXPECT_EQ(observer.alarm(state, standing()), "");
+  EXPECT_EQ(observer.alarm(state, standing()).text, "");
   state.pose[v.tracks[1].shoes[20]].position.y -= 0.002;
-  EXPECT_NE(observer.alarm(state, standing()).find("right track thrown"), std::string::npos);
+  EXPECT_NE(observer.alarm(state, standing()).text.find("right track thrown"), std::string::npos);
 }
 
 TEST_F(Observers, NanInTheState_RaisesTheAlarm) {
   state.pose[left.shoes[3]].position.y = std::nan("");
-  EXPECT_NE(Observer(v).alarm(state, standing()), "");
+  EXPECT_NE(Observer(v).alarm(state, standing()).text, "");
 }
 
 TEST_F(Observers, Table_HasAsManyNumbersAsItNames) {

@@ -57,14 +57,14 @@ TEST_P(ReadyVehicle, StandsAndDrivesForwardsOnRigidGround) {
   // The hull still nods on its bars, a tenth of a second of it: 3 %.
   EXPECT_NEAR(up / n, GetParam().mass * 9.81, 0.03 * GetParam().mass * 9.81);
   const auto standing = ride.observe();
-  EXPECT_EQ(standing.alarm, "");
+  EXPECT_EQ(standing.alarm.text, "");
   EXPECT_NEAR(standing.pitchAngle, 0, 0.02);
   for (const auto& track : standing.tracks) EXPECT_NEAR(track.idlerForce, s.idler.preload, 0.25 * s.idler.preload);
   ride.until(1.6);
   const double from = ride.motion().x;
   ride.until(2.6);
   const auto o = ride.observe();
-  EXPECT_EQ(o.alarm, "");
+  EXPECT_EQ(o.alarm.text, "");
   EXPECT_NEAR(ride.motion().x - from, 0.25, 0.01) << "in a second, not over whole teeth: 4 %";
   EXPECT_NEAR(ride.motion().y, 0, 1e-4);
   for (const auto& track : o.tracks) {
@@ -144,7 +144,7 @@ TEST(RigidArms, WheelsKeepTheirPlacesInTheHullUnderAnyLoad) {
   }
   // Wheels in plates and shoes in the ground, some 5 kN on 3e7 N/m each.
   EXPECT_NEAR(hull.position.z, -spec.groundHeight(), 2e-3);
-  EXPECT_EQ(ride.observe().alarm, "");
+  EXPECT_EQ(ride.observe().alarm.text, "");
 }
 
 } // namespace

@@ -129,7 +129,7 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
         ++row.incomplete;
         said.verdict = "incomplete", said.why = outcome.message;
       } else if (outcome.status == output::RunStatus::failed) {
-        const FailureVerdict failure = judgeFailure(outcome.message);
+        const FailureVerdict failure = judgeFailure(outcome);
         failure.known ? ++row.runs : ++row.unknown;
         said.verdict = failure.known ? "no-go" : "failed", said.why = failure.why;
       } else {

@@ -94,13 +94,15 @@ Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   return {quick, fmt::format("{:.1f} m in {:.1f} s{}", trial.distance, drove->at, quick ? "" : ": too slowly")};
 }
 
-FailureVerdict judgeFailure(const std::string& message) {
-  const auto has = [&](const char* words) { return message.find(words) != std::string::npos; };
-  if (has("track thrown")) return {true, "throws a track"};
-  if (has(" track skips:")) return {true, "a track skips teeth"};
-  if (has("has not come to rest")) return {true, "does not come to rest"};
-  if (has(" has left the terrain")) return {true, "leaves the ground"};
-  return {false, message};
+FailureVerdict judgeFailure(const sweeps::SweepOutcome& outcome) {
+  using base::Cause;
+  constexpr std::pair<Cause, const char*> kOfTheVehicle[] = {{Cause::thrownTrack, "throws a track"},
+                                                             {Cause::skippingTrack, "a track skips teeth"},
+                                                             {Cause::noRest, "does not come to rest"},
+                                                             {Cause::offTerrain, "leaves the ground"}};
+  for (const auto& [cause, why] : kOfTheVehicle)
+    if (outcome.cause == cause) return {true, why};
+  return {false, outcome.message};
 }
 
 } // namespace grouser::events

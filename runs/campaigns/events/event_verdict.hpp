@@ -3,6 +3,7 @@
 
 #include "runs/campaigns/events/event_table.hpp"
 #include "runs/campaigns/sweeps/run_series.hpp"
+#include "runs/campaigns/sweeps/sweep_summary.hpp"
 
 #include <string>
 #include <vector>
@@ -46,7 +47,7 @@ struct FailureVerdict {
   bool known = false;
   std::string why;
 };
-FailureVerdict judgeFailure(const std::string& message);
+FailureVerdict judgeFailure(const sweeps::SweepOutcome& outcome);
 
 /// Time at which a growing quantity first reaches `level`, straight between rows; NaN where it does not [s].
 double timeAt(const std::vector<double>& time, const std::vector<double>& value, double level);

@@ -183,7 +183,7 @@ Judgement judgeRandom(const RandomVehicle& vehicle, const RandomOutcome& outcome
   }
   if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
   if (run.end == TrialEnd::stopped)
-    return {blameOf(run.cause).kind == "other" ? MapVerdict::wrongCause : MapVerdict::stopped, run.cause};
+    return {run.blamed == base::Cause::unknown ? MapVerdict::wrongCause : MapVerdict::stopped, run.cause};
   const MapFigures& f = run.figures;
   if (!(std::fabs(f.leftOver) <= kMostLeftOver))
     return {MapVerdict::silentlyWrong, fmt::format("the books leave {:.3g} of the turnover over", f.leftOver)};

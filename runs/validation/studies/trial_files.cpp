@@ -16,10 +16,11 @@ namespace {
 /// A run is kept as numbers, with its message beside it.
 jobs::Table tableOf(const std::vector<VehicleTrial>& trials) {
   jobs::Table table;
-  table.names = {"step [s]", "end", "reached [s]", "wall [s]"};
+  table.names = {"step [s]", "end", "reached [s]", "wall [s]", "cause"};
   for (const FigureColumn& c : kTrialFigures) table.names.emplace_back(c.name);
   for (const VehicleTrial& t : trials) {
-    std::vector<double> row = {t.step, static_cast<double>(t.end), t.reached, t.wallSeconds};
+    std::vector<double> row = {t.step, static_cast<double>(t.end), t.reached, t.wallSeconds,
+                               static_cast<double>(t.blamed)};
     for (const FigureColumn& c : kTrialFigures) row.push_back(t.figures.*c.value);
     table.rows.push_back(std::move(row));
   }
@@ -41,6 +42,7 @@ std::vector<VehicleTrial> readTrials(const jobs::Pieces& pieces, const std::stri
     VehicleTrial t;
     t.step = value("step [s]"), t.end = static_cast<TrialEnd>(static_cast<int>(value("end")));
     t.reached = value("reached [s]"), t.wallSeconds = value("wall [s]");
+    t.blamed = static_cast<base::Cause>(static_cast<int>(value("cause")));
     for (const FigureColumn& c : kTrialFigures) t.figures.*c.value = value(c.name);
     std::getline(causes, t.cause);
     trials.push_back(t);

@@ -176,7 +176,7 @@ VehicleTrial tryVehicle(const VehicleCase& what, double step, const TrialPlace& 
   } catch (const base::InputError& error) {
     trial.end = TrialEnd::refused, trial.cause = error.what();
   } catch (const base::SimulationError& error) {
-    trial.end = TrialEnd::stopped, trial.cause = error.what();
+    trial.end = TrialEnd::stopped, trial.cause = error.what(), trial.blamed = error.cause();
   }
   trial.wallSeconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return trial;

@@ -51,8 +51,9 @@ enum class TrialEnd { sound, stopped, refused };
 struct VehicleTrial {
   double step = 0; ///< [s]
   TrialEnd end = TrialEnd::sound;
-  std::string cause;  ///< the message, but for sound runs
-  double reached = 0; ///< [s]
+  std::string cause;    ///< the message, but for sound runs
+  base::Cause blamed{}; ///< what stopped it
+  double reached = 0;   ///< [s]
   double wallSeconds = 0;
   MapFigures figures;
 };

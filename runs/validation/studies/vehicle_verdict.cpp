@@ -34,31 +34,11 @@ const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
   return onBed ? onGrains : onRigidGround;
 }
 
-Blame blameOf(const std::string& message) {
-  struct Known {
-    const char *words, *kind;
-    bool step;
-  };
-  static constexpr std::array<Known, 15> kKnown{{
-      {"the step is not to blame", "a grain pressed through a part", false},
-      {"while the", "a bed that does not settle", false},
-      {"track thrown", "the track leaves its wheels", false},
-      {"track skips", "the track leaves its wheels", false},
-      {"left the terrain", "the terrain ends", false},
-      {"come to rest", "no rest", false},
-      {"tangential_damping_ratio", "tangential dashpots", false},
-      {"contacts are unstable", "unstable contacts", true},
-      {"too long for these contacts", "unstable contacts", true},
-      {"turns by", "turns too far a step", true},
-      {"swings across", "swings across the pull", true},
-      {"within one step it has moved", "a part is thrown in a step", true},
-      {"motion is too fast for dt", "too fast for the solver", true},
-      {"neighbour list's skin in one step", "a grain too fast for its list", true},
-      {"is no number", "no number", true},
-  }};
-  for (const Known& k : kKnown)
-    if (message.find(k.words) != std::string::npos) return {k.kind, k.step};
-  return {"other", false};
+bool blamesStep(base::Cause cause) {
+  using base::Cause;
+  constexpr Cause kOfTheStep[] = {Cause::unstableContacts, Cause::fastTurn,  Cause::growingSwings, Cause::thrownPart,
+                                  Cause::fastMotion,       Cause::fastGrain, Cause::noNumber};
+  return std::find(std::begin(kOfTheStep), std::end(kOfTheStep), cause) != std::end(kOfTheStep);
 }
 
 namespace {
@@ -153,18 +133,20 @@ std::string errorOfStep(const ComparedFigure& c, const FigureScatter& s) {
   return {};
 }
 
+/// A track that skips is about to leave its wheels.
+base::Cause kindOf(base::Cause cause) { return cause == base::Cause::skippingTrack ? base::Cause::thrownTrack : cause; }
+
 } // namespace
 
 Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
   if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
   if (run.end == TrialEnd::stopped) {
-    const Blame blame = blameOf(run.cause);
-    const bool same = finer.end == TrialEnd::stopped && blameOf(finer.cause).kind == blame.kind;
+    const bool same = finer.end == TrialEnd::stopped && kindOf(finer.blamed) == kindOf(run.blamed);
     // Where the step is to blame a shorter one goes on beyond, whatever it meets later; where it is not, that meets the
     // same.
     const bool beyond =
         finer.end == TrialEnd::sound || (finer.end == TrialEnd::stopped && !same && finer.reached > run.reached);
-    const bool confirmed = blame.step ? beyond : same;
+    const bool confirmed = blamesStep(run.blamed) ? beyond : same;
     return {confirmed ? MapVerdict::stopped : MapVerdict::wrongCause, run.cause};
   }
   std::string wrong = fault(run, finer, onBed);

@@ -43,12 +43,8 @@ const std::vector<ComparedFigure>& comparedFigures(bool onBed);
 /// Left over of the books, of the turnover, that is rounding [-].
 inline constexpr double kMostLeftOver = 1e-8;
 
-/// What a guard's message is about, and whether it says that the step is to blame.
-struct Blame {
-  std::string kind;
-  bool step = false;
-};
-Blame blameOf(const std::string& message);
+/// Whether a run that ends so had steps that were too long.
+bool blamesStep(base::Cause cause);
 
 /// The run that judges has so many times as many steps.
 inline constexpr double kFinerRatio = 4;

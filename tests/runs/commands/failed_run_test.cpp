@@ -76,6 +76,7 @@ TEST_F(FailedRun, FaultWhileTheBedSettlesIsSaidToBeOneAndShown) {
   EXPECT_NE(o.errors.find("while the bed settled, before the run begins: step "), std::string::npos) << o.errors;
   expectExplained(o, {"frames.h5", "frames.xdmf", "picture.png", "scene.toml"});
   EXPECT_NE(manifest().find("\"phase\": \"settling\""), std::string::npos) << manifest();
+  EXPECT_NE(manifest().find("\"cause\": \"unsettled bed\""), std::string::npos) << manifest();
 }
 
 TEST_F(FailedRun, BedThatDoesNotComeToRestIsShown) {
@@ -91,6 +92,7 @@ TEST_F(FailedRun, FaultOfARunLeavesLastFrameAndTheStateBeforeIt) {
   const Outcome o = call("run ball.toml --out o --threads 1");
   EXPECT_EQ(o.errors.find("settled"), std::string::npos) << o.errors;
   expectExplained(o, {"frames.h5", "frames.xdmf", "picture.png", "checkpoint.h5", "results.h5"});
+  EXPECT_NE(manifest().find("\"cause\": \"pressed grain\""), std::string::npos) << manifest();
   EXPECT_NE(o.errors.find("(last checkpoint: o/checkpoint.h5, step "), std::string::npos) << o.errors;
   // Eight frames up to 0.14 s, and the one in which it is too deep.
   EXPECT_NE(contents(folder_ / "o/frames.xdmf").find("/000008/grains/position"), std::string::npos);

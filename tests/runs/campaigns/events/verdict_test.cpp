@@ -95,12 +95,13 @@ TEST(EventVerdict, OfATurnIsOfItsRate) {
 }
 
 TEST(EventVerdict, KnowsWhichFailuresAreTheVehicles) {
-  EXPECT_TRUE(judgeFailure("step 9: left track thrown: shoe 3 is 80 mm beside its wheels").known);
-  EXPECT_TRUE(judgeFailure("the vehicle has not come to rest within driver.rest_time_limit = 5 s").known);
-  EXPECT_TRUE(judgeFailure("right track skips: 3.00 teeth have passed, but 1.90 pitches").known);
-  EXPECT_TRUE(judgeFailure("the left shoe 3 has left the terrain at (1, 2) m").known);
-  EXPECT_FALSE(judgeFailure("the energy left over is above what is allowed").known);
-  EXPECT_FALSE(judgeFailure("ended by signal 9 (Killed)").known);
+  using base::Cause;
+  const auto failed = [](Cause cause) { return judgeFailure({output::RunStatus::failed, "the run's message", cause}); };
+  for (const Cause cause : {Cause::thrownTrack, Cause::noRest, Cause::skippingTrack, Cause::offTerrain})
+    EXPECT_TRUE(failed(cause).known) << base::wordOf(cause);
+  EXPECT_FALSE(failed(Cause::unstableContacts).known);
+  EXPECT_FALSE(failed(Cause::unknown).known);
+  EXPECT_EQ(failed(Cause::unknown).why, "the run's message");
 }
 
 TEST(EventMotion, BeginsWithTheDriveAndUnwindsTheHeading) {

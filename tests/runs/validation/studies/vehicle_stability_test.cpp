@@ -299,7 +299,7 @@ TEST_F(VehicleMaps, AStepThatIsMuchTooLongIsCaughtEvenWhereNobodyRefusesIt) {
   const double longest = longestStep(what, folder_);
   const VehicleTrial wild = tryVehicle(what, 8 * longest, place(), StepCheck::none);
   ASSERT_EQ(wild.end, TrialEnd::stopped);
-  EXPECT_TRUE(blameOf(wild.cause).step) << wild.cause;
+  EXPECT_TRUE(blamesStep(wild.blamed)) << wild.cause;
   EXPECT_LT(wild.reached, what.until);
 }
 
@@ -311,7 +311,7 @@ TEST_F(VehicleMaps, AnImpactFarStifferThanTheWeightAtRestIsCaught) {
   ASSERT_NE(point, map.points.end());
   const VehicleTrial trial = tryVehicle(point->what, point->step, place());
   ASSERT_EQ(trial.end, TrialEnd::stopped);
-  EXPECT_TRUE(blameOf(trial.cause).step) << trial.cause;
+  EXPECT_TRUE(blamesStep(trial.blamed)) << trial.cause;
   EXPECT_NE(trial.cause.find("idler"), std::string::npos) << trial.cause;
 }
 
@@ -327,7 +327,7 @@ TEST_F(VehicleMaps, AnIdlerThatTremblesOnHeavyShoesIsRefusedAndCaught) {
   EXPECT_NE(refused.cause.find("idler that turns on 6 shoes"), std::string::npos) << refused.cause;
   const VehicleTrial trial = tryVehicle(point->what, step, place(), StepCheck::none);
   ASSERT_EQ(trial.end, TrialEnd::stopped);
-  EXPECT_TRUE(blameOf(trial.cause).step) << trial.cause;
+  EXPECT_TRUE(blamesStep(trial.blamed)) << trial.cause;
   EXPECT_NE(trial.cause.find("idler"), std::string::npos) << trial.cause;
 }
 
