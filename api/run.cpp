@@ -77,6 +77,15 @@ Run::Run(const Scene& of, const Options& given, const std::optional<std::filesys
   session->record([this] { session->begin(); });
 }
 
+Run::~Run() {
+  if (!session || finished || failed) return;
+  try {
+    session->writer().stop(fmt::format("left at {:.6g} s without finish()", simulation->time()));
+  } catch (const std::exception&) {
+    // A full disk, say.
+  }
+}
+
 std::unique_ptr<storage::Checkpoint> Run::goOn() {
   auto read = session::formerRun(record.provenance, request);
   coupling::SimulationSetup setup = setup::simulationSetup(scene, comm().size());

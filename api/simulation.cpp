@@ -51,7 +51,7 @@ void Simulation::step(std::int64_t count, const std::function<bool()>& keepGoing
 void Simulation::stepFor(double seconds) {
   constexpr double kLongest = 1e9; // [s]
   if (!(seconds > 0) || seconds > kLongest)
-    throw InputError(fmt::format("stepFor({:g}): is outside (0, {:g}] s", seconds, kLongest));
+    throw InputError(fmt::format("stepFor({:g}): the time must be in (0, {:g}] s", seconds, kLongest));
   step(std::max<std::int64_t>(1, std::llround(seconds / run_->now().timeStep())));
 }
 

@@ -52,6 +52,7 @@ template <class Call> auto translated(const Call& call) -> decltype(call()) {
 /// A simulation and, where it has a folder, its session.
 struct Run {
   Run(const Scene& scene, const Options& options, const std::optional<std::filesystem::path>& resume);
+  ~Run();
 
   /// The vehicle's rig; throws InputError without one.
   const coupling::VehicleRig& rig() const;

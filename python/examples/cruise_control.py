@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Cruise control: a PI controller holds the hull's speed up a slope of 0.2, by the speed of the sprockets.
+"""Cruise control: a PI controller holds the hull's speed on a slope of 0.2 by setting the sprocket speeds.
 
     python/examples/cruise_control.py [FOLDER]       # of the results; default: out/cruise_control
 
-Every 10 ms the controller reads the hull's speed and sets the sprockets. The run is recorded with what was set:
-`grouser run --replay FOLDER` repeats it without this program, to the same state hash. Ends in an error where the mean
-speed of the last half second is not within 2 % of the goal.
+Every 10 ms the controller reads the hull's speed and sets the sprockets. The run is recorded with its control inputs:
+`grouser run --replay FOLDER` repeats it without this program, to the same state hash. Fails if the mean speed of the
+last 0.5 s is off the goal by more than 2 %.
 """
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))  # where the package is not installed
+sys.path.insert(0, str(ROOT / "python"))  # if the package is not installed
 import grouser  # noqa: E402
 
 GOAL = 0.5  # [m/s]
 SLOPE = 0.2  # [-]
-GAIN, INTEGRAL = 0.5, 3.0  # of the error of speed: [-], [1/s]
+GAIN, INTEGRAL = 0.5, 3.0  # controller gains: [-], [1/s]
 EVERY = 0.01  # [s]
 
 
 def scene_on_slope(duration: float) -> grouser.Scene:
-    """Rigid ground; gravity leans back, as on a slope."""
+    """Rigid ground; tilted gravity models the slope."""
     scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
     angle = math.atan(SLOPE)
     scene["run.gravity"] = [-9.81 * math.sin(angle), 0.0, -9.81 * math.cos(angle)]
     scene["run.duration"] = duration
-    scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
+    scene["vehicle.sphere_radius"] = 0.03  # coarse, for speed
     scene["output.plots"] = False
     return scene
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""An environment for learning controllers, with the functions of Gymnasium: reset, step, observation, reward.
+"""A reinforcement-learning environment with the Gymnasium interface: reset, step, observation, reward.
 
     python/examples/environment.py
 
-The task: drive to a goal ahead and to the left. An action is the speed of both sprockets, -1 to 1 of the largest. The
-program below tries random actions, then a simple rule, and ends in an error where the rule does not earn more. It needs
-no package beside grouser and numpy; where gymnasium is installed, `gymnasium.Env` may be put before `object`.
+The task: drive to a goal ahead and to the left. An action is the two sprocket speeds, -1 to 1, as fractions of the
+maximum. The script tries random actions, then a simple rule, and fails if the rule does not earn more. It requires only
+grouser and numpy; with gymnasium installed, derive the class from `gymnasium.Env`.
 """
 from __future__ import annotations
 
@@ -19,13 +19,14 @@ from types import SimpleNamespace
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))  # where the package is not installed
+sys.path.insert(0, str(ROOT / "python"))  # if the package is not installed
 import grouser  # noqa: E402
 
 
 class DriveToGoal:
-    """Observation: way to the goal ahead and to the left in the hull's frame [m], speed [m/s], turn rate [rad/s], slip of
-    both tracks [-]. Reward: metres come nearer. The episode ends 0.1 m before the goal, or after `limit` steps."""
+    """Observation: distance to the goal ahead and to the left in the hull's frame [m], speed [m/s], turn rate [rad/s],
+    slip of both tracks [-]. Reward: decrease in distance to the goal [m]. The episode ends within 0.1 m of the goal, or
+    after `limit` steps."""
 
     observation_space = SimpleNamespace(shape=(6,), dtype=np.float64)
     action_space = SimpleNamespace(shape=(2,), low=-1.0, high=1.0, dtype=np.float64)
@@ -34,10 +35,10 @@ class DriveToGoal:
                  fastest: float = 8.0):
         self.goal, self.period, self.limit, self.fastest = np.array(goal), period, limit, fastest
         scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
-        scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
-        scene["terrain.size"], scene["vehicle.position"] = [9.0, 6.0], [3.0, 0.0]  # room to go astray
+        scene["vehicle.sphere_radius"] = 0.03  # coarse, for speed
+        scene["terrain.size"], scene["vehicle.position"] = [9.0, 6.0], [3.0, 0.0]  # room for wrong turns
         self.sim = grouser.Simulation(scene)
-        while self.sim.vehicle.drive_start is None:  # lowered, and at rest: every episode begins here
+        while self.sim.vehicle.drive_start is None:  # wait until the vehicle is at rest; every episode starts here
             self.sim.step_for(0.02)
         self._folder = tempfile.TemporaryDirectory()
         self._start = Path(self._folder.name) / "start.h5"
@@ -63,7 +64,7 @@ class DriveToGoal:
         self._folder.cleanup()
 
     def _place(self) -> np.ndarray:
-        # Of the hull's centre: the vehicle's own position is the origin of its frame, which swings out in a turn.
+        # Hull's centre of mass: sim.vehicle.position is at the sprocket axle, which swings out in turns.
         return self.sim.bodies()["chassis"].position[:2]
 
     def _to_goal(self) -> np.ndarray:
@@ -80,7 +81,7 @@ class DriveToGoal:
 
 
 def rule(seen: np.ndarray) -> np.ndarray:
-    """Towards the goal, turning by where it lies."""
+    """Drives towards the goal, steering by its bearing."""
     turn = np.clip(2 * math.atan2(seen[1], max(seen[0], 0.05)), -0.8, 0.8)
     return np.array([0.6 - turn, 0.6 + turn])
 
@@ -99,9 +100,9 @@ def main(limit: int = 40) -> tuple[float, float]:
     random = episode(env, lambda seen: env.rng.uniform(-1, 1, 2))
     ruled, again = episode(env, rule), episode(env, rule)
     env.close()
-    print(f"reward of random actions {random:.3f} m, of the rule {ruled:.3f} m; again {again:.3f} m")
+    print(f"reward: random {random:.3f} m, rule {ruled:.3f} m, repeated {again:.3f} m")
     if not ruled > random + 0.1 or ruled != again:
-        raise SystemExit("the rule should come nearer than random actions, and alike each time")
+        raise SystemExit("the rule must beat random actions and give the same reward each time")
     return random, ruled
 
 

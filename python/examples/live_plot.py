@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""An event loop that logs a run and plots it while it goes.
+"""An event loop that logs a run and plots it live.
 
     python/examples/live_plot.py [FOLDER]       # default: out/live_plot
 
-Every 20 ms of the run its way, speed and slip go to FOLDER/log.csv, and the plot is drawn anew: in a window where there
-is a screen, else into FOLDER/live.png. The sprockets are locked when the vehicle has driven a quarter of a metre; it
-then swings on its tracks. Ends in an error where it has not stayed there.
+Every 20 ms of simulated time it logs distance, speed and slip to FOLDER/log.csv. The plot updates in a window or,
+without a display, in FOLDER/live.png (every tenth sample). The sprockets are locked when the vehicle has driven a
+quarter of a metre; it then swings on its tracks. Fails if the vehicle does not stay there.
 """
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ if not os.environ.get("DISPLAY"):
 import matplotlib.pyplot as plt  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))  # where the package is not installed
+sys.path.insert(0, str(ROOT / "python"))  # if the package is not installed
 import grouser  # noqa: E402
 
 WAY, EVERY, DURATION = 0.25, 0.02, 2.2  # [m], [s], [s]
-COLUMNS = ["time [s]", "way [m]", "speed [m/s]", "slip [-]"]
+COLUMNS = ["time [s]", "distance [m]", "speed [m/s]", "slip [-]"]
 
 
 class LivePlot:
@@ -58,7 +58,7 @@ def main(folder: str = "out/live_plot") -> list[list[float]]:
     out = Path(folder)
     out.mkdir(parents=True, exist_ok=True)
     scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
-    scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
+    scene["vehicle.sphere_radius"] = 0.03  # coarse, for speed
     scene["driver.sprocket_speed"] = 3.0
     plot, rows, start, stopped = LivePlot(out / "live.png"), [], None, False
     with grouser.Simulation(scene) as sim, open(out / "log.csv", "w", newline="") as file:

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Slip control of a drawbar pull: the force on the hitch is raised until the tracks slip by a given share.
+"""Slip control: adjusts the hitch force until the tracks reach a given slip.
 
     python/examples/slip_control.py [SLIP]       # default: 0.1
 
 The sprockets turn at a fixed speed. Every 10 ms the controller reads the slip of both tracks and sets the force of the
-hitch. Prints the pull over the vehicle's weight; ends in an error where the slip of the last half second is not within a
-tenth of the goal.
+hitch. Prints drawbar pull / weight; fails if the mean slip of the last 0.5 s differs from the goal by more than 10 %.
 """
 from __future__ import annotations
 
@@ -14,25 +13,25 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))  # where the package is not installed
+sys.path.insert(0, str(ROOT / "python"))  # if the package is not installed
 import grouser  # noqa: E402
 
 SPEED = 3.0  # of the sprockets [rad/s]
-RATE = 12.0  # of the force, in weights a second and unit of slip [1/s]
+RATE = 12.0  # integral gain of the force, in vehicle weights per second and unit slip [1/s]
 EVERY, DURATION = 0.01, 3.0  # [s]
 
 
 def pulling_scene() -> grouser.Scene:
     scene = grouser.Scene.read(ROOT / "runs/scenes/rigid_control.toml")
     scene["run.duration"] = DURATION
-    scene["vehicle.sphere_radius"] = 0.03  # coarse, and quick
+    scene["vehicle.sphere_radius"] = 0.03  # coarse, for speed
     scene["driver.sprocket_speed"] = SPEED
     scene["hitch"] = {"kind": "force", "force": 0.0}
     return scene
 
 
 def main(goal: float = 0.1) -> tuple[float, float]:
-    """Slip and pull over weight, means of the last half second."""
+    """Mean slip and pull / weight over the last 0.5 s."""
     goal = float(goal)
     with grouser.Simulation(pulling_scene()) as sim:
         weight = 9.81 * sim.vehicle_mass

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulation in this process: stepped, read and steered from Python."""
+"""In-process simulation: step, read and control it from Python."""
 from __future__ import annotations
 
 import importlib.util
@@ -19,7 +19,7 @@ Three = Sequence[float]
 
 
 def _core() -> ModuleType:
-    """The compiled part: beside this file where installed, else that of the checkout's build folder."""
+    """The extension module: installed beside this file, else in the checkout's build folder."""
     try:
         from . import _core  # type: ignore[attr-defined]
         return _core
@@ -33,30 +33,30 @@ def _core() -> ModuleType:
             module = importlib.util.module_from_spec(spec)
             spec.loader.exec_module(module)
             return module
-    raise ImportError(f"the compiled part of grouser is neither installed nor in {folder}: build it (cmake --build build), "
-                      "which takes the packages python3-dev and pybind11-dev")
+    raise ImportError(f"grouser's extension module is neither installed nor in {folder}; install python3-dev and "
+                      "pybind11-dev, then run: cmake --build build")
 
 
 class Simulation:
-    """A scene that runs in this process. Built settled, the vehicle set down; then `step()`.
+    """Runs a scene in this process. The constructor settles the bed and sets the vehicle down; then call `step()`.
 
         with grouser.Simulation("runs/scenes/rigid_control.toml") as sim:
             while sim.time < 2:
                 sim.set_sprocket_speed(2.0 + 4 * (0.5 - sim.vehicle.speed))
                 sim.step(100)
 
-    scene: a Scene, or a scene file. folder: of results as `grouser run` leaves them; None: nothing is written. device:
-    "auto", "cpu" or "cuda"; threads: of the CPU, 0 for all; None: as the scene says. overwrite: a folder that holds
-    results. cache: take settled beds and cut meshes from earlier runs. settling: called with time [s] and kinetic energy
-    ratio while a bed settles. checkpoint: file of the same scene to go on from; [driver] and [hitch] may differ unless
-    `folder` is that of the checkpoint.
+    scene: a Scene or a scene file. folder: where to write results, as `grouser run` does; None: no output. device:
+    "auto", "cpu" or "cuda"; None: as in the scene. threads: number of CPU threads, 0: all cores; None: as in the scene.
+    overwrite: replace existing results in `folder`. cache: reuse settled beds and cut meshes from earlier runs.
+    settling: callback(time [s], kinetic energy ratio) while the bed settles. checkpoint: continue from this file; the
+    scene must match it, except that a branch (another folder, or none) may change the drive and the hitch.
 
-    What is set acts from the next step on until it is set again or released. It is part of the answer: kept with its
-    step in checkpoints and results, so that `grouser run --replay FOLDER` repeats the run without this program, to the
-    same state hash, on a CPU or a GPU. Setters raise InputError where the scene has nothing of the kind.
+    An input takes effect at the next step and holds until set again or released. Inputs are stored with their steps in
+    checkpoints and results, so `grouser run --replay FOLDER` reproduces the run without this script, with the same
+    state hash, on a CPU or a GPU. Setters raise InputError if the scene does not support the input.
 
-    Several may be alive at a time, each used by one thread at a time; `step()` releases the interpreter's lock, and
-    Ctrl-C ends it after a step. Errors are those of the package: InputError, SimulationError, DeviceError.
+    Several may coexist, each used by one thread at a time. `step()` releases the GIL; Ctrl-C interrupts it between two
+    steps. Errors are those of the package: InputError, SimulationError, DeviceError.
     """
 
     @briefly
@@ -75,7 +75,7 @@ class Simulation:
         return self
 
     def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
-        """Finishes the run, unless an exception ends it; then frees its memory."""
+        """Finishes the run unless an exception was raised, then frees its memory."""
         if kind is None and self._run.open:
             self.finish()
         self.close()
@@ -91,19 +91,20 @@ class Simulation:
     # Steps.
     @briefly
     def step(self, count: int = 1) -> None:
-        """Takes `count` steps, or fewer where the scene's [stop] ends the run: see `ended`; InputError behind that."""
+        """Takes `count` steps, or fewer if the scene's [stop] ends the run (see `ended`); after that, raises
+        InputError."""
         self._seen = (-1, None)
         self._run.step(count)
 
     def step_for(self, seconds: float) -> None:
-        """The number of steps that is nearest to this time > 0, at least one."""
+        """Advances by `seconds` > 0, rounded to whole steps, at least one."""
         if not 0 < seconds <= 1e9:
-            raise errors.InputError(f"step_for({seconds}): is outside (0, 1e9] s", 2, [], "")
+            raise errors.InputError(f"step_for({seconds}): the time must be in (0, 1e9] s", 2, [], "")
         self.step(max(1, round(seconds / self.time_step)))
 
     @property
     def time(self) -> float:
-        """Since the bed has settled [s]."""
+        """Simulation time [s], from the end of settling."""
         return self._run.time
 
     @property
@@ -117,22 +118,22 @@ class Simulation:
 
     @property
     def ended(self) -> str:
-        """Why the scene's [stop] has ended the run; empty while it goes on."""
+        """Reason why [stop] ended the run; empty while it continues."""
         return self._run.ended
 
     @property
     def device(self) -> str:
         return self._run.device
 
-    # What is seen. All arrays are read-only.
+    # Observations. All arrays are read-only.
     @property
     def grain_count(self) -> int:
         return self._run.grain_count
 
     @property
     def positions(self) -> np.ndarray:
-        """Of the grains, by id [m], [grains, 3] float64. A view of memory that the next step's positions use again,
-        unless the array is still held then: it keeps the values of its step. Copy to change them."""
+        """Grain positions sorted by id [m], [grains, 3] float64, read-only. An array that you hold keeps its values;
+        otherwise its buffer is reused after the next step. Copy it to modify values."""
         return self._run.positions()
 
     def grains(self) -> SimpleNamespace:
@@ -142,11 +143,11 @@ class Simulation:
     @property
     @briefly
     def vehicle(self) -> SimpleNamespace:
-        """The vehicle now, as copies: time, position [m] and velocity of the middle of the sprockets' axle line, speed
-        [m/s], heading, pitch, roll [rad], turn_rate [rad/s], ground_force, drawbar_pull [N], drive_start [s] (None
-        while it is lowered), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque [N m],
-        drive_power [W], speed [m/s], slip [-] and, shoe by shoe, tension, normal_force, shear_force [N], sinkage [m].
-        Forces, torques and powers are means over the last step().
+        """Current vehicle state, copied: time [s], position of the middle of the sprocket axle line [m], velocity of
+        the hull's centre of mass [m/s], speed [m/s], heading, pitch, roll [rad], turn_rate [rad/s], ground_force,
+        drawbar_pull [N], drive_start [s] (None until the drive starts), and `left` and `right`, each with
+        sprocket_speed [rad/s], drive_torque [N m], drive_power [W], speed [m/s], slip [-] and, per shoe: tension,
+        normal_force, shear_force [N], sinkage [m]. Forces, torques and powers are means over the last step().
         """
         if self._seen[0] != self.steps:
             state = self._run.vehicle()
@@ -164,46 +165,48 @@ class Simulation:
     @property
     @briefly
     def pitch_radius(self) -> float:
-        """Of the sprockets [m]: speed of the track = sprocket speed x pitch radius."""
+        """Pitch radius of the sprockets [m]: track speed = sprocket speed x pitch radius."""
         return self._run.vehicle_constants()[1]
 
     def bodies(self) -> dict[str, SimpleNamespace]:
-        """Copies by name, of the vehicle or mechanism: mass [kg], position [m], orientation (w, x, y, z, body to world),
-        velocity [m/s], spin [rad/s]."""
+        """Copies by name, of the vehicle or mechanism: mass [kg], position [m], orientation (w, x, y, z, body to
+        world), velocity [m/s], spin [rad/s]."""
         return {body["name"]: SimpleNamespace(**body) for body in self._run.bodies()}
 
     def energies(self) -> SimpleNamespace:
         """Since the first step [J]: kinetic, potential, elastic, dissipated, work, integration_error, residual."""
         return SimpleNamespace(**self._run.energies())
 
-    # What is set.
+    # Control inputs.
     @briefly
     def set_sprocket_speed(self, left: float, right: float | None = None) -> None:
-        """[rad/s], forward positive; right: as left. With driver.drive = "engine" the governors' set points."""
+        """Sets sprocket speeds [rad/s], forward positive; right defaults to left. With driver.drive = "engine", sets
+        governor speeds."""
         self._run.set_sprocket_speed(left, left if right is None else right)
 
     @briefly
     def set_sprocket_torque(self, left: float, right: float | None = None) -> None:
-        """[N m], forward positive; driver.drive = "torque"."""
+        """Sets sprocket torques [N m], forward positive; requires driver.drive = "torque"."""
         self._run.set_sprocket_torque(left, left if right is None else right)
 
     @briefly
     def set_throttle(self, left: float, right: float | None = None) -> None:
-        """-1 to 1, of the engines' full load or of their brakes; driver.drive = "engine"."""
+        """-1 to 1: fraction of full-load torque, or of brake torque if it opposes the rotation; requires
+        driver.drive = "engine". Of throttle and governor speed the last one set takes effect."""
         self._run.set_throttle(left, left if right is None else right)
 
     def release_sprockets(self) -> None:
-        """Back to the scene's driver."""
+        """Returns control to the scene's driver."""
         self._run.release_sprockets()
 
     @briefly
     def set_hitch_force(self, force: float) -> None:
-        """That holds the vehicle back [N]; [hitch] kind = "force"."""
+        """Sets the hitch force that resists the vehicle [N]; requires [hitch] kind = "force"."""
         self._run.set_hitch_force(force)
 
     @briefly
     def set_hitch_speed(self, speed: float) -> None:
-        """Of the carriage that holds it [m/s]; [hitch] kind = "speed"."""
+        """Sets the speed of the towing carriage [m/s]; requires [hitch] kind = "speed"."""
         self._run.set_hitch_speed(speed)
 
     def release_hitch(self) -> None:
@@ -226,20 +229,20 @@ class Simulation:
     def release_load(self, body: str) -> None:
         self._run.release_load(body)
 
-    # The state as a whole.
+    # Checkpoints.
     @briefly
     def save(self, file: str | os.PathLike) -> None:
-        """A checkpoint, for `checkpoint=`, `restore()` and `grouser run --resume`."""
+        """Writes a checkpoint for `checkpoint=`, `restore()` and `grouser run --resume`."""
         self._run.save(Path(file))
 
     @briefly
     def restore(self, file: str | os.PathLike) -> None:
-        """Goes back, or on, to a checkpoint of the same scene; not while a folder is written."""
+        """Restores the state of a checkpoint of the same scene. Not allowed with an output folder."""
         self._run.restore(Path(file))
         self._seen = (-1, None)
 
     def hash(self) -> str:
-        """Of the state: equal bits, equal hash."""
+        """Hash of the state; equal states have equal hashes."""
         return self._run.hash()
 
     @briefly
@@ -254,7 +257,7 @@ class Simulation:
 
 
 def library_version() -> str:
-    """Version and commit of the compiled part."""
+    """Version and commit of the extension module."""
     core = _core()
     return f"{core.version} {core.commit}"
 

@@ -442,12 +442,18 @@ private:
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };
 
-template <int kWidth, unsigned kFeatures>
-GROUSER_SIMD void runOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
+namespace {
+
+/// One kernel. A function of its own, so that the compiler's choices in it do not depend on how many others there are;
+/// of this file alone, so that the program takes no other file's copy.
+template <int kWidth, unsigned kFeatures> __attribute__((noinline, flatten)) void
+runOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   GrainSimd<kWidth, kFeatures> some(d, f);
   some.run(first, last);
   if (kFeatures & kLedger) addToBooks(d, first, some.books());
 }
+
+} // namespace
 
 template <int kWidth, std::size_t... kPlace> GROUSER_SIMD void runCompiled(unsigned features, const GrainKernelData& d,
                                                                            const ForceData<float>& f, int first,

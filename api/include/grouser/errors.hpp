@@ -5,19 +5,19 @@
 
 namespace grouser {
 
-/// What this library throws. Messages are for users: one line with place, value, range and remedy.
+/// Base class of all exceptions. what() is one line: place, value, valid range and remedy.
 class Error : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// A scene, a value or a file is wrong: nothing has changed. Exit code 2 of the program.
+/// Invalid scene, value or file; the call has no effect. Exit code 2 of the program.
 class InputError : public Error {
 public:
   using Error::Error;
 };
 
-/// The simulation has become unsound, or its results could not be written; it can be looked at, but not be stepped on.
+/// The simulation became unsound, or results could not be written. Its state can be read but not stepped further.
 /// Exit code 3 of the program.
 class SimulationError : public Error {
 public:

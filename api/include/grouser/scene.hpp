@@ -18,19 +18,18 @@ struct Run;
 struct SceneData;
 } // namespace detail
 
-/// What is to be simulated: a scene file, or the same as text, with changed values. docs/keys.md lists all keys. Each
-/// function that changes it checks the whole scene and throws InputError, with nothing changed, where that is wrong.
-/// Values are copied; copies are cheap.
+/// A scene, from a file or TOML text, with overrides. docs/keys.md lists all keys. Every setter validates the whole
+/// scene; if that is invalid, it throws InputError and changes nothing. Copies are cheap.
 class Scene {
 public:
   /// Reads a scene file, once.
   static Scene fromFile(const std::filesystem::path& file);
   /// A scene as TOML text. Paths in it are relative to `folder`, and assets by name are found as in a file; `file` is
-  /// what messages call it.
+  /// the name used in messages.
   static Scene fromText(std::string_view toml, const std::filesystem::path& folder = ".",
                         const std::string& file = "scene.toml");
 
-  /// Sets a key by its whole name, e.g. set("driver.sprocket_speed", 1.5) or set("material.soil.friction", 0.6).
+  /// Sets a key by its full name, e.g. set("driver.sprocket_speed", 1.5) or set("material.soil.friction", 0.6).
   Scene& set(std::string_view key, double value);
   Scene& set(std::string_view key, bool value);
   template <class Integer>
@@ -44,7 +43,7 @@ public:
 
   std::string name() const;
   double duration() const;     ///< run.duration [s]; Simulation::step() may go beyond it
-  std::string resolved() const; ///< with every default filled in, as TOML
+  std::string resolved() const; ///< the scene as TOML, including all defaults
 
 private:
   friend struct detail::Run;

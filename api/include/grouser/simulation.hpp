@@ -20,8 +20,7 @@ namespace detail {
 struct RanksData;
 } // namespace detail
 
-/// The connection with the other ranks, where mpirun has started this program with several: one for the life of the
-/// program, made first in main(). Alone it does nothing.
+/// MPI session. Create one object, first in main(), for the life of the program. Without mpirun it does nothing.
 class Ranks {
 public:
   Ranks(int& argc, char**& argv);
@@ -30,7 +29,7 @@ public:
   Ranks& operator=(const Ranks&) = delete;
   int rank() const;
   int size() const;
-  /// Ends all ranks with this exit code, where one cannot go on and the others would wait for it.
+  /// Terminates all ranks with this exit code, if one cannot continue and the others would hang.
   void abort(int code) const;
 
 private:
@@ -40,52 +39,51 @@ private:
 
 /// How a simulation is run. No option changes the answer.
 struct Options {
-  std::string device;           ///< "auto", "cpu" or "cuda"; empty: as the scene says
-  int threads = -1;             ///< of the CPU, 0 for all; -1: as the scene says
-  std::filesystem::path folder; ///< for results as `grouser run` leaves them; empty: nothing is written
-  bool overwrite = false;       ///< a folder that holds results
-  bool cache = true;            ///< take settled beds and cut meshes from earlier runs, and keep them
-  /// That share the scene: all make the simulation, step, read, set and save alike, from the thread that made it.
+  std::string device;           ///< "auto", "cpu" or "cuda"; empty: as in the scene
+  int threads = -1;             ///< number of CPU threads, 0: all cores; -1: as in the scene
+  std::filesystem::path folder; ///< output folder, as of `grouser run`; empty: no output
+  bool overwrite = false;       ///< replace existing results in `folder`
+  bool cache = true;            ///< reuse settled beds and cut meshes from earlier runs, and store new ones
+  /// MPI ranks that share the scene. All must make the same calls, from the thread that created the simulation.
   const Ranks* ranks = nullptr;
-  /// Called while a bed settles, with its time [s] and its kinetic energy ratio. What it throws ends the settling.
+  /// Called while a bed settles, with its time [s] and its kinetic energy ratio. An exception from it ends the settling.
   std::function<void(double time, double energy)> settling;
 };
 
-/// A scene that runs in this process; several may run at a time, each used by one thread at a time. Built settled.
-/// Everything that is set from outside acts from the next step on, is kept with its step in checkpoints and results
-/// (`grouser run --replay FOLDER` repeats the run without its controller), and gives the same bits on a CPU, on a GPU
-/// and on any number of threads.
+/// Runs a scene in this process; the constructor settles the bed. Several simulations may coexist, each used by one
+/// thread at a time. Inputs take effect at the next step and are stored with their steps in checkpoints and results
+/// (`grouser run --replay FOLDER` reproduces the run without its controller). Results are bitwise identical on a CPU,
+/// on a GPU and for any number of threads and ranks.
 class Simulation {
 public:
   /// Lays and settles the bed, sets the vehicle down. Throws InputError, SimulationError, DeviceError.
   explicit Simulation(const Scene& scene, const Options& options = {});
-  /// Goes on from a checkpoint of the same scene, in the checkpoint's folder as if it had not been stopped, or in another
-  /// one. [driver] and [hitch] may differ where `options.folder` is another one, or none.
+  /// Continues from a checkpoint of the same scene. If `options.folder` is another folder, or empty, this is a branch,
+  /// which may change the drive and the hitch (docs/restart.md).
   static Simulation resumed(const Scene& scene, const std::filesystem::path& checkpoint, const Options& options = {});
-  ~Simulation(); ///< an unfinished folder says that the run was left
+  ~Simulation(); ///< without finish(), the manifest says that the run was stopped
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Takes `count` steps, or fewer where what the scene's [stop] names comes to pass; see ended(). Throws
-  /// SimulationError where the simulation becomes unsound, InputError behind such an end, and behind a failed step.
-  /// `keepGoing`, where given, is asked some ten times a second; false ends the call after the step it is at.
+  /// Takes `count` steps, or fewer if a [stop] condition of the scene is met; see ended(). Throws SimulationError if
+  /// the simulation becomes unsound, and InputError if the run has already ended or failed. `keepGoing`, if given, is
+  /// called about ten times a second; if it returns false, step() returns after the current step.
   void step(std::int64_t count = 1, const std::function<bool()>& keepGoing = {});
-  /// As many steps as are nearest to `seconds` > 0, at least one.
+  /// Advances by `seconds` > 0, rounded to whole steps, at least one.
   void stepFor(double seconds);
-  std::string ended() const; ///< why the scene's [stop] has ended the run; empty while it goes on
+  std::string ended() const; ///< why a [stop] condition ended the run; empty while it continues
 
-  double time() const;         ///< since the bed has settled [s]
+  double time() const;         ///< from the end of settling [s]
   double timeStep() const;     ///< [s]
-  std::int64_t steps() const;  ///< taken
-  std::string device() const;  ///< in words
+  std::int64_t steps() const;  ///< steps taken
+  std::string device() const;  ///< its name
 
   bool hasVehicle() const;
-  Vehicle vehicle();           ///< throws InputError where the scene has none
+  Vehicle vehicle();           ///< throws InputError if the scene has none
   std::size_t grainCount() const; ///< of all ranks
   Grains grains() const;
-  std::size_t ownGrainCount() const; ///< of which this rank returns values; alone all
-  /// The positions of grains() in one pass into memory of the caller, for ownGrainCount() of them. Throws InputError on
-  /// another size.
+  std::size_t ownGrainCount() const; ///< that this rank returns; all grains without MPI
+  /// Copies the positions of grains() to the caller's buffer. Throws InputError unless its size is ownGrainCount().
   void readPositions(std::span<Vec3> positions) const;
   std::vector<Body> bodies() const;
   Energies energies() const;
@@ -96,14 +94,13 @@ public:
   void setLoad(std::string_view body, const Vec3& force, const Vec3& torque = {});
   void releaseLoad(std::string_view body);
 
-  /// Writes a checkpoint, with which resumed() and `grouser run --resume` go on. The former file stays whole if that
-  /// fails.
+  /// Writes a checkpoint for resumed() and `grouser run --resume`. If writing fails, an existing file is kept intact.
   void save(const std::filesystem::path& checkpoint) const;
-  /// Goes back, or on, to a checkpoint, as resumed(). Not while a folder is written: rows would come twice.
+  /// Restores the state of a checkpoint, as resumed(). Not allowed with an output folder: rows would be duplicated.
   void restore(const std::filesystem::path& checkpoint);
-  std::string hash() const; ///< of the state, 16 hexadecimal digits: equal bits, equal hash
-  /// Ends the run: last row, checkpoint, plots and summary of the folder. Nothing may be stepped behind it. Behind a
-  /// failed step it does nothing: the folder says why the run has failed.
+  std::string hash() const; ///< of the state, 16 hexadecimal digits; equal states have equal hashes
+  /// Ends the run: last row, checkpoint, plots and summary of the folder. No step() after it. After a failed step it
+  /// does nothing: the manifest gives the cause.
   void finish();
 
 private:

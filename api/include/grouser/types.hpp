@@ -26,20 +26,20 @@ struct Body {
   Vec3 spin;              ///< angular velocity, world axes [rad/s]
 };
 
-/// All grains, ascending by id. On several ranks each has a block of ids.
+/// All grains, sorted by id. With MPI, each rank holds a contiguous block of ids.
 struct Grains {
   std::vector<Vec3> position;        ///< [m]
   std::vector<float> velocity, spin; ///< x, y, z of each grain [m/s], [rad/s]
-  std::vector<float> radius;         ///< [m], one a grain
+  std::vector<float> radius;         ///< [m], one per grain
   std::vector<unsigned> id;
 };
 
-/// Energies since the first step [J]. With steps of finite length
+/// Energies since the first step [J]. For a finite time step
 ///   kinetic + potential + elastic + dissipated + integrationError = work + residual.
 struct Energies {
   double kinetic = 0, potential = 0, elastic = 0, dissipated = 0;
-  double work = 0;             ///< of drives, hitch and loads set from outside
-  double integrationError = 0; ///< falls with the time step
+  double work = 0;             ///< of drives, hitch and applied loads
+  double integrationError = 0; ///< decreases with the time step
   double residual = 0;         ///< rounding
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Version of this interface, as of the program: a change that breaks callers raises MINOR while MAJOR is 0. The page
-/// docs/api_changes.md lists them.
+/// Version of the interface and of the program: a change that breaks callers raises MINOR while MAJOR is 0.
+/// docs/api_changes.md lists these changes.
 #define GROUSER_VERSION_MAJOR 0
 #define GROUSER_VERSION_MINOR 1
 #define GROUSER_VERSION_PATCH 0
@@ -11,7 +11,7 @@ namespace grouser {
 
 /// "0.1.0" of the library that the program is linked with.
 const char* version();
-/// The commit that it was built from, "-dirty" behind it where sources were changed.
+/// The commit that it was built from, with suffix "-dirty" if sources were modified.
 const char* commit();
 
 } // namespace grouser
