@@ -88,9 +88,9 @@ TEST(RandomVehicle, OfABedIsJudgedByItsBooksAndItsCause) {
   EXPECT_EQ(verdict(t), MapVerdict::silentlyWrong);
   t.figures.leftOver = 0, t.figures.speed = NAN;
   EXPECT_EQ(verdict(t), MapVerdict::silentlyWrong);
-  t.end = TrialEnd::stopped, t.cause = "of a cause that nobody knows";
+  t.end = TrialEnd::stopped, t.cause = "of a cause that nobody knows", t.blamed = base::Cause::unknown;
   EXPECT_EQ(verdict(t), MapVerdict::wrongCause);
-  t.cause = "left track skips: 3.00 teeth have passed, but 2.00 pitches";
+  t.blamed = base::Cause::skippingTrack;
   EXPECT_EQ(verdict(t), MapVerdict::stopped);
   t.end = TrialEnd::refused;
   EXPECT_EQ(verdict(t), MapVerdict::refused);
@@ -113,10 +113,11 @@ TEST_F(RandomVehicleStudy, SaysWhatIsWrongOfRunsThatAreThere) {
   const Outcome none = call(words + " --seconds 1e-9");
   ASSERT_EQ(none.code, 0) << none.errors;
   EXPECT_NE(none.out.find("vehicles are missing"), std::string::npos) << none.out;
-  const std::string numbers = "step [s],end,reached [s],wall [s],speed [m/s],height [m],lowest height [m],pitch [rad],"
-                              "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "
-                              "[J],left over [-],speed magnitude [m/s],power magnitude [W],blow [weights]\n";
-  const std::string row = "1e-4,0,0.4,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n";
+  const std::string numbers =
+      "step [s],end,reached [s],wall [s],cause,speed [m/s],height [m],lowest height [m],pitch [rad],"
+      "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "
+      "[J],left over [-],speed magnitude [m/s],power magnitude [W],blow [weights]\n";
+  const std::string row = "1e-4,0,0.4,1,0,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n";
   const std::filesystem::path runs = folder_ / "results" / "runs";
   for (const char* name : {"vehicle_0", "vehicle_1"}) {
     put(runs / (std::string(name) + ".csv"), numbers + row + row);
@@ -129,7 +130,7 @@ TEST_F(RandomVehicleStudy, SaysWhatIsWrongOfRunsThatAreThere) {
   const auto apart = [&numbers](const std::array<double, 12>& speeds, double blow = 1.2) {
     std::string text = numbers;
     for (const double speed : speeds)
-      text += fmt::format("1e-4,0,0.4,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,{}\n", speed, blow);
+      text += fmt::format("1e-4,0,0.4,1,0,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,{}\n", speed, blow);
     return text;
   };
   put(runs / "vehicle_1.txt", "\n\n\n\n\n\n\n\n\n\n\n\n");

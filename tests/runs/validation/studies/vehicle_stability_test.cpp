@@ -28,18 +28,14 @@ VehicleTrial soundTrial() {
   t.figures = {0.5, 0.4, 0.39, 0.001, 2000, 5000, NAN, 3000, 1, 1e5, 1e-13, 0.5, 2000};
   return t;
 }
-VehicleTrial stoppedTrial(const std::string& cause) {
+VehicleTrial stoppedTrial(base::Cause cause) {
   VehicleTrial t = soundTrial();
-  t.end = TrialEnd::stopped, t.cause = cause;
+  t.end = TrialEnd::stopped, t.blamed = cause, t.cause = base::wordOf(cause);
   return t;
 }
 
-constexpr const char* kUnstable = "step 512, time 0.1 s: the steps have made 12 J; the contacts are unstable: use a "
-                                  "smaller time_step or softer contacts";
-constexpr const char* kThrown = "step 50, time 0.1 s: left track thrown: idler is 40 mm off its plates";
-constexpr const char* kSkips = "step 50, time 0.1 s: right track skips: 3.00 teeth have passed, but 2.00 pitches";
-constexpr const char* kPressed = "step 9: grain 3 is about to pass through what is rigid; the energies balance, so the "
-                                 "step is not to blame: use stiffer contacts";
+constexpr base::Cause kUnstable = base::Cause::unstableContacts, kThrown = base::Cause::thrownTrack,
+                      kSkips = base::Cause::skippingTrack, kPressed = base::Cause::pressedGrain;
 
 TEST(VehicleVerdict, RunsThatAgreeAreSound) {
   EXPECT_EQ(judge(soundTrial(), soundTrial(), false).verdict, MapVerdict::sound);
@@ -103,13 +99,13 @@ TEST(VehicleVerdict, AStopIsTrueWhereTheFinerRunConfirmsItsCause) {
   VehicleTrial later = stoppedTrial(kThrown);
   later.reached = 0.5;
   EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::stopped) << "it went on beyond that";
-  later.cause = kUnstable;
+  later.blamed = kUnstable;
   EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::wrongCause) << "a shorter step helps no more";
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kThrown)), MapVerdict::stopped);
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kSkips)), MapVerdict::stopped) << "one event seen in two ways";
   EXPECT_EQ(verdict(stoppedTrial(kThrown), soundTrial()), MapVerdict::wrongCause) << "the step has done it";
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kPressed)), MapVerdict::wrongCause);
-  EXPECT_EQ(verdict(stoppedTrial("of a cause that nobody knows"), soundTrial()), MapVerdict::wrongCause);
+  EXPECT_EQ(verdict(stoppedTrial(base::Cause::unknown), soundTrial()), MapVerdict::wrongCause);
   EXPECT_EQ(verdict(soundTrial(), stoppedTrial(kThrown)), MapVerdict::silentlyWrong);
   VehicleTrial refused = soundTrial();
   refused.end = TrialEnd::refused, refused.cause = "scene.toml:4: time_step";
@@ -342,10 +338,11 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
   EXPECT_TRUE(fs::exists(runs / "gravity_1.csv") && fs::exists(runs / "mass_1.csv"));
   EXPECT_FALSE(fs::exists(runs / "gravity_0.csv") || fs::exists(folder_ / "results" / "vehicle.csv"));
 
-  const std::string numbers = "step [s],end,reached [s],wall [s],speed [m/s],height [m],lowest height [m],pitch [rad],"
-                              "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "
-                              "[J],left over [-],speed magnitude [m/s],power magnitude [W],blow [weights]\n";
-  const std::string row = "1e-4,0,0.7,1,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n";
+  const std::string numbers =
+      "step [s],end,reached [s],wall [s],cause,speed [m/s],height [m],lowest height [m],pitch [rad],"
+      "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "
+      "[J],left over [-],speed magnitude [m/s],power magnitude [W],blow [weights]\n";
+  const std::string row = "1e-4,0,0.7,1,0,0.5,0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n";
   put(runs / "gravity_0.csv", numbers + row + row);
   put(runs / "gravity_0.txt", "\n\n");
   const Outcome sound = call(words + " --resume --seconds 1e-9");
@@ -359,8 +356,8 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
 
   // A finer run that says otherwise ends the study with a code of its own.
   const auto withSpeeds = [&numbers](double run, double finer) {
-    return fmt::format("{}1e-4,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n"
-                       "2.5e-5,0,0.7,1,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n",
+    return fmt::format("{}1e-4,0,0.7,1,0,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n"
+                       "2.5e-5,0,0.7,1,0,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n",
                        numbers, run, finer);
   };
   put(runs / "gravity_0.csv", withSpeeds(0.5, 0.9));
