@@ -8,10 +8,14 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/output_place.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <fmt/format.h>
 #include <limits>
+#include <string_view>
+#include <unistd.h>
 #include <utility>
 
 namespace grouser::detail {
@@ -20,7 +24,22 @@ namespace {
 
 constexpr double kBetweenQuestions = 0.1; ///< that keepGoing is asked [s]
 
+/// OpenMP of GNU does not survive a fork: its threads are gone in the child, which waits for them for ever.
+void requireThreads(const base::Exec& exec) {
+  static std::atomic<pid_t> withThreads{0};
+  const pid_t before = withThreads.load();
+  if (before != 0 && before != getpid())
+    throw base::InputError("this process was forked from one that has run a simulation on several threads, and cannot run "
+                           "any: start it anew instead (Python: multiprocessing.set_start_method(\"spawn\")), or use "
+                           "threads = 1 before");
+  if (exec.onCpu() && exec.threads > 1) withThreads = getpid();
+}
+
 scene::Scene onDevice(const SceneData& of, const Options& options) {
+  constexpr int kMostThreads = 1024;
+  if (options.threads < -1 || options.threads > kMostThreads)
+    throw base::InputError(fmt::format("threads = {}: a number from 0 (all cores) to {}, or -1 (as in the scene)",
+                                       options.threads, kMostThreads));
   std::vector<std::string> overrides = of.overrides;
   if (!options.device.empty()) overrides.push_back("run.device=" + options.device);
   if (options.threads >= 0) overrides.push_back(fmt::format("run.threads={}", options.threads));
@@ -46,6 +65,7 @@ void claim(const session::RunRequest& request, support::FileLock& lock) {
   std::error_code error;
   if (request.folder.empty() || !request.comm().first()) return;
   if (request.resume && !request.branch) return output::claimFolder(lock, request.folder);
+  support::requireFolder(request.folder);
   if (!request.force && std::filesystem::exists(request.folder, error) &&
       !std::filesystem::is_empty(request.folder, error))
     throw base::InputError(fmt::format("{}: the folder is not empty; name another, or let it be overwritten (overwrite)",
@@ -59,6 +79,7 @@ Run::Run(const Scene& of, const Options& given, const std::optional<std::filesys
       record(setup::recordSetup(scene, setup::provenanceOf(scene))),
       exec(support::chooseDevice(scene.run.device, scene.run.threads, request.ranks)),
       kept(session::cachesOf(scene.terrain && scene.terrain->cache, request)) {
+  requireThreads(exec);
   claim(request, lock);
   std::unique_ptr<storage::Checkpoint> former;
   if (resume) {
@@ -78,9 +99,9 @@ Run::Run(const Scene& of, const Options& given, const std::optional<std::filesys
 }
 
 Run::~Run() {
-  if (!session || finished || failed) return;
+  if (!session || finished || !failed.empty()) return;
   try {
-    session->writer().stop(fmt::format("left at {:.6g} s without finish()", simulation->time()));
+    session->stop(fmt::format("left at {:.6g} s without finish()", simulation->time()));
   } catch (const std::exception&) {
     // A full disk, say.
   }
@@ -111,7 +132,16 @@ const coupling::VehicleRig& Run::rig() const {
   return *rig;
 }
 
+void Run::requireOpen(const char* what) const {
+  if (isStepping && std::string_view(what) == "step()")
+    throw InputError("step() was called by the function that step() calls; return from that first");
+  if (finished) throw InputError(fmt::format("{}: the simulation is finished; restore() a checkpoint", what));
+  if (!failed.empty())
+    throw InputError(fmt::format("{}: the simulation has failed; restore() a checkpoint. The cause: {}", what, failed));
+}
+
 void Run::set(const std::vector<coupling::Input>& inputs) {
+  requireOpen("setting inputs");
   translated([&] {
     for (const coupling::Input& input : inputs) coupling::require(now(), input);
   });
@@ -161,8 +191,8 @@ void Run::act(std::int64_t steps) {
 }
 
 void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
-  if (finished) throw InputError("the simulation is finished: it cannot be stepped any more");
-  if (failed) throw InputError("the simulation has failed: it cannot be stepped any more; restore() a checkpoint");
+  requireOpen("step()");
+  translated([this] { requireThreads(exec); });
   if (count < 1) throw InputError(fmt::format("step({}): at least one step", count));
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / 4;
   if (count > kMost) throw InputError(fmt::format("step({}): at most {} steps", count, kMost));
@@ -170,17 +200,19 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
     throw InputError("the scene's [stop] has ended the run: " + rig->ended());
   act(count);
   now().restartMeans(coupling::Means::watch);
-  failed = true; // unless it goes well, or what keepGoing throws ends it between two steps
+  isStepping = true;
+  failed = "an exception"; // unless it goes well, or what keepGoing throws ends it between two steps
   try {
     const auto all = [&] { advance(count, keepGoing); };
     translated([&] { session ? session->record(all) : all(); });
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    isStepping = false, failed = error.what();
     throw;
   } catch (...) {
-    failed = false;
+    isStepping = false, failed.clear();
     throw;
   }
-  failed = false;
+  isStepping = false, failed.clear();
 }
 
 void Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
@@ -206,7 +238,7 @@ void Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
 }
 
 void Run::finish() {
-  if (finished || failed) return;
+  if (finished || !failed.empty()) return;
   act();
   finished = true;
   if (!session) return translated([this] { now().checkEnergy(); });

@@ -4,6 +4,7 @@
 #include "api/detail/run.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
+#include "runs/support/locations.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -71,6 +72,15 @@ Scene& Scene::set(std::string_view key, const std::vector<double>& values) {
   for (const double v : values) list += fmt::format("{}{}", list.size() > 1 ? ", " : "", v);
   return put(key, list + "]");
 }
+
+Scene& Scene::set(const std::vector<std::string>& assignments) {
+  std::vector<std::string> overrides = data_->overrides;
+  overrides.insert(overrides.end(), assignments.begin(), assignments.end());
+  data_ = loaded(data_->text, data_->file, std::move(overrides));
+  return *this;
+}
+
+void detail::setInstalledShare(const char* folder) { support::setInstalledShare(folder); }
 
 std::string Scene::name() const { return data_->scene.name(); }
 double Scene::duration() const { return data_->scene.run.duration; }

@@ -3,12 +3,14 @@
 #include <grouser/version.hpp>
 
 #include "api/detail/run.hpp"
+#include "runs/setup/run_warnings.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/build_info.hpp"
 #include "terrain/grain_checkpoint.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <utility>
 
@@ -144,7 +146,26 @@ void Simulation::releaseLoad(std::string_view body) {
   run_->release({coupling::InputKind::bodyLoad}, index);
 }
 
+std::vector<std::string> Simulation::warnings() const {
+  std::vector<std::string> texts;
+  for (const setup::Notice& notice : detail::translated([&] { return setup::noticesOf(run_->scene, run_->now()); }))
+    texts.push_back(notice.text);
+  if (run_->exec.threads > 1 && !std::getenv("GOMP_SPINCOUNT") && !std::getenv("OMP_WAIT_POLICY"))
+    texts.emplace_back("threads that wait for each other spin, which makes steps many times slower where other programs "
+                       "use the cores: set GOMP_SPINCOUNT=5000 in the environment before this program starts, or use "
+                       "one thread");
+  return texts;
+}
+
 void Simulation::save(const std::filesystem::path& checkpoint) const {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::absolute(checkpoint, error).parent_path();
+  if (!std::filesystem::is_directory(folder, error) || std::filesystem::is_directory(checkpoint, error))
+    throw InputError(fmt::format("save(\"{}\"): {}", checkpoint.string(),
+                                 std::filesystem::is_directory(checkpoint, error) ? "that is a folder; name a file"
+                                                                                  : "there is no such folder; make it first"));
+  if (!run_->failed.empty())
+    throw InputError("save(): the simulation has failed, and its state is not sound. The cause: " + run_->failed);
   run_->act();
   detail::translated([&] {
     storage::writeCheckpoint(checkpoint, session::checkpointOf(run_->now(), run_->record.provenance), run_->comm());
@@ -165,7 +186,7 @@ void Simulation::restore(const std::filesystem::path& checkpoint) {
     throw;
   }
   run.simulation->restartMeans(coupling::Means::watch);
-  run.finished = run.failed = false;
+  run.finished = false, run.failed.clear();
 }
 
 std::string Simulation::hash() const {

@@ -29,11 +29,17 @@ VehicleState Vehicle::state() const {
   const vehicle::Observation o = rig.observe(coupling::Means::watch);
   const vehicle::HullMotion hull = vehicle::hullMotion(rig.assembly(), rig.state());
   VehicleState s;
-  s.time = o.time;
+  s.time = run_->now().time();
+  const base::Vec3d& centre = rig.state().pose[static_cast<std::size_t>(rig.assembly().chassis)].position;
+  s.centre = {centre.x, centre.y, centre.z};
   s.position = {o.position.x, o.position.y, o.position.z}, s.velocity = {o.velocity.x, o.velocity.y, o.velocity.z};
   s.speed = hull.speed, s.heading = o.heading, s.pitch = o.pitchAngle, s.roll = o.rollAngle, s.turnRate = hull.turnRate;
   s.groundForce = {o.groundForce.x, o.groundForce.y, o.groundForce.z}, s.drawbarPull = o.drawbarPull;
-  s.driveStart = rig.driveStart();
+  // As a whole number of steps: the vehicle adds up its own time.
+  if (const auto start = rig.driveStart()) {
+    const double step = run_->now().timeStep();
+    s.driveStart = std::round(*start / step) * step;
+  }
   s.left = trackOf(o.tracks.front());
   if (o.tracks.size() > 1) s.right = trackOf(o.tracks[1]);
   return s;

@@ -54,6 +54,8 @@ add_library(grouser_internal INTERFACE)
 set_target_properties(grouser_internal PROPERTIES EXPORT_NAME internal)
 target_include_directories(grouser_internal INTERFACE $<INSTALL_INTERFACE:include/grouser/internal>)
 target_link_libraries(grouser_internal INTERFACE grouser_api)
+target_compile_definitions(grouser_api INTERFACE
+  "$<INSTALL_INTERFACE:GROUSER_INSTALLED_SHARE=\"$<INSTALL_PREFIX>/${share}\">")
 install(TARGETS grouser_internal ${targets} EXPORT grouser_targets ARCHIVE COMPONENT development)
 install(DIRECTORY api/include/grouser DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 set(internal ${CMAKE_INSTALL_INCLUDEDIR}/grouser/internal)

@@ -13,35 +13,46 @@ namespace grouser::coupling {
 namespace {
 
 /// Beyond these a value is a mistake, as in a scene.
-double largest(InputKind kind) {
+struct Range {
+  const char* name;
+  double most;
+  const char* unit;
+};
+Range rangeOf(InputKind kind) {
   switch (kind) {
   case InputKind::sprocketSpeed:
-    return 100; // [rad/s]
+    return {"sprocket speed", 100, "rad/s"};
   case InputKind::sprocketTorque:
-    return 1e7; // [N m]
+    return {"sprocket torque", 1e7, "N m"};
   case InputKind::throttle:
-    return 1;
+    return {"throttle", 1, "-"};
   case InputKind::hitchForce:
-    return 1e8; // [N]
+    return {"hitch force", 1e8, "N"};
   case InputKind::hitchSpeed:
-    return 100; // [m/s]
+    return {"hitch speed", 100, "m/s"};
   case InputKind::gravity:
-    return 1000; // [m/s2]
+    return {"gravity", 1000, "m/s2"};
   case InputKind::bodyLoad:
-    return 1e9; // [N], [N m]
+    return {"load on a body", 1e9, "N, N m"};
   }
-  return 0;
+  return {};
 }
 
 } // namespace
 
 void require(const Simulation& simulation, const Input& input) {
   if (input.released) return; // of what a branch may lack
-  const double most = largest(input.kind);
+  const Range range = rangeOf(input.kind);
+  const bool ofTrack = input.kind == InputKind::sprocketSpeed || input.kind == InputKind::sprocketTorque ||
+                       input.kind == InputKind::throttle;
   for (const double v : input.value)
-    if (!(std::fabs(v) <= most))
-      throw base::InputError(
-          fmt::format("{} = {:g} is outside [{:g}, {:g}]", base::wordOf(input.kind), v, -most, most));
+    if (!(std::fabs(v) <= range.most))
+      throw base::InputError(fmt::format("{}{} = {:g} {}, allowed is [{:g}, {:g}] [{}]; nothing was set",
+                                         !ofTrack            ? ""
+                                         : input.target == 0 ? "left "
+                                                             : "right ",
+                                         range.name, v, std::isfinite(v) ? "is out of range" : "is no finite number",
+                                         -range.most, range.most, range.unit));
   if (simulation.vehicle()) return simulation.vehicle()->require(input);
   if (simulation.mechanism()) return simulation.mechanism()->require(input);
   if (input.kind != InputKind::gravity)

@@ -56,6 +56,8 @@ struct Run {
 
   /// The vehicle's rig; throws InputError without one.
   const coupling::VehicleRig& rig() const;
+  /// Throws InputError where nothing more may be done, which `what` names.
+  void requireOpen(const char* what) const;
   /// Checks these. They act once act() is called, since a rank may be the only one that sets them.
   void set(const std::vector<coupling::Input>& inputs);
   /// Left and right, where the scene has both.
@@ -89,7 +91,8 @@ struct Run {
   support::FileLock lock;                     ///< of a folder in which it goes on
   std::vector<coupling::Input> pending;       ///< set, and not yet with the simulation
   bool finished = false;
-  bool failed = false; ///< by a step; its folder says so
+  std::string failed;      ///< why, of a step; its folder says so
+  bool isStepping = false; ///< within step(), also while keepGoing is called
   std::int64_t stepsAtATime = 1; ///< between two questions whether to go on
   support::Stopwatch since;
 };

@@ -20,6 +20,9 @@ Three = Sequence[float]
 
 def _core() -> ModuleType:
     """The extension module: installed beside this file, else in the checkout's build folder."""
+    # Read by OpenMP as it is loaded: threads that wait must not hold the cores of other programs.
+    if "OMP_WAIT_POLICY" not in os.environ:
+        os.environ.setdefault("GOMP_SPINCOUNT", "5000")
     try:
         from . import _core  # type: ignore[attr-defined]
         return _core
@@ -35,6 +38,31 @@ def _core() -> ModuleType:
             return module
     raise ImportError(f"grouser's extension module is neither installed nor in {folder}; install python3-dev and "
                       "pybind11-dev, then run: cmake --build build")
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, (int, float, np.number)):
+        return float(value)
+    raise TypeError(f"{name}: a number, not {value!r}")
+
+
+def _whole(name: str, value: Any) -> int:
+    if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
+        raise TypeError(f"{name}: a whole number, not {value!r}")
+    if abs(int(value)) >= 2**62:
+        raise errors.InputError(f"{name} = {value} is out of range", 2, [], "")
+    return int(value)
+
+
+def _pair(left: Any, right: Any) -> tuple[float, float]:
+    left = _number("left", left)
+    return left, left if right is None else _number("right", right)
+
+
+def _three(name: str, value: Any) -> list[float]:
+    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != 3:
+        raise TypeError(f"{name}: three numbers (x, y, z), not {value!r}")
+    return [_number(name, v) for v in value]
 
 
 class Simulation:
@@ -55,14 +83,24 @@ class Simulation:
     checkpoints and results, so `grouser run --replay FOLDER` reproduces the run without this script, with the same
     state hash, on a CPU or a GPU. Setters raise InputError if the scene does not support the input.
 
-    Several may coexist, each used by one thread at a time. `step()` releases the GIL; Ctrl-C interrupts it between two
+    `warnings` lists what is sound and may still surprise. run.duration of the scene ends nothing here. Sprocket and
+    engine inputs act from the start of the drive (`vehicle.drive_start`), when the vehicle has been lowered and rests.
+
+    Several may coexist, each used by one thread at a time. Start processes with multiprocessing's "spawn": a forked one
+    cannot run threads. `step()` releases the GIL; Ctrl-C interrupts it between two
     steps. Errors are those of the package: InputError, SimulationError, DeviceError.
     """
+
+    __slots__ = ("__weakref__", "_run", "_seen", "warnings")
 
     @briefly
     def __init__(self, scene: Scene | str | os.PathLike, folder: str | os.PathLike | None = None, *,
                  device: str | None = None, threads: int | None = None, overwrite: bool = False, cache: bool = True,
                  settling: Callable[[float, float], Any] | None = None, checkpoint: str | os.PathLike | None = None):
+        if threads is not None and not 0 <= _whole("threads", threads) <= 1024:
+            raise errors.InputError(f"threads = {threads}: a number from 0 (all cores) to 1024", 2, [], "")
+        if settling is not None and not callable(settling):
+            raise TypeError(f"settling: a function of time and energy, not {settling!r}")
         if not isinstance(scene, Scene):
             scene = Scene.read(scene)
         place = scene.folder / f"{scene.name}.toml"
@@ -70,6 +108,7 @@ class Simulation:
                                        str(folder) if folder else "", overwrite, cache, settling,
                                        Path(checkpoint) if checkpoint else None)
         self._seen: tuple[int, Any] = (-1, None)
+        self.warnings: list[str] = self._run.warnings()
 
     def __enter__(self) -> Simulation:
         return self
@@ -86,6 +125,8 @@ class Simulation:
     def __repr__(self) -> str:
         if not self._run.open:
             return "<grouser.Simulation, closed>"
+        if self._run.busy:
+            return "<grouser.Simulation, used by another thread>"
         return f"<grouser.Simulation at {self.time:.6g} s, {self.grain_count} grains, {self.device}>"
 
     # Steps.
@@ -94,7 +135,7 @@ class Simulation:
         """Takes `count` steps, or fewer if the scene's [stop] ends the run (see `ended`); after that, raises
         InputError."""
         self._seen = (-1, None)
-        self._run.step(count)
+        self._run.step(_whole("count", count))
 
     def step_for(self, seconds: float) -> None:
         """Advances by `seconds` > 0, rounded to whole steps, at least one."""
@@ -137,17 +178,19 @@ class Simulation:
         return self._run.positions()
 
     def grains(self) -> SimpleNamespace:
-        """Copies by id: velocity [m/s], spin [rad/s] ([grains, 3] float32), radius [m], id."""
+        """Copies by id: position [m], velocity [m/s], spin [rad/s] ([grains, 3] float32), radius [m], id."""
         return SimpleNamespace(position=self.positions, **self._run.grains())
 
     @property
     @briefly
     def vehicle(self) -> SimpleNamespace:
-        """Current vehicle state, copied: time [s], position of the middle of the sprocket axle line [m], velocity of
-        the hull's centre of mass [m/s], speed [m/s], heading, pitch, roll [rad], turn_rate [rad/s], ground_force,
-        drawbar_pull [N], drive_start [s] (None until the drive starts), and `left` and `right`, each with
-        sprocket_speed [rad/s], drive_torque [N m], drive_power [W], speed [m/s], slip [-] and, per shoe: tension,
-        normal_force, shear_force [N], sinkage [m]. Forces, torques and powers are means over the last step().
+        """Current vehicle state, copied: time [s], position of the middle of the sprocket axle line [m], centre of mass
+        of the hull [m] and its velocity [m/s], speed [m/s], heading (from x to y, counts on over turns), pitch (nose
+        up), roll (right side down) [rad], turn_rate (to the left) [rad/s], ground_force, drawbar_pull [N], drive_start
+        [s] (None until it is known), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque [N m],
+        drive_power [W], speed [m/s], slip [-] (NaN while the sprocket stands) and, per shoe: tension, normal_force,
+        shear_force [N], sinkage [m]. Forces, torques, powers and sinkage are means over the last step(), and unknown
+        (zero, NaN) before the first one and after restore().
         """
         if self._seen[0] != self.steps:
             state = self._run.vehicle()
@@ -182,18 +225,18 @@ class Simulation:
     def set_sprocket_speed(self, left: float, right: float | None = None) -> None:
         """Sets sprocket speeds [rad/s], forward positive; right defaults to left. With driver.drive = "engine", sets
         governor speeds."""
-        self._run.set_sprocket_speed(left, left if right is None else right)
+        self._run.set_sprocket_speed(*_pair(left, right))
 
     @briefly
     def set_sprocket_torque(self, left: float, right: float | None = None) -> None:
         """Sets sprocket torques [N m], forward positive; requires driver.drive = "torque"."""
-        self._run.set_sprocket_torque(left, left if right is None else right)
+        self._run.set_sprocket_torque(*_pair(left, right))
 
     @briefly
     def set_throttle(self, left: float, right: float | None = None) -> None:
         """-1 to 1: fraction of full-load torque, or of brake torque if it opposes the rotation; requires
         driver.drive = "engine". Of throttle and governor speed the last one set takes effect."""
-        self._run.set_throttle(left, left if right is None else right)
+        self._run.set_throttle(*_pair(left, right))
 
     def release_sprockets(self) -> None:
         """Returns control to the scene's driver."""
@@ -202,12 +245,12 @@ class Simulation:
     @briefly
     def set_hitch_force(self, force: float) -> None:
         """Sets the hitch force that resists the vehicle [N]; requires [hitch] kind = "force"."""
-        self._run.set_hitch_force(force)
+        self._run.set_hitch_force(_number("force", force))
 
     @briefly
     def set_hitch_speed(self, speed: float) -> None:
         """Sets the speed of the towing carriage [m/s]; requires [hitch] kind = "speed"."""
-        self._run.set_hitch_speed(speed)
+        self._run.set_hitch_speed(_number("speed", speed))
 
     def release_hitch(self) -> None:
         self._run.release_hitch()
@@ -215,7 +258,7 @@ class Simulation:
     @briefly
     def set_gravity(self, gravity: Three) -> None:
         """[m/s2]"""
-        self._run.set_gravity([float(g) for g in gravity])
+        self._run.set_gravity(_three("gravity", gravity))
 
     def release_gravity(self) -> None:
         self._run.release_gravity()
@@ -223,7 +266,7 @@ class Simulation:
     @briefly
     def set_load(self, body: str, force: Three, torque: Three = (0, 0, 0)) -> None:
         """Force [N] and torque about the centre of mass [N m] on a body, in world axes."""
-        self._run.set_load(body, [float(f) for f in force], [float(t) for t in torque])
+        self._run.set_load(body, _three("force", force), _three("torque", torque))
 
     @briefly
     def release_load(self, body: str) -> None:
@@ -247,7 +290,7 @@ class Simulation:
 
     @briefly
     def finish(self) -> None:
-        """Ends the run: last row, checkpoint, plots and summary of its folder."""
+        """Ends the run: last row, checkpoint, plots and summary (manifest.json) of its folder."""
         self._run.finish()
 
     def close(self) -> None:

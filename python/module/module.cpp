@@ -113,6 +113,7 @@ public:
   }
   void close() { used(), run_.reset(), positions_.reset(); }
   bool isOpen() const { return run_.has_value(); }
+  bool isBusy() const { return busy_; }
 
 private:
   struct Busy {
@@ -139,7 +140,7 @@ py::dict trackOf(const grouser::Track& t) {
 py::dict vehicleOf(Simulation& simulation) {
   using namespace py::literals;
   const grouser::VehicleState s = simulation.used().vehicle().state();
-  py::dict all("time"_a = s.time, "position"_a = vector(s.position), "velocity"_a = vector(s.velocity), "speed"_a = s.speed,
+  py::dict all("time"_a = s.time, "position"_a = vector(s.position), "centre"_a = vector(s.centre), "velocity"_a = vector(s.velocity), "speed"_a = s.speed,
                "heading"_a = s.heading, "pitch"_a = s.pitch, "roll"_a = s.roll, "turn_rate"_a = s.turnRate,
                "ground_force"_a = vector(s.groundForce), "drawbar_pull"_a = s.drawbarPull, "drive_start"_a = s.driveStart,
                "left"_a = trackOf(s.left));
@@ -211,6 +212,8 @@ PYBIND11_MODULE(_core, m) {
       .def_property_readonly("time", [](Simulation& s) { return s.used().time(); })
       .def_property_readonly("time_step", [](Simulation& s) { return s.used().timeStep(); })
       .def_property_readonly("steps", [](Simulation& s) { return s.used().steps(); })
+      .def_property_readonly("busy", &Simulation::isBusy)
+      .def("warnings", [](Simulation& s) { return s.used().warnings(); })
       .def_property_readonly("device", [](Simulation& s) { return s.used().device(); })
       .def_property_readonly("has_vehicle", [](Simulation& s) { return s.used().hasVehicle(); })
       .def_property_readonly("grain_count", [](Simulation& s) { return s.used().grainCount(); })

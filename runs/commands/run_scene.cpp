@@ -11,7 +11,6 @@
 #include "runs/commands/drive_text.hpp"
 #include "runs/commands/ledger_text.hpp"
 #include "runs/commands/ranks_alike.hpp"
-#include "runs/commands/run_warnings.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/run_status.hpp"
 #include "runs/scene/scene.hpp"
@@ -21,6 +20,7 @@
 #include "runs/session/final_figures.hpp"
 #include "runs/session/preparation.hpp"
 #include "runs/session/run_session.hpp"
+#include "runs/setup/run_warnings.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/storage/scene_changes.hpp"
 #include "runs/support/device_choice.hpp"
@@ -174,11 +174,16 @@ void describeReplay(const session::RecordedRun& recorded, const setup::Provenanc
                base::counted(recorded.inputs.size(), "input"), recorded.folder.string(), changes.front().key);
     return;
   }
+  if (recorded.stateHash.empty()) {
+    fmt::print("WARNING: {} holds no state hash, since that run did not finish: nothing was compared\n",
+               recorded.folder.string());
+    fmt::print("replay    {} of {}: its {} steps repeated\n", base::counted(recorded.inputs.size(), "input"),
+               recorded.folder.string(), recorded.steps);
+    return;
+  }
   fmt::print("replay    {} of {}: {}\n", base::counted(recorded.inputs.size(), "input"), recorded.folder.string(),
-             recorded.stateHash.empty()        ? "no state hash there to compare with"
-             : recorded.stateHash == stateHash ? "the same state hash"
-                                               : "ANOTHER STATE HASH");
-  if (!recorded.stateHash.empty() && recorded.stateHash != stateHash)
+             recorded.stateHash == stateHash ? "the same state hash" : "ANOTHER STATE HASH");
+  if (recorded.stateHash != stateHash)
     throw base::SimulationError(
         fmt::format("the replay ends with state hash {}, {} with {}; replay with the program (commit) that wrote it",
                     stateHash, recorded.folder.string(), recorded.stateHash));
@@ -203,6 +208,13 @@ void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
     run.writer().fact("ended_by", output::kUntilRest);
   else if (cut && run.simulation().steps() == run.total())
     run.writer().fact("ended_by", fmt::format("--steps {}", run.total()));
+}
+
+/// To the standard error.
+void warnOf(const scene::Scene& scene, const coupling::Simulation& simulation) {
+  constexpr const char* kBegin[] = {"WARNING", "grouser: warning", "grouser: note"};
+  for (const setup::Notice& notice : setup::noticesOf(scene, simulation))
+    support::tell("{}: {}\n", kBegin[static_cast<int>(notice.weight)], notice.text);
 }
 
 /// `hasFolder`: whether it came so far that the folder is that of this run.

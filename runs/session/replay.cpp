@@ -5,6 +5,7 @@
 #include "runs/support/hdf5_file.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace grouser::session {
 
@@ -14,6 +15,7 @@ RecordedRun recordedRun(const std::filesystem::path& folder) {
   run.folder = folder, run.stateHash = results.text("/", "state_hash"), run.scene = results.text("/", "scene");
   if (const std::vector<double> steps = results.numbers("/series/step"); !steps.empty())
     run.steps = static_cast<std::int64_t>(steps.back());
+  if (const std::string taken = results.text("/", "steps_taken"); !taken.empty()) run.steps = std::stoll(taken);
   if (!results.has(output::kInputs.path)) return run;
   const std::vector<double> numbers = results.numbers(output::kInputs.path);
   for (std::size_t k = 0; k + coupling::Input::kNumbers <= numbers.size(); k += coupling::Input::kNumbers)

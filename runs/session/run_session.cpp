@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <string>
 
 namespace grouser::session {
 
@@ -74,6 +76,15 @@ void RunSession::writeInputs() {
   if (made == inputsWritten_) return;
   writer().inputs(simulation_.inputs().save());
   inputsWritten_ = made;
+}
+
+void RunSession::noteSteps(std::int64_t tried) {
+  try {
+    writeInputs();
+    writer().fact("steps_taken", std::to_string(simulation_.steps() + tried));
+  } catch (const std::exception&) {
+    // A full disk, say: the user gets the error that ended the run, not this one.
+  }
 }
 
 void RunSession::end() {

@@ -38,6 +38,12 @@ public:
   /// Judges the energy, and writes the last checkpoint, row, frame and surface.
   void end();
 
+  /// Instead of end(): the run is left here.
+  void stop(const std::string& reason) {
+    noteSteps(0);
+    writer().stop(reason);
+  }
+
   /// Calls `write`; what ends the run early by an exception is left in the folder: the state before a fault as a
   /// checkpoint, all as it is now as frame and picture, the message in the manifest. Throws it on, with the
   /// checkpoint's name in its message.
@@ -51,6 +57,8 @@ public:
 private:
   std::int64_t stepsToDrive() const;
   void writeInputs();
+  /// For a replay of a run without an end: how many steps it took, or tried.
+  void noteSteps(std::int64_t tried);
   void leaveState();
   void leaveCheckpoint();
   std::string withCheckpoint(const std::string& message) const;
@@ -58,6 +66,7 @@ private:
   /// Ends the run by this error, which names the checkpoint that is left.
   template <class Error, class... With> [[noreturn]] void abandon(const std::string& what, With... with) {
     const std::string message = withCheckpoint(what);
+    noteSteps(1);
     writer().abandon(message, with...);
     throw Error(message, with...);
   }
@@ -77,7 +86,7 @@ template <class Write> void RunSession::record(const Write& write) {
   try {
     write();
   } catch (const support::Stopped& stopped) {
-    writer().stop(stopped.what());
+    stop(stopped.what());
     throw;
   } catch (const base::SimulationError& error) {
     leaveState();

@@ -4,8 +4,8 @@
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "grouser_commit.hpp"
+#include "runs/support/locations.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -35,14 +35,6 @@ std::string processorText() {
   return "unknown processor";
 }
 
-/// That this code lies in: the program, or the shared object of a module.
-std::string ownFile() {
-  Dl_info own{};
-  const bool known = dladdr(reinterpret_cast<const void*>(&ownFile), &own) != 0 && own.dli_fname;
-  const std::string name = known ? own.dli_fname : "";
-  return name.find(".so") != std::string::npos ? name : "/proc/self/exe";
-}
-
 } // namespace
 
 BuildInfo buildInfo() { return {GROUSER_VERSION, kCommit, compilerText(), GROUSER_CUDA_VERSION, GROUSER_FLAGS}; }
@@ -50,7 +42,7 @@ BuildInfo buildInfo() { return {GROUSER_VERSION, kCommit, compilerText(), GROUSE
 /// Eight bytes a word: a program of 100 MB takes 0.05 s.
 std::string programHash() {
   static const std::string hash = [] {
-    const std::string own = ownFile();
+    const std::string own = ownFile().string();
     std::ifstream file(own, std::ios::binary);
     if (!file) throw base::InputError(own + ": the program's own file cannot be read; see that it can");
     base::StateHash h;

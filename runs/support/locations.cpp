@@ -3,6 +3,7 @@
 
 #include "base/table.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +14,21 @@ namespace grouser::support {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+const char* installedShare = nullptr;
+
+} // namespace
+
+void setInstalledShare(const char* folder) { installedShare = folder; }
+
+fs::path ownFile() {
+  Dl_info own{};
+  const bool known = dladdr(reinterpret_cast<const void*>(&ownFile), &own) != 0 && own.dli_fname;
+  const std::string name = known ? own.dli_fname : "";
+  return name.find(".so") != std::string::npos ? name : "/proc/self/exe";
+}
+
 fs::path shareFolder() {
   if (const char* set = std::getenv("GROUSER_SHARE"); set && *set) return set;
   std::error_code error;
@@ -21,7 +37,12 @@ fs::path shareFolder() {
     fs::path beside = program.parent_path().parent_path() / "share" / "grouser";
     if (fs::is_directory(beside, error)) return beside;
   }
+  // PREFIX/lib/python3/dist-packages/grouser/_core.so and the like.
+  if (const fs::path own = fs::absolute(ownFile(), error); own != "/proc/self/exe")
+    for (fs::path folder = own.parent_path(); folder != folder.parent_path(); folder = folder.parent_path())
+      if (fs::is_directory(folder / "share" / "grouser", error)) return folder / "share" / "grouser";
   // A program of one's own, built against an installed library, lies anywhere.
+  if (installedShare && fs::is_directory(installedShare, error)) return installedShare;
   for (const char* installed : {"/usr/local/share/grouser", "/usr/share/grouser"})
     if (!fs::is_directory(GROUSER_SHARE_FOLDER, error) && fs::is_directory(installed, error)) return installed;
   return GROUSER_SHARE_FOLDER;

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <string>
 #include <thread>
@@ -247,6 +249,81 @@ TEST_F(Api, OfThrottleAndSpeedTheLastOneCounts) {
   EXPECT_NE(simulation.hash(), speed);
   vehicle.setSprocketSpeed(2, 2);
   EXPECT_EQ(simulation.hash(), speed);
+}
+
+TEST_F(Api, SeveralKeysAreSetTogether) {
+  Scene scene = Scene::fromText(kFall);
+  EXPECT_THROW(scene.set("source.low", std::vector<double>{0, 0, 3}), InputError) << "a source needs more than that";
+  scene.set({"run.duration=0.2", "run.time_step=2e-4"});
+  EXPECT_EQ(scene.duration(), 0.2);
+  EXPECT_THROW(scene.set({"run.duration=0.3", "run.time_stp=1e-4"}), InputError);
+  EXPECT_EQ(scene.duration(), 0.2) << "all or none";
+  EXPECT_EQ(Simulation(scene).timeStep(), 2e-4);
+}
+
+TEST_F(Api, SaysWhatMaySurprise) {
+  Options one;
+  one.threads = 1;
+  const std::vector<std::string> warnings = Simulation(vehicleScene(), one).warnings();
+  const auto has = [&](const char* words) {
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& w) { return w.find(words) != std::string::npos; });
+  };
+  EXPECT_TRUE(has("spheres of shoe.obj stand out"));
+}
+
+TEST_F(Api, AStepWithinAStepIsRefusedAndHarmsNothing) {
+  Simulation simulation(Scene::fromText(kFall));
+  bool refused = false;
+  simulation.step(10, [&] {
+    try {
+      simulation.step();
+    } catch (const InputError&) {
+      refused = true;
+    }
+    return true;
+  });
+  EXPECT_TRUE(refused);
+  simulation.step();
+  EXPECT_EQ(simulation.steps(), 11);
+}
+
+TEST_F(Api, WhatHasFailedOrEndedSaysSo) {
+  Simulation unsound(Scene::fromText(kFall));
+  std::string cause;
+  try {
+    unsound.step(2000);
+  } catch (const SimulationError& error) {
+    cause = error.what();
+  }
+  for (const auto& call :
+       std::vector<std::function<void()>>{[&] { unsound.step(); }, [&] { unsound.save(folder_ / "x.h5"); },
+                                          [&] {
+                                            unsound.setGravity({0, 0, -1});
+                                          }})
+    try {
+      call();
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(cause), std::string::npos) << error.what();
+    }
+  Simulation ended(Scene::fromText(kFall));
+  ended.finish();
+  EXPECT_THROW(ended.setGravity({0, 0, -1}), InputError);
+  EXPECT_THROW(ended.save(folder_ / "no/such.h5"), InputError);
+}
+
+TEST_F(Api, ARunThatIsLeftIsStoppedAndSaysHowFarItCame) {
+  Options options;
+  options.folder = folder_ / "left";
+  {
+    Simulation simulation(vehicleScene(), options);
+    simulation.step(50);
+  }
+  std::ifstream manifest(options.folder / "manifest.json");
+  const std::string said{std::istreambuf_iterator<char>(manifest), {}};
+  EXPECT_NE(said.find("\"status\": \"stopped\""), std::string::npos) << said;
+  EXPECT_NE(said.find("\"steps_taken\": \"50\""), std::string::npos) << said;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A simulation in process: stepped, read, steered, replayed; its views, errors and threads."""
+import os
 import gc
 import pickle
 import signal
@@ -123,8 +124,8 @@ class Vehicles(FolderTest):
             for call, words in ((lambda: sim.set_throttle(1), "engine"), (lambda: sim.set_sprocket_torque(1), "torque"),
                                 (lambda: sim.set_hitch_force(1), "[hitch]"), (lambda: sim.set_load("chasis", [1, 0, 0]),
                                                                               '"chassis"'),
-                                (lambda: sim.set_sprocket_speed(1e9), "outside [-100, 100]"),
-                                (lambda: sim.set_sprocket_speed(float("nan")), "nan is outside")):
+                                (lambda: sim.set_sprocket_speed(1e9), "[-100, 100] [rad/s]"),
+                                (lambda: sim.set_sprocket_speed(float("nan")), "nan is no finite number")):
                 with self.assertRaises(grouser.InputError) as caught:
                     call()
                 self.assertIn(words, str(caught.exception))
@@ -214,6 +215,34 @@ class Process(FolderTest):
             sim.positions
             sim.restore(self.folder / "aside.h5")  # at the same step, another state
             self.assertTrue((sim.positions == aside).all())
+
+    def test_a_forked_process_says_that_it_cannot_run_threads(self):
+        with grouser.Simulation(vehicle_scene(), threads=2) as sim:
+            sim.step(1)
+            reader, writer = os.pipe()
+            child = os.fork()
+            if child == 0:
+                try:
+                    grouser.Simulation(vehicle_scene(), threads=1)
+                except grouser.InputError as error:
+                    os.write(writer, str(error).encode())
+                os._exit(0)
+            os.waitpid(child, 0)
+            os.close(writer)
+            self.assertIn("spawn", os.read(reader, 1000).decode())
+            os.close(reader)
+
+    def test_arguments_of_another_kind_are_named(self):
+        with grouser.Simulation(vehicle_scene(), threads=1) as sim:
+            for call, words in ((lambda: sim.set_load("chassis", [1, 2]), "force: three numbers"),
+                                (lambda: sim.step(1.5), "count: a whole number"),
+                                (lambda: sim.set_sprocket_speed("1"), "left: a number")):
+                self.assertRaisesRegex(TypeError, words, call)
+            with self.assertRaises(AttributeError):
+                sim.sprocket_speed = 3
+            self.assertIn("shoe.obj", sim.warnings[0])
+        with self.assertRaisesRegex(grouser.InputError, "threads = -1"):
+            grouser.Simulation(vehicle_scene(), threads=-1)
 
     def test_steps_that_cannot_be_are_input_errors(self):
         with grouser.Simulation(grouser.Scene(FALL)) as sim:

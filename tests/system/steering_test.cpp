@@ -196,8 +196,8 @@ TEST(Steering, WhatTheSceneDoesNotHaveIsRefusedAndNothingChanges) {
   EXPECT_NE(refused(InputKind::throttle, 0, {0.5}).find("driver.drive = \"engine\""), std::string::npos);
   EXPECT_NE(refused(InputKind::hitchForce, 0, {5}).find("[hitch] kind = \"force\""), std::string::npos);
   EXPECT_NE(refused(InputKind::sprocketSpeed, 2, {5}).find("no track 2"), std::string::npos);
-  EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {101}).find("outside [-100, 100]"), std::string::npos);
-  EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {NAN}).find("nan is outside"), std::string::npos);
+  EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {101}).find("[-100, 100] [rad/s]"), std::string::npos);
+  EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {NAN}).find("nan is no finite number"), std::string::npos);
   EXPECT_NE(refused(InputKind::bodyLoad, 9999, {5}).find("no body 9999"), std::string::npos);
   EXPECT_NE(messageOf([&] { bodyIndex(*s, "chasis"); }).find("\"chassis\""), std::string::npos);
   EXPECT_TRUE(s->inputs().series().empty());

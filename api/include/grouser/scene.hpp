@@ -16,6 +16,10 @@ namespace grouser {
 namespace detail {
 struct Run;
 struct SceneData;
+void setInstalledShare(const char* folder);
+#ifdef GROUSER_INSTALLED_SHARE // by the target grouser::grouser: where vehicles, soils and height-maps are
+inline const bool kShareIsKnown = (setInstalledShare(GROUSER_INSTALLED_SHARE), true);
+#endif
 } // namespace detail
 
 /// A scene, from a file or TOML text, with overrides. docs/keys.md lists all keys. Every setter validates the whole
@@ -33,13 +37,16 @@ public:
   Scene& set(std::string_view key, double value);
   Scene& set(std::string_view key, bool value);
   template <class Integer>
-    requires std::is_integral_v<Integer>
+    requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, char>)
   Scene& set(std::string_view key, Integer value) {
     return put(key, std::to_string(value));
   }
   Scene& set(std::string_view key, const char* value);
   Scene& set(std::string_view key, std::string_view value);
   Scene& set(std::string_view key, const std::vector<double>& values);
+
+  /// Sets several keys at once, which must fit together: {"driver.left=1", "driver.right=2"}, as `grouser run --set`.
+  Scene& set(const std::vector<std::string>& assignments);
 
   std::string name() const;
   double duration() const;     ///< run.duration [s]; Simulation::step() may go beyond it

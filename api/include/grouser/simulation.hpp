@@ -67,7 +67,8 @@ public:
 
   /// Takes `count` steps, or fewer if a [stop] condition of the scene is met; see ended(). Throws SimulationError if
   /// the simulation becomes unsound, and InputError if the run has already ended or failed. `keepGoing`, if given, is
-  /// called about ten times a second; if it returns false, step() returns after the current step.
+  /// called about ten times a second; if it returns false, or throws, step() returns after the current step. It may read
+  /// and set, but not step. run.duration of the scene ends nothing here.
   void step(std::int64_t count = 1, const std::function<bool()>& keepGoing = {});
   /// Advances by `seconds` > 0, rounded to whole steps, at least one.
   void stepFor(double seconds);
@@ -76,6 +77,8 @@ public:
   double time() const;         ///< from the end of settling [s]
   double timeStep() const;     ///< [s]
   std::int64_t steps() const;  ///< steps taken
+  /// What is sound and may still surprise: what `grouser run` prints as warnings and notes.
+  std::vector<std::string> warnings() const;
   std::string device() const;  ///< its name
 
   bool hasVehicle() const;
@@ -95,8 +98,10 @@ public:
   void releaseLoad(std::string_view body);
 
   /// Writes a checkpoint for resumed() and `grouser run --resume`. If writing fails, an existing file is kept intact.
+  /// Throws InputError after a failed step.
   void save(const std::filesystem::path& checkpoint) const;
-  /// Restores the state of a checkpoint, as resumed(). Not allowed with an output folder: rows would be duplicated.
+  /// Restores the state of a checkpoint, as resumed(), also after finish() or a failure. Not allowed with an output
+  /// folder: rows would be duplicated. Means over steps are unknown until the next step().
   void restore(const std::filesystem::path& checkpoint);
   std::string hash() const; ///< of the state, 16 hexadecimal digits; equal states have equal hashes
   /// Ends the run: last row, checkpoint, plots and summary of the folder. No step() after it. After a failed step it

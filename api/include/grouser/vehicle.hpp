@@ -29,6 +29,7 @@ struct Track {
 struct VehicleState {
   double time = 0;       ///< [s]
   Vec3 position;         ///< middle of the sprockets' axle line [m]
+  Vec3 centre;           ///< centre of mass of the hull [m]
   Vec3 velocity;         ///< of the hull's centre of mass [m/s]
   double speed = 0;      ///< horizontal speed of the hull along its heading [m/s]
   double heading = 0;    ///< of the hull from x towards y, continuous over turns [rad]
@@ -37,11 +38,11 @@ struct VehicleState {
   double turnRate = 0;   ///< yaw rate, left positive [rad/s]
   Vec3 groundForce;      ///< forward, left, up, mean [N]
   double drawbarPull = 0; ///< of the vehicle on its hitch; net thrust without one; mean [N]
-  std::optional<double> driveStart; ///< start time of the drive [s]; empty before it
+  std::optional<double> driveStart; ///< start time of the drive [s]; empty until it is known
   Track left, right;      ///< right: empty vectors for a single-track scene
 };
 
-/// The vehicle of a simulation; valid as long as the simulation. An input takes effect at the next step, once the drive
+/// The vehicle of a simulation; valid as long as the simulation, also after that has been moved. An input takes effect at the next step, once the drive
 /// has started, and holds until it is set again or released; driver.drive_ramp smooths the start. Setters throw
 /// InputError if the scene does not support the input or the value is out of range.
 class Vehicle {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+
+/// What is sound and may still surprise.
+struct Notice {
+  enum class Weight { severe, warning, note } weight;
+  std::string text;
+};
+std::vector<Notice> noticesOf(const scene::Scene& scene, const coupling::Simulation& simulation);
+
+} // namespace grouser::setup
