@@ -146,11 +146,12 @@ void Simulation::releaseLoad(std::string_view body) {
   run_->release({coupling::InputKind::bodyLoad}, index);
 }
 
-std::vector<std::string> Simulation::warnings() const {
+std::vector<std::string> warningsOf(const Simulation& simulation) {
+  const detail::Run& run = *simulation.run_;
   std::vector<std::string> texts;
-  for (const setup::Notice& notice : detail::translated([&] { return setup::noticesOf(run_->scene, run_->now()); }))
+  for (const setup::Notice& notice : detail::translated([&] { return setup::noticesOf(run.scene, run.now()); }))
     texts.push_back(notice.text);
-  if (run_->exec.threads > 1 && !std::getenv("GOMP_SPINCOUNT") && !std::getenv("OMP_WAIT_POLICY"))
+  if (run.exec.threads > 1 && !std::getenv("GOMP_SPINCOUNT") && !std::getenv("OMP_WAIT_POLICY"))
     texts.emplace_back("threads that wait for each other spin, which makes steps many times slower where other programs "
                        "use the cores: set GOMP_SPINCOUNT=5000 in the environment before this program starts, or use "
                        "one thread");

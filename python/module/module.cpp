@@ -213,7 +213,7 @@ PYBIND11_MODULE(_core, m) {
       .def_property_readonly("time_step", [](Simulation& s) { return s.used().timeStep(); })
       .def_property_readonly("steps", [](Simulation& s) { return s.used().steps(); })
       .def_property_readonly("busy", &Simulation::isBusy)
-      .def("warnings", [](Simulation& s) { return s.used().warnings(); })
+      .def("warnings", [](Simulation& s) { return grouser::warningsOf(s.used()); })
       .def_property_readonly("device", [](Simulation& s) { return s.used().device(); })
       .def_property_readonly("has_vehicle", [](Simulation& s) { return s.used().hasVehicle(); })
       .def_property_readonly("grain_count", [](Simulation& s) { return s.used().grainCount(); })

@@ -264,7 +264,7 @@ TEST_F(Api, SeveralKeysAreSetTogether) {
 TEST_F(Api, SaysWhatMaySurprise) {
   Options one;
   one.threads = 1;
-  const std::vector<std::string> warnings = Simulation(vehicleScene(), one).warnings();
+  const std::vector<std::string> warnings = warningsOf(Simulation(vehicleScene(), one));
   const auto has = [&](const char* words) {
     return std::any_of(warnings.begin(), warnings.end(),
                        [&](const std::string& w) { return w.find(words) != std::string::npos; });

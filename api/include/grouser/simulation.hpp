@@ -77,8 +77,6 @@ public:
   double time() const;         ///< from the end of settling [s]
   double timeStep() const;     ///< [s]
   std::int64_t steps() const;  ///< steps taken
-  /// What is sound and may still surprise: what `grouser run` prints as warnings and notes.
-  std::vector<std::string> warnings() const;
   std::string device() const;  ///< its name
 
   bool hasVehicle() const;
@@ -109,8 +107,12 @@ public:
   void finish();
 
 private:
+  friend std::vector<std::string> warningsOf(const Simulation& simulation);
   explicit Simulation(std::unique_ptr<detail::Run> run);
   std::unique_ptr<detail::Run> run_;
 };
+
+/// What is sound and may still surprise: what `grouser run` prints as warnings and notes.
+std::vector<std::string> warningsOf(const Simulation& simulation);
 
 } // namespace grouser
