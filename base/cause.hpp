@@ -7,26 +7,26 @@
 
 namespace grouser::base {
 
-/// Why a simulation cannot go on, for whoever counts or judges runs by it; messages say it in words.
+/// Cause of a failed simulation, for programs that count or judge failed runs.
 enum class Cause {
   unknown,
-  unsettledBed,     ///< the bed did not come to rest, or not into the wanted state
-  unstableContacts, ///< the steps make or lose energy in contacts
-  pressedGrain,     ///< a grain is pressed into or through another or a part while the energies balance
-  fastGrain,        ///< a grain leaves the reach of its neighbour list within a step
+  unsettledBed,     ///< the bed did not come to rest, or not with the requested porosity
+  unstableContacts, ///< the time integration creates or loses energy in contacts
+  pressedGrain,     ///< an overlap is too large although the energies balance
+  fastGrain,        ///< a grain crosses the skin of its neighbour list within a step
   lostGrain,        ///< a grain leaves the range of positions
   noNumber,         ///< a value is no number
-  thrownPart,       ///< a part moves many times as far as in the step before
-  fastTurn,         ///< a body turns too far in a step
-  fastMotion,       ///< the solver finds no motion within a step
-  growingSwings,    ///< swings across the pull in joints
+  thrownPart,       ///< a part moves several times farther than in the previous step
+  fastTurn,         ///< a body rotates too far in a step
+  fastMotion,       ///< the constraint solver does not converge within a step
+  growingSwings,    ///< oscillations transverse to joint tension grow
   thrownTrack,      ///< a track leaves its wheels
   skippingTrack,    ///< a track skips teeth of its sprocket
   noRest,           ///< the vehicle does not come to rest
   offTerrain        ///< the vehicle leaves the terrain
 };
 
-/// What ends a run, in words; empty while all is well.
+/// Message and cause of a failure; an empty message means that there is none.
 struct Alarm {
   std::string text;
   Cause cause{};

@@ -17,7 +17,7 @@ void keepWork(SimulationState& state, double work) {
   state.ledgerAtStart = start.counted();
 }
 
-/// What was set from outside on drive or hitch ends where the branch has another one.
+/// Releases the control inputs of a drive or hitch that the branch replaces.
 void releaseInputs(SimulationState& state, bool driver, bool hitch) {
   Inputs inputs;
   inputs.restore(state.inputs);

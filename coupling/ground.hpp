@@ -34,7 +34,7 @@ struct GroundTraits {
   ReplicatedWork replicated;                       ///< for work that every rank does alike
   double smallestGrain = base::kInfinity;          ///< radius [m], which limits how coarsely parts are cut
   const terrain::HeightField* hullMeets = nullptr; ///< an elastic foundation for the hull, computed with the obstacles
-  bool hasMomentum = false; ///< whether the ground books the momentum that the parts give it: grains alone do
+  bool hasMomentum = false; ///< whether the ledger includes the momentum of the ground; true only for grains
 };
 
 /// The parts of a vehicle as a ground meets them. `assembly` and `parts` outlive the ground's steps.
@@ -59,7 +59,7 @@ struct ListedContacts {
 };
 
 /// A ground that a vehicle drives on. Derive from it to add a ground model (docs/adding_a_ground.md has an example).
-/// Vehicle and step loop know nothing else of another kind of ground. SI units.
+/// Vehicle and step loop access a ground model only through this class. SI units.
 ///
 /// The functions stand in the order in which a simulation calls them. All ranks call all of them, in one order. A
 /// ground that is not divided among ranks is computed by every rank, to the same bits.
@@ -80,8 +80,8 @@ public:
   virtual std::function<double(double x, double y)> surface() const = 0;
   /// Called several times, always with the same result.
   virtual GroundTraits traits() const { return {}; }
-  /// How much higher than surface() requires an assembled vehicle must stand, so that it touches nothing [m]. Not
-  /// called in a simulation that goes on from a saved state.
+  /// Extra height of the assembled vehicle above surface(), so that it starts without contact [m]. Not called when a
+  /// simulation is resumed.
   virtual double clearance(const vehicle::Assembly&) const { return 0; }
   /// Takes the parts of the vehicle, once; without a vehicle this and all that concerns contacts is never called, and
   /// no memory is used for it. Returns the units of compute()'s sums.
@@ -121,8 +121,8 @@ public:
 
   /// Adds energies [J] and momenta of the ground itself.
   virtual void addTo(Ledger&) {}
-  /// Adds energies of the contacts with parts [J] and their numbers: what they hold now (elastic), and what they have
-  /// dissipated since the start. Called before the first step, too.
+  /// Adds energies of the contacts with parts [J] and their number: current elastic energy, and dissipation since the
+  /// start. Also called before the first step.
   virtual void addContactsTo(ContactLedger&) const {}
   virtual ListedContacts listed() const { return {}; }
   /// Heights of the surface as it lies now [m] at the nodes of the undisturbed one; empty where it does not change.

@@ -140,7 +140,7 @@ private:
   Ledger start_; ///< before the first step; the ledger counts from here
 };
 
-/// Throws as Simulation::set() would for this one. A rank may ask it alone.
+/// Throws base::InputError if Simulation::set() would refuse the input. Not collective: one rank may call it alone.
 void require(const Simulation& simulation, const Input& input);
 
 /// Place of a body among those of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the

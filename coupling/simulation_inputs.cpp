@@ -12,7 +12,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Beyond these a value is a mistake, as in a scene.
+/// Allowed values, as for the keys of a scene.
 struct Range {
   const char* name;
   double most;
@@ -41,7 +41,7 @@ Range rangeOf(InputKind kind) {
 } // namespace
 
 void require(const Simulation& simulation, const Input& input) {
-  if (input.released) return; // of what a branch may lack
+  if (input.released) return; // a branch may have no hitch or drive of this kind
   const Range range = rangeOf(input.kind);
   const bool ofTrack = input.kind == InputKind::sprocketSpeed || input.kind == InputKind::sprocketTorque ||
                        input.kind == InputKind::throttle;

@@ -76,7 +76,7 @@ struct Observation {
   double motionResistance = 0; ///< grossTraction - netThrust [N]; NaN where the tracks run against each other
   std::vector<TrackObservation> tracks;
   BlowMeter blows;   ///< of the whole run, where who steps the vehicle has one
-  base::Alarm alarm; ///< of a thrown or skipping track
+  base::Alarm alarm; ///< thrown or skipping track
 };
 
 struct ObserverOptions {
@@ -102,7 +102,7 @@ public:
   /// stalls rocks); before the first it is forward, and where the tracks run against each other (a pivot turn), of
   /// which there is no resistance to motion along the heading.
   Observation observe(const multibody::State& state, const GroundLoads& ground, const SurfaceHeight& surface) const;
-  /// The alarm alone, cheap enough for every step or every few.
+  /// Computes the alarm alone; cheap enough to call every few steps.
   base::Alarm alarm(const multibody::State& state, const GroundLoads& ground) const;
   void setGravity(const base::Vec3d& gravity) { gravity_ = gravity; } ///< [m/s2]
   /// Begins the means of torque and power anew. Before the first update() behind it they are those of the state.

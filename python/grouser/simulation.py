@@ -20,7 +20,7 @@ Three = Sequence[float]
 
 def _core() -> ModuleType:
     """The extension module: installed beside this file, else in the checkout's build folder."""
-    # Read by OpenMP as it is loaded: threads that wait must not hold the cores of other programs.
+    # OpenMP reads this when it is loaded: waiting threads spin briefly and then leave the cores to other programs.
     if "OMP_WAIT_POLICY" not in os.environ:
         os.environ.setdefault("GOMP_SPINCOUNT", "5000")
     try:
@@ -83,8 +83,8 @@ class Simulation:
     checkpoints and results, so `grouser run --replay FOLDER` reproduces the run without this script, with the same
     state hash, on a CPU or a GPU. Setters raise InputError if the scene does not support the input.
 
-    `warnings` lists what is sound and may still surprise. run.duration of the scene ends nothing here. Sprocket and
-    engine inputs act from the start of the drive (`vehicle.drive_start`), when the vehicle has been lowered and rests.
+    `warnings` lists warnings and notes on the scene. The scene's run.duration does not end the simulation. Sprocket and
+    engine inputs take effect when the drive starts (`vehicle.drive_start`), after the vehicle has come to rest.
 
     Several may coexist, each used by one thread at a time. Start processes with multiprocessing's "spawn": a forked one
     cannot run threads. `step()` releases the GIL; Ctrl-C interrupts it between two
@@ -235,7 +235,8 @@ class Simulation:
     @briefly
     def set_throttle(self, left: float, right: float | None = None) -> None:
         """-1 to 1: fraction of full-load torque, or of brake torque if it opposes the rotation; requires
-        driver.drive = "engine". Of throttle and governor speed the last one set takes effect."""
+        driver.drive = "engine". Throttle and governor speed are mutually exclusive: the last one set takes
+        effect."""
         self._run.set_throttle(*_pair(left, right))
 
     def release_sprockets(self) -> None:

@@ -5,7 +5,7 @@
 
 namespace grouser::session {
 
-/// What the summary says of a run's end, whoever has driven it: bed, drive, blows, crushing and squeezed grains.
+/// Adds the final figures of bed, drive, ground blows, crushing and squeezed grains to the run's summary.
 void noteFigures(RunSession& run, output::Summary& summary);
 
 } // namespace grouser::session

@@ -18,7 +18,7 @@ struct RecordedRun {
   std::vector<coupling::Input> inputs; ///< in the order of their steps
   std::int64_t steps = 0;              ///< that it took
   std::string stateHash;               ///< at its end; empty where it was not taken
-  std::string scene;                   ///< resolved
+  std::string scene;                   ///< resolved scene as TOML
 };
 /// Reads results.h5 of a run's folder. Throws base::InputError where there is none.
 RecordedRun recordedRun(const std::filesystem::path& folder);

@@ -83,14 +83,14 @@ void RunSession::noteSteps(std::int64_t tried) {
     writeInputs();
     writer().fact("steps_taken", std::to_string(simulation_.steps() + tried));
   } catch (const std::exception&) {
-    // A full disk, say: the user gets the error that ended the run, not this one.
+    // For example a full disk. The caller reports the error that ended the run.
   }
 }
 
 void RunSession::end() {
   simulation_.checkEnergy(); // the end may fall between two looks
   replay_.apply(simulation_, 0);
-  writeInputs(); // what was set behind the last step is part of the state too
+  writeInputs(); // inputs that were set after the last step belong to the state
   // Before the last row: a run that goes on from here does not have it.
   checkpoints_.write(simulation_, writer());
   // The end is always written, whether or not the intervals meet it.

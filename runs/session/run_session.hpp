@@ -38,7 +38,7 @@ public:
   /// Judges the energy, and writes the last checkpoint, row, frame and surface.
   void end();
 
-  /// Instead of end(): the run is left here.
+  /// Marks the run as stopped; replaces end().
   void stop(const std::string& reason) {
     noteSteps(0);
     writer().stop(reason);
@@ -57,7 +57,7 @@ public:
 private:
   std::int64_t stepsToDrive() const;
   void writeInputs();
-  /// For a replay of a run without an end: how many steps it took, or tried.
+  /// Records the number of steps for a replay of an unfinished run, including `tried` failed ones.
   void noteSteps(std::int64_t tried);
   void leaveState();
   void leaveCheckpoint();

@@ -9,7 +9,7 @@
 
 namespace grouser::setup {
 
-/// What is sound and may still surprise.
+/// Warning or note on a valid scene.
 struct Notice {
   enum class Weight { severe, warning, note } weight;
   std::string text;

@@ -21,7 +21,7 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 namespace {
 
-/// HDF5 is built here for one thread at a time: those of several simulations take turns.
+/// Lock on the HDF5 library, whose parallel build is not thread-safe.
 class Turn {
 public:
   Turn() : held_(library()) {}

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// A thin owner of HDF5 handles. One process writes or reads a file; the rows of a dataset can also be written by all
-/// ranks together. Several threads may have files of their own. Failures throw; HDF5's own error stack is kept off the
+/// ranks together. Several threads may use different files. Failures throw; HDF5's own error stack is kept off the
 /// terminal.
 namespace grouser::support {
 

@@ -37,7 +37,7 @@ fs::path shareFolder() {
     fs::path beside = program.parent_path().parent_path() / "share" / "grouser";
     if (fs::is_directory(beside, error)) return beside;
   }
-  // PREFIX/lib/python3/dist-packages/grouser/_core.so and the like.
+  // A module lies in a folder such as PREFIX/lib/python3/dist-packages/grouser.
   if (const fs::path own = fs::absolute(ownFile(), error); own != "/proc/self/exe")
     for (fs::path folder = own.parent_path(); folder != folder.parent_path(); folder = folder.parent_path())
       if (fs::is_directory(folder / "share" / "grouser", error)) return folder / "share" / "grouser";

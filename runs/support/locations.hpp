@@ -8,12 +8,12 @@
 namespace grouser::support {
 
 /// The folder that holds assets/ and runs/plots/: GROUSER_SHARE of the environment if set, else beside the program
-/// (../share/grouser) or the module that this code lies in, else that of the installed library, else the source folder
-/// that the program was built from, else, where that is gone, /usr/local/share/grouser or /usr/share/grouser.
+/// (../share/grouser) or beside the shared module of this code, else that of the installed library, else the source
+/// folder that the program was built from, else, where that is gone, /usr/local/share/grouser or /usr/share/grouser.
 std::filesystem::path shareFolder();
-/// That of the library that a program has been linked with.
+/// Sets the share folder of the installed library that the program links.
 void setInstalledShare(const char* folder);
-/// The file that this code lies in: "/proc/self/exe" for the program's own, or a module's (.so).
+/// File of this code: a shared module (.so), or "/proc/self/exe" for a program.
 std::filesystem::path ownFile();
 
 /// The folders that a scene's files are looked for in: its own, the current one, assets/.

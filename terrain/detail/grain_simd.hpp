@@ -444,8 +444,8 @@ private:
 
 namespace {
 
-/// One kernel. A function of its own, so that the compiler's choices in it do not depend on how many others there are;
-/// of this file alone, so that the program takes no other file's copy.
+/// One kernel. Not inlined, so that its machine code does not depend on the number of kernels; internal linkage, so
+/// that the linker cannot replace it with the copy of another instruction set.
 template <int kWidth, unsigned kFeatures> __attribute__((noinline, flatten)) void
 runOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   GrainSimd<kWidth, kFeatures> some(d, f);

@@ -150,7 +150,7 @@ TEST_F(Api, WhatIsWrongIsAnErrorOfItsType) {
   EXPECT_THROW(simulation.vehicle(), InputError);
   EXPECT_THROW(simulation.step(0), InputError);
   EXPECT_THROW(simulation.setLoad("hull", {1, 0, 0}), InputError);
-  // So soft, a grain that falls 1 m goes through the plane: an error, and the state stays to be looked at.
+  // A grain that falls 1 m onto so soft a plane penetrates it: SimulationError, and the state stays readable.
   Simulation unsound(Scene::fromText(kFall));
   EXPECT_THROW(unsound.step(2000), SimulationError);
   EXPECT_EQ(unsound.grains().position.size(), 2u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several ranks step one simulation of the library; started by mpirun. Exit code 0 where all is as it should be.
+// Steps one simulation on several MPI ranks through the library. Start with mpirun; exit code 0 if all checks pass.
 #include <grouser/grouser.hpp>
 
 #include <cstdio>
@@ -45,7 +45,7 @@ bool refusesOthers(const grouser::Options& options, int rank) {
   } catch (const grouser::InputError& error) {
     if (!holds(std::string(error.what()).find("rank 1") != std::string::npos, error.what())) return false;
   }
-  simulation.step(); // without what was set
+  simulation.step(); // the refused inputs are gone
   try {
     simulation.step(rank == 1 ? 2 : 1);
     return holds(false, "ranks that step otherwise stepped on");

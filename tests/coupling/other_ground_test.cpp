@@ -27,8 +27,8 @@ constexpr double kGravity = 9.81;            // [m/s2]
 constexpr double kEdges[] = {-0.045, 0.045}; // where a shoe's grousers stand, from its middle [m]
 
 /// Winkler's ground in its simplest form: level, at height 0, with a spring and a dashpot under both edges of each
-/// shoe. The springs also hold an edge where it touched down, and that place is the ground's state. On the CPU alone,
-/// and on one thread.
+/// shoe. The springs also hold an edge where it touched down, and that place is the ground's state. Runs on one CPU
+/// thread only.
 class SpringGround : public Ground {
 public:
   void restore(const SimulationState& state) override {
@@ -45,7 +45,7 @@ public:
       for (const double x : kEdges)
         edges_.push_back(
             {static_cast<std::size_t>(on.parts.contactIndex(shoe)), {x, 0, spec.padBottom - spec.grouserHeight}});
-    // Of each edge whether it touches, and where it has since; dissipated [J].
+    // Per edge: contact flag, x and y of the touchdown [m]; at the end the dissipated energy [J].
     const std::size_t numbers = 3 * edges_.size() + 1;
     if (!state_.empty() && state_.size() != numbers)
       throw base::InputError("the saved state is of another vehicle on springs; resume it with that");
@@ -125,7 +125,7 @@ void advanceTo(Simulation& simulation, double time) {
   while (simulation.time() < time - 0.5 * kStep) simulation.step();
 }
 
-/// Of all bodies [N s].
+/// Total momentum of the bodies [N s].
 Vec3d momentum(const VehicleRig& rig) {
   Vec3d sum;
   for (std::size_t b = 0; b < rig.assembly().model.bodies().size(); ++b)
@@ -144,8 +144,8 @@ TEST(OtherGround, CarriesTheVehicleThatSettlesOnIt) {
   const double weight = kGravity * rig.assembly().mass;
   const Vec3d force = rig.meanGroundForce();
   const Vec3d swing = (momentum(rig) - before) * (1 / 0.2);
-  // The hull's guide, of a ten thousandth of its mass, hangs on its rails.
-  EXPECT_NEAR(force.z, weight + swing.z, 1e-4 * weight) << "all that the hull, which still swings, does not take";
+  // The rails carry the hull's guide, 1e-4 of the hull's mass.
+  EXPECT_NEAR(force.z, weight + swing.z, 1e-4 * weight) << "weight plus the inertia force of the swinging hull";
   EXPECT_NEAR(force.z, weight, 0.03 * weight);
   const Ledger ledger = simulation.ledger();
   EXPECT_LT(norm(ledger.momentumResidual), 1e-6);

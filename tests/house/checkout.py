@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of a checkout as the rules of the house read them."""
+"""Reads the files of a checkout for the rules of the house."""
 import re
 from functools import cached_property
 from pathlib import Path
@@ -71,7 +71,7 @@ def files_below(root, top=True):
 
 
 def is_there(path):
-    """A folder without a file is none to git."""
+    """Whether git has the path; git has no empty folders."""
     return any(files_below(path)) if path.is_dir() else path.exists()
 
 

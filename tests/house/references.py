@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rules of documents and lists: what one file names in another is there."""
+"""Rules on references: links, paths, tests and code that a file names exist."""
 import fnmatch
 import re
 import tomllib

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The rules of documents and lists see what they are there for, and pass what is right beside it."""
+"""Each rule on references finds its faults and passes correct text."""
 import sys
 import tempfile
 import unittest

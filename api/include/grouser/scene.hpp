@@ -17,7 +17,7 @@ namespace detail {
 struct Run;
 struct SceneData;
 void setInstalledShare(const char* folder);
-#ifdef GROUSER_INSTALLED_SHARE // by the target grouser::grouser: where vehicles, soils and height-maps are
+#ifdef GROUSER_INSTALLED_SHARE // defined by the target grouser::grouser: folder of vehicles, soils and height-maps
 inline const bool kShareIsKnown = (setInstalledShare(GROUSER_INSTALLED_SHARE), true);
 #endif
 } // namespace detail
@@ -45,7 +45,8 @@ public:
   Scene& set(std::string_view key, std::string_view value);
   Scene& set(std::string_view key, const std::vector<double>& values);
 
-  /// Sets several keys at once, which must fit together: {"driver.left=1", "driver.right=2"}, as `grouser run --set`.
+  /// Sets several keys and validates the scene once, for keys that depend on each other:
+  /// {"driver.left=1", "driver.right=2"}, in the syntax of `grouser run --set`.
   Scene& set(const std::vector<std::string>& assignments);
 
   std::string name() const;

@@ -68,22 +68,22 @@ public:
   /// Takes `count` steps, or fewer if a [stop] condition of the scene is met; see ended(). Throws SimulationError if
   /// the simulation becomes unsound, and InputError if the run has already ended or failed. `keepGoing`, if given, is
   /// called about ten times a second; if it returns false, or throws, step() returns after the current step. It may read
-  /// and set, but not step. run.duration of the scene ends nothing here.
+  /// and set, but not step. The scene's run.duration does not end the simulation.
   void step(std::int64_t count = 1, const std::function<bool()>& keepGoing = {});
   /// Advances by `seconds` > 0, rounded to whole steps, at least one.
   void stepFor(double seconds);
   std::string ended() const; ///< why a [stop] condition ended the run; empty while it continues
 
-  double time() const;         ///< from the end of settling [s]
+  double time() const;         ///< simulation time from the end of settling [s]
   double timeStep() const;     ///< [s]
   std::int64_t steps() const;  ///< steps taken
-  std::string device() const;  ///< its name
+  std::string device() const;  ///< name of the device
 
   bool hasVehicle() const;
   Vehicle vehicle();           ///< throws InputError if the scene has none
   std::size_t grainCount() const; ///< of all ranks
   Grains grains() const;
-  std::size_t ownGrainCount() const; ///< that this rank returns; all grains without MPI
+  std::size_t ownGrainCount() const; ///< grains that this rank returns; all grains without MPI
   /// Copies the positions of grains() to the caller's buffer. Throws InputError unless its size is ownGrainCount().
   void readPositions(std::span<Vec3> positions) const;
   std::vector<Body> bodies() const;
@@ -112,7 +112,7 @@ private:
   std::unique_ptr<detail::Run> run_;
 };
 
-/// What is sound and may still surprise: what `grouser run` prints as warnings and notes.
+/// Warnings and notes on the scene and the built simulation, as `grouser run` prints them.
 std::vector<std::string> warningsOf(const Simulation& simulation);
 
 } // namespace grouser

@@ -15,7 +15,7 @@ struct Run;
 /// One track. Vectors have one entry per shoe, in loop order. "Mean": average over the last Simulation::step() call.
 struct Track {
   double sprocketSpeed = 0; ///< now [rad/s], forward positive
-  double driveTorque = 0;   ///< of the drive on the sprocket, mean [N m]
+  double driveTorque = 0;   ///< torque of the drive on the sprocket, mean [N m]
   double drivePower = 0;    ///< of the drive, mean [W]
   double speed = 0;         ///< of the hull at this track, along the hull [m/s]
   double slip = 0;          ///< 1 - speed / (sprocket speed x pitch radius) [-]; NaN while the sprocket is at rest
@@ -42,9 +42,10 @@ struct VehicleState {
   Track left, right;      ///< right: empty vectors for a single-track scene
 };
 
-/// The vehicle of a simulation; valid as long as the simulation, also after that has been moved. An input takes effect at the next step, once the drive
-/// has started, and holds until it is set again or released; driver.drive_ramp smooths the start. Setters throw
-/// InputError if the scene does not support the input or the value is out of range.
+/// The vehicle of a simulation; valid as long as the simulation, also after the simulation has been moved. An input
+/// takes effect at the next step, once the drive has started, and holds until it is set again or released;
+/// driver.drive_ramp smooths the start. Setters throw InputError if the scene does not support the input or the value is
+/// out of range.
 class Vehicle {
 public:
   VehicleState state() const;
@@ -57,7 +58,7 @@ public:
   /// [N m], forward positive; driver.drive = "torque".
   void setSprocketTorque(double left, double right);
   /// -1 to 1: fraction of full-load torque, or of brake torque if it opposes the rotation; driver.drive = "engine".
-  /// Of throttle and governor speed the last one set takes effect.
+  /// Throttle and governor speed are mutually exclusive: the last one set takes effect.
   void setThrottle(double left, double right);
   /// Returns control to the scene's driver.
   void releaseSprockets();

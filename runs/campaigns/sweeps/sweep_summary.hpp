@@ -17,7 +17,7 @@ class RunManifest;
 struct SweepOutcome {
   output::RunStatus status = output::RunStatus::pending;
   std::string message; ///< reason why a run failed or is incomplete
-  base::Cause cause{}; ///< why it failed, where its simulation did
+  base::Cause cause{}; ///< cause of a failed simulation
 };
 
 /// Time [s] from which a run counts as steady: the second half of what follows the drive's ramp (and the last time of a

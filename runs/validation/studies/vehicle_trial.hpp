@@ -51,8 +51,8 @@ enum class TrialEnd { sound, stopped, refused };
 struct VehicleTrial {
   double step = 0; ///< [s]
   TrialEnd end = TrialEnd::sound;
-  std::string cause;    ///< the message, but for sound runs
-  base::Cause blamed{}; ///< what stopped it
+  std::string cause;    ///< error message; empty for sound runs
+  base::Cause blamed{}; ///< cause of the error
   double reached = 0;   ///< [s]
   double wallSeconds = 0;
   MapFigures figures;

@@ -133,7 +133,7 @@ std::string errorOfStep(const ComparedFigure& c, const FigureScatter& s) {
   return {};
 }
 
-/// A track that skips is about to leave its wheels.
+/// Merges skipping and thrown tracks: a skipping track is about to leave its wheels.
 base::Cause kindOf(base::Cause cause) { return cause == base::Cause::skippingTrack ? base::Cause::thrownTrack : cause; }
 
 } // namespace

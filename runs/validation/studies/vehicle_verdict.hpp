@@ -43,7 +43,7 @@ const std::vector<ComparedFigure>& comparedFigures(bool onBed);
 /// Left over of the books, of the turnover, that is rounding [-].
 inline constexpr double kMostLeftOver = 1e-8;
 
-/// Whether a run that ends so had steps that were too long.
+/// Whether a shorter time step avoids failures of this cause.
 bool blamesStep(base::Cause cause);
 
 /// The run that judges has so many times as many steps.

@@ -166,7 +166,7 @@ TEST_F(Branch, UntilRestOfAVehicleThatDoesNotComeToRestIsIncomplete) {
   EXPECT_NE(brief.incomplete.find("had not come to rest"), std::string::npos) << brief.incomplete;
 }
 
-/// What was set from outside on the drive was set on the former one.
+/// Control inputs of the parent run do not act on the drive of a branch.
 TEST_F(Branch, OfASteeredRunDrivesAsItsOwnSceneSays) {
   run("steered", scene(), false, 900);
   storage::Checkpoint state = storage::readCheckpoint(checkpoint("steered"));
