@@ -8,13 +8,12 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
-#include "runs/support/output_place.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <fmt/format.h>
 #include <limits>
-#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -22,54 +21,41 @@ namespace grouser::detail {
 
 namespace {
 
-constexpr double kBetweenQuestions = 0.1; ///< that keepGoing is asked [s]
+constexpr double kBetweenQuestions = 0.1; ///< interval between two calls of keepGoing [s]
 
-/// OpenMP of GNU does not survive a fork: its threads are gone in the child, which waits for them for ever.
+/// Refuses forked processes: a fork does not copy the threads of GNU OpenMP, and the child would hang at the next one.
 void requireThreads(const base::Exec& exec) {
   static std::atomic<pid_t> withThreads{0};
   const pid_t before = withThreads.load();
   if (before != 0 && before != getpid())
-    throw base::InputError("this process was forked from one that has run a simulation on several threads, and cannot run "
-                           "any: start it anew instead (Python: multiprocessing.set_start_method(\"spawn\")), or use "
-                           "threads = 1 before");
+    throw base::InputError("a process forked after a multi-threaded simulation cannot run simulations: spawn it instead "
+                           "(Python: multiprocessing.set_start_method(\"spawn\")), or use threads = 1 in its parent");
   if (exec.onCpu() && exec.threads > 1) withThreads = getpid();
 }
 
 scene::Scene onDevice(const SceneData& of, const Options& options) {
-  constexpr int kMostThreads = 1024;
-  if (options.threads < -1 || options.threads > kMostThreads)
-    throw base::InputError(fmt::format("threads = {}: a number from 0 (all cores) to {}, or -1 (as in the scene)",
-                                       options.threads, kMostThreads));
   std::vector<std::string> overrides = of.overrides;
   if (!options.device.empty()) overrides.push_back("run.device=" + options.device);
-  if (options.threads >= 0) overrides.push_back(fmt::format("run.threads={}", options.threads));
+  if (options.threads) overrides.push_back(fmt::format("run.threads={}", *options.threads));
   return setup::parseScene(of.text, of.file, overrides);
-}
-
-bool isSameFolder(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code error;
-  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
 }
 
 session::RunRequest requestOf(const Options& options, const std::optional<std::filesystem::path>& resume) {
   session::RunRequest request;
   request.folder = options.folder, request.force = options.overwrite, request.cache = options.cache;
-  request.resume = resume, request.resumeOption = "the checkpoint", request.hash = true;
-  request.branch = resume && (options.folder.empty() || !isSameFolder(resume->parent_path(), options.folder));
+  request.names = {"folder", "overwrite", "the checkpoint"}, request.resume = resume, request.hash = true;
+  std::error_code error;
+  request.branch =
+      resume && !std::filesystem::equivalent(std::filesystem::absolute(*resume).parent_path(), options.folder, error);
   request.commandLine = "library", request.ranks = Run::ranksOf(options);
   return request;
 }
 
-/// Before a bed settles for nothing.
+/// Checks the folder before the bed settles.
 void claim(const session::RunRequest& request, support::FileLock& lock) {
-  std::error_code error;
   if (request.folder.empty() || !request.comm().first()) return;
-  if (request.resume && !request.branch) return output::claimFolder(lock, request.folder);
-  support::requireFolder(request.folder);
-  if (!request.force && std::filesystem::exists(request.folder, error) &&
-      !std::filesystem::is_empty(request.folder, error))
-    throw base::InputError(fmt::format("{}: the folder is not empty; name another, or let it be overwritten (overwrite)",
-                                       request.folder.string()));
+  if (request.resume && !request.branch) return output::claimFolder(lock, request.folder, request.names);
+  output::checkOutputFolder(request.folder, request.force, request.names);
 }
 
 } // namespace
@@ -103,20 +89,17 @@ Run::~Run() {
   try {
     session->stop(fmt::format("left at {:.6g} s without finish()", simulation->time()));
   } catch (const std::exception&) {
-    // A full disk, say.
+    // For example a full disk.
   }
 }
 
 std::unique_ptr<storage::Checkpoint> Run::goOn() {
   auto read = session::formerRun(record.provenance, request);
   coupling::SimulationSetup setup = setup::simulationSetup(scene, comm().size());
-  if (read->timeStep != setup.timeStep)
-    throw base::InputError(fmt::format("{}: was written with steps of {:g} s, this scene takes {:g} s; give run.time_step",
-                                       request.resume->string(), read->timeStep, setup.timeStep));
+  session::requireSameStep(*read, setup.timeStep, record.provenance, request);
   if (request.branch) session::branch(*read, record.provenance, setup, request);
-  simulation.reset(); // memory may not hold two of them
-  simulation = std::make_unique<coupling::Simulation>(std::move(setup), exec, read->state, comm(),
-                                                      kept.spheres ? &*kept.spheres : nullptr);
+  simulation.reset(); // memory may not hold two simulations
+  simulation = session::makeSimulation(std::move(setup), record, exec, read.get(), request, kept);
   pending.clear();
   return read;
 }
@@ -133,8 +116,6 @@ const coupling::VehicleRig& Run::rig() const {
 }
 
 void Run::requireOpen(const char* what) const {
-  if (isStepping && std::string_view(what) == "step()")
-    throw InputError("step() was called by the function that step() calls; return from that first");
   if (finished) throw InputError(fmt::format("{}: the simulation is finished; restore() a checkpoint", what));
   if (!failed.empty())
     throw InputError(fmt::format("{}: the simulation has failed; restore() a checkpoint. The cause: {}", what, failed));
@@ -154,7 +135,7 @@ void Run::setTracks(coupling::InputKind kind, double left, double right) {
   std::vector<coupling::Input> inputs{{0, kind, 0, false, {left}}};
   if (rig().assembly().tracks.size() > 1) inputs.push_back({0, kind, 1, false, {right}});
   set(inputs);
-  // The last one counts: an engine has either a throttle or a governor.
+  // An engine has either a throttle or a governor.
   if (kind == InputKind::throttle) release({InputKind::sprocketSpeed});
   if (kind == InputKind::sprocketSpeed) release({InputKind::throttle});
 }
@@ -191,6 +172,7 @@ void Run::act(std::int64_t steps) {
 }
 
 void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
+  if (isStepping) throw InputError("step() called within step(); let keepGoing return first");
   requireOpen("step()");
   translated([this] { requireThreads(exec); });
   if (count < 1) throw InputError(fmt::format("step({}): at least one step", count));
@@ -200,27 +182,34 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
     throw InputError("the scene's [stop] has ended the run: " + rig->ended());
   act(count);
   now().restartMeans(coupling::Means::watch);
+  std::exception_ptr thrown; // by keepGoing, between two steps: the simulation is sound
   isStepping = true;
-  failed = "an exception"; // unless it goes well, or what keepGoing throws ends it between two steps
   try {
-    const auto all = [&] { advance(count, keepGoing); };
+    const auto all = [&] { thrown = advance(count, keepGoing); };
     translated([&] { session ? session->record(all) : all(); });
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     isStepping = false, failed = error.what();
     throw;
-  } catch (...) {
-    isStepping = false, failed.clear();
-    throw;
   }
-  isStepping = false, failed.clear();
+  isStepping = false;
+  if (thrown) std::rethrow_exception(thrown);
 }
 
-void Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
+std::exception_ptr Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
   const std::int64_t end = now().steps() + count;
   const auto goesOn = [&] {
     return now().steps() < end && !(now().vehicle() && !now().vehicle()->ended().empty());
   };
-  // Ranks must be asked at the same step, which their clocks would not find.
+  std::exception_ptr thrown;
+  const auto stops = [&] {
+    try {
+      return !keepGoing();
+    } catch (...) {
+      thrown = std::current_exception();
+      return true;
+    }
+  };
+  // All ranks ask at the same steps; their clocks differ.
   constexpr std::int64_t kOfRanks = 16;
   while (goesOn()) {
     const support::Stopwatch lap;
@@ -233,8 +222,9 @@ void Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
     if (!keepGoing) continue;
     if (lap.seconds() < 0.5 * kBetweenQuestions && next < end) stepsAtATime *= 2;
     if (lap.seconds() > 2 * kBetweenQuestions) stepsAtATime = std::max<std::int64_t>(1, stepsAtATime / 2);
-    if (comm().sumOf(keepGoing() ? 0 : 1) > 0) return;
+    if (comm().sumOf(stops() ? 1 : 0) > 0) return thrown;
   }
+  return thrown;
 }
 
 void Run::finish() {

@@ -12,6 +12,7 @@
 #include <grouser/errors.hpp>
 #include <grouser/simulation.hpp>
 
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -24,7 +25,7 @@ namespace detail {
 
 struct SceneData {
   std::string text;
-  std::filesystem::path file; ///< for messages, and for what the scene names
+  std::filesystem::path file; ///< for messages and relative paths
   std::vector<std::string> overrides;
   scene::Scene scene;
 };
@@ -56,23 +57,24 @@ struct Run {
 
   /// The vehicle's rig; throws InputError without one.
   const coupling::VehicleRig& rig() const;
-  /// Throws InputError where nothing more may be done, which `what` names.
+  /// Throws InputError with `what` (the refused call) if the simulation is finished or has failed.
   void requireOpen(const char* what) const;
-  /// Checks these. They act once act() is called, since a rank may be the only one that sets them.
+  /// Validates inputs and queues them for act(): a setter is not collective, act() is.
   void set(const std::vector<coupling::Input>& inputs);
   /// Left and right, where the scene has both.
   void setTracks(coupling::InputKind kind, double left, double right);
   /// Back to what the scene says; all targets where none is given.
   void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {});
-  /// Gives the simulation what was set. Called by all ranks; throws InputError naming the rank that has set otherwise
-  /// than rank 0, or wants to take another number of steps.
+  /// Applies the queued inputs. Collective; throws InputError with the rank whose inputs or number of steps differ from
+  /// those of rank 0.
   void act(std::int64_t steps = 0);
-  /// Makes the simulation of the request's checkpoint, which may be one with another [driver] or [hitch]; returns that.
+  /// Builds the simulation from the request's checkpoint, as a branch if the request says so. Returns the checkpoint.
   std::unique_ptr<storage::Checkpoint> goOn();
-  /// Throws InputError where a failed restore() has left none.
+  /// The simulation; throws InputError if a failed restore() has left none.
   coupling::Simulation& now() const;
   void step(std::int64_t count, const std::function<bool()>& keepGoing);
-  void advance(std::int64_t count, const std::function<bool()>& keepGoing);
+  /// Returns what keepGoing has thrown, or null.
+  std::exception_ptr advance(std::int64_t count, const std::function<bool()>& keepGoing);
   void finish();
   base::Comm comm() const { return request.comm(); }
   static const SceneData& dataOf(const Scene& scene) { return *scene.data_; }
@@ -88,12 +90,12 @@ struct Run {
   session::Caches kept;
   std::unique_ptr<coupling::Simulation> simulation;
   std::optional<session::RunSession> session; ///< empty without a folder, and behind finish()
-  support::FileLock lock;                     ///< of a folder in which it goes on
-  std::vector<coupling::Input> pending;       ///< set, and not yet with the simulation
+  support::FileLock lock;                     ///< lock of the folder of a resumed run
+  std::vector<coupling::Input> pending;       ///< inputs queued for act()
   bool finished = false;
-  std::string failed;      ///< why, of a step; its folder says so
-  bool isStepping = false; ///< within step(), also while keepGoing is called
-  std::int64_t stepsAtATime = 1; ///< between two questions whether to go on
+  std::string failed;      ///< message of the failed step
+  bool isStepping = false; ///< within step() or keepGoing
+  std::int64_t stepsAtATime = 1; ///< steps between two calls of keepGoing
   support::Stopwatch since;
 };
 

@@ -87,8 +87,8 @@ class Simulation:
     engine inputs take effect when the drive starts (`vehicle.drive_start`), after the vehicle has come to rest.
 
     Several may coexist, each used by one thread at a time. Start processes with multiprocessing's "spawn": a forked one
-    cannot run threads. `step()` releases the GIL; Ctrl-C interrupts it between two
-    steps. Errors are those of the package: InputError, SimulationError, DeviceError.
+    cannot run threads. `step()` releases the GIL; Ctrl-C interrupts it between two steps. Errors are those of the
+    package: InputError, SimulationError, DeviceError.
     """
 
     __slots__ = ("__weakref__", "_run", "_seen", "warnings")
@@ -97,14 +97,13 @@ class Simulation:
     def __init__(self, scene: Scene | str | os.PathLike, folder: str | os.PathLike | None = None, *,
                  device: str | None = None, threads: int | None = None, overwrite: bool = False, cache: bool = True,
                  settling: Callable[[float, float], Any] | None = None, checkpoint: str | os.PathLike | None = None):
-        if threads is not None and not 0 <= _whole("threads", threads) <= 1024:
-            raise errors.InputError(f"threads = {threads}: a number from 0 (all cores) to 1024", 2, [], "")
         if settling is not None and not callable(settling):
             raise TypeError(f"settling: a function of time and energy, not {settling!r}")
         if not isinstance(scene, Scene):
             scene = Scene.read(scene)
         place = scene.folder / f"{scene.name}.toml"
-        self._run = _core().Simulation(scene.text(), place, device or "", -1 if threads is None else threads,
+        self._run = _core().Simulation(scene.text(), place, device or "",
+                                       None if threads is None else _whole("threads", threads),
                                        str(folder) if folder else "", overwrite, cache, settling,
                                        Path(checkpoint) if checkpoint else None)
         self._seen: tuple[int, Any] = (-1, None)

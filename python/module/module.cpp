@@ -191,7 +191,7 @@ PYBIND11_MODULE(_core, m) {
     }
   });
   py::class_<Simulation>(m, "Simulation")
-      .def(py::init([](const std::string& scene, const std::filesystem::path& place, const std::string& device, int threads,
+      .def(py::init([](const std::string& scene, const std::filesystem::path& place, const std::string& device, std::optional<int> threads,
                        const std::filesystem::path& folder, bool overwrite, bool cache,
                        const std::function<void(double, double)>& settling,
                        const std::optional<std::filesystem::path>& checkpoint) {

@@ -55,14 +55,14 @@ constexpr const char* kFiles[] = {"results.h5",
 
 fs::path prepared(fs::path folder, const RunWriter::Options& options, support::FileLock& lock) {
   if (options.former) return folder;
-  checkOutputFolder(folder, options.force);
+  checkOutputFolder(folder, options.force, options.names);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
-    throw base::InputError(
-        fmt::format("{}: the folder cannot be made ({}); name another with --out", folder.string(), error.message()));
-  claimFolder(lock, folder);
-  checkOutputFolder(folder, options.force); // another run may have been quicker
+    throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with {}", folder.string(),
+                                       error.message(), options.names.out));
+  claimFolder(lock, folder, options.names);
+  checkOutputFolder(folder, options.force, options.names); // another run may have been quicker
   for (const char* name : kFiles) fs::remove(folder / name, error);
   return folder;
 }
@@ -76,21 +76,22 @@ std::string dotted(std::string path) {
 
 } // namespace
 
-void checkOutputFolder(const fs::path& folder, bool force) {
+void checkOutputFolder(const fs::path& folder, bool force, const OptionNames& names) {
   support::requireFolder(folder);
   std::error_code error;
   if (!force && fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw base::InputError(fmt::format(
-        "{}: the folder is not empty; name another with --out, {}or overwrite it with --force", folder.string(),
-        fs::exists(folder / storage::kCheckpointName, error) ? "go on with --resume, " : ""));
+        "{}: the folder is not empty; name another with {}, {}or overwrite it with {}", folder.string(), names.out,
+        fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("go on with {}, ", names.resume) : "",
+        names.force));
 }
 
-void claimFolder(support::FileLock& lock, const fs::path& folder) {
+void claimFolder(support::FileLock& lock, const fs::path& folder, const OptionNames& names) {
   std::error_code error;
   if (fs::is_directory(folder, error) && !lock.take(folder))
     throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
-                                       "folder with --out",
-                                       folder.string()));
+                                       "folder with {}",
+                                       folder.string(), names.out));
 }
 
 /// The rows of a run in results.h5 and timeseries.csv, and the manifest: written by one rank.

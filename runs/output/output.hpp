@@ -4,6 +4,7 @@
 #include "base/cause.hpp"
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
+#include "runs/output/option_names.hpp"
 #include "runs/output/records.hpp"
 #include "runs/output/result_fields.hpp"
 #include "runs/setup/provenance.hpp"
@@ -24,11 +25,11 @@
 namespace grouser::output {
 
 /// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
-void checkOutputFolder(const std::filesystem::path& folder, bool force);
+void checkOutputFolder(const std::filesystem::path& folder, bool force, const OptionNames& names = {});
 
 /// Takes the lock of the folder that a run writes in, if it is there. Throws base::InputError where another run holds
 /// it.
-void claimFolder(support::FileLock& lock, const std::filesystem::path& folder);
+void claimFolder(support::FileLock& lock, const std::filesystem::path& folder, const OptionNames& names = {});
 
 /// What a resumed run keeps of the folder it goes on with; what came later is cut off.
 struct FormerOutput {
@@ -43,6 +44,7 @@ struct FormerOutput {
 class RunWriter {
 public:
   struct Options {
+    OptionNames names;
     bool force = false;
     bool frames = true;                          ///< frames.h5 and frames.xdmf
     std::optional<FormerOutput> former;          ///< go on with the folder of a stopped run

@@ -11,7 +11,7 @@ void branch(storage::Checkpoint& former, const setup::Provenance& provenance, co
   former.branchedFrom = storage::branchPoint(*request.resume, former, request.comm());
   former.rows = former.frames = 0;
   const storage::BranchChanges changes =
-      storage::checkSameScene(former, *request.resume, provenance, request.resumeOption);
+      storage::checkSameScene(former, *request.resume, provenance, request.names.resume);
   if (changes.any())
     coupling::branch(former.state, *setup.vehicle, changes.driver, changes.hitch,
                      static_cast<double>(former.state.steps) * former.timeStep);

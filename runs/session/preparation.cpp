@@ -30,7 +30,7 @@ std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenan
   if (!request.resume) return nullptr;
   auto former = std::make_unique<storage::Checkpoint>(storage::readCheckpoint(*request.resume, request.comm()));
   const storage::BranchChanges changes =
-      storage::checkSameScene(*former, *request.resume, provenance, request.resumeOption);
+      storage::checkSameScene(*former, *request.resume, provenance, request.names.resume);
   if (changes.any() && !request.branch)
     throw base::InputError(fmt::format("{}: [{}] differs from that of the run in {}; such a branch of it goes to a "
                                        "folder of its own, which --out names",
@@ -44,17 +44,22 @@ std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenan
   return former;
 }
 
+void requireSameStep(const storage::Checkpoint& former, double timeStep, const setup::Provenance& provenance,
+                     const RunRequest& request) {
+  if (former.timeStep != timeStep)
+    throw base::InputError(
+        fmt::format("{}: run.time_step = \"auto\" is {:g} s with these keys, and {} was written with "
+                    "{:g} s; give run.time_step, in the run that wrote it too",
+                    provenance.file.string(), timeStep, request.resume->string(), former.timeStep));
+}
+
 std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup setup, const setup::RecordSetup& record,
                                                      const base::Exec& exec, const storage::Checkpoint* former,
                                                      const RunRequest& request, Caches& kept) {
   const base::Comm comm = request.comm();
   storage::BedCache* beds = kept.beds ? &*kept.beds : nullptr;
   storage::SphereCache* spheres = kept.spheres ? &*kept.spheres : nullptr;
-  if (former && former->timeStep != setup.timeStep)
-    throw base::InputError(
-        fmt::format("{}: run.time_step = \"auto\" is {:g} s with these keys, and {} was written with "
-                    "{:g} s; give run.time_step, in the run that wrote it too",
-                    record.provenance.file.string(), setup.timeStep, request.resume->string(), former->timeStep));
+  if (former) requireSameStep(*former, setup.timeStep, record.provenance, request);
   if (former) return std::make_unique<coupling::Simulation>(std::move(setup), exec, former->state, comm, spheres);
   const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
   const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;

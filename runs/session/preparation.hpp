@@ -27,6 +27,10 @@ Caches cachesOf(bool beds, const RunRequest& request);
 /// Reads the checkpoint of a run to be resumed and compares the scenes; null for a run from the start.
 std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenance, const RunRequest& request);
 
+/// Throws InputError if the scene's automatic time step differs from that of the checkpoint.
+void requireSameStep(const storage::Checkpoint& former, double timeStep, const setup::Provenance& provenance,
+                     const RunRequest& request);
+
 /// At the checkpoint, or at the start: then the bed is settled first, with progress on stderr. What stops it there is
 /// left in the folder as FailedBed does. Throws Stopped, SimulationError, InputError.
 std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup setup, const setup::RecordSetup& record,

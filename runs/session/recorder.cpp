@@ -69,7 +69,7 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
                                          const std::vector<output::Channel>& channels,
                                          const storage::Checkpoint* former, std::int64_t total) {
   output::RunWriter::Options w;
-  w.force = options.force;
+  w.force = options.force, w.names = options.names;
   w.frames = frames;
   w.comm = options.comm();
   w.metadata = {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
+#include "runs/output/option_names.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,9 +15,9 @@ namespace grouser::session {
 struct RunRequest {
   std::filesystem::path folder;                ///< of the results
   bool force = false;                          ///< overwrite what is there
+  output::OptionNames names;                   ///< of these three in messages
   std::optional<std::filesystem::path> resume; ///< go on from this checkpoint, in the folder it lies in
   std::optional<std::filesystem::path> replay; ///< set what was set in the run of this folder
-  const char* resumeOption = "--resume";       ///< by which the user named it
   bool branch = false;                ///< that checkpoint is of another run: this one begins in a folder of its own
   bool untilRest = false;             ///< stop before the first step of the drive
   bool hash = false;                  ///< take the state hash at the end

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -286,6 +287,23 @@ TEST_F(Api, AStepWithinAStepIsRefusedAndHarmsNothing) {
   EXPECT_TRUE(refused);
   simulation.step();
   EXPECT_EQ(simulation.steps(), 11);
+}
+
+TEST_F(Api, KeepGoingMaySetAndSaveAndWhatItThrowsHarmsNothing) {
+  Options options;
+  options.folder = folder_ / "kept";
+  Simulation simulation(vehicleScene(), options);
+  const auto thrower = [&]() -> bool {
+    simulation.setGravity({0, 0, -9});
+    simulation.save(folder_ / "within.h5");
+    throw std::logic_error("the caller's own");
+  };
+  EXPECT_THROW(simulation.step(100, thrower), std::logic_error);
+  EXPECT_TRUE(fs::exists(folder_ / "within.h5"));
+  simulation.step(10);
+  std::ifstream manifest(options.folder / "manifest.json");
+  const std::string said{std::istreambuf_iterator<char>(manifest), {}};
+  EXPECT_NE(said.find("\"status\": \"running\""), std::string::npos) << said;
 }
 
 TEST_F(Api, WhatHasFailedOrEndedSaysSo) {

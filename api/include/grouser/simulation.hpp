@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,7 +41,7 @@ private:
 /// How a simulation is run. No option changes the answer.
 struct Options {
   std::string device;           ///< "auto", "cpu" or "cuda"; empty: as in the scene
-  int threads = -1;             ///< number of CPU threads, 0: all cores; -1: as in the scene
+  std::optional<int> threads;   ///< number of CPU threads, 0: all cores; empty: as in the scene
   std::filesystem::path folder; ///< output folder, as of `grouser run`; empty: no output
   bool overwrite = false;       ///< replace existing results in `folder`
   bool cache = true;            ///< reuse settled beds and cut meshes from earlier runs, and store new ones

@@ -72,8 +72,8 @@ void requireNoRun(const fs::path& folder) {
         fmt::format("{}: holds the results of a run; name another folder with --out", folder.string()));
 }
 
-base::Cause causeOf(const fs::path& folder) {
-  return base::valueOf<base::Cause>(RunManifest(folder).text("cause")).value_or(base::Cause::unknown);
+base::Cause causeIn(const RunManifest& manifest) {
+  return base::valueOf<base::Cause>(manifest.text("cause")).value_or(base::Cause::unknown);
 }
 
 /// Waits for a run that is still ending in this folder: one of a sweep that was killed writes a checkpoint first.
@@ -127,7 +127,8 @@ public:
         outcomes_[i] = {RunStatus::incomplete, RunManifest(folder(i)).text("incomplete")};
         progress_.note(fmt::format("{} incomplete already: {}", title(i), outcomes_[i].message));
       } else if (former == RunStatus::failed && options.failuresStay) {
-        outcomes_[i] = {RunStatus::failed, RunManifest(folder(i)).text("error"), causeOf(folder(i))};
+        const RunManifest manifest(folder(i));
+        outcomes_[i] = {RunStatus::failed, manifest.text("error"), causeIn(manifest)};
         progress_.note(fmt::format("{} failed before: {}", title(i), outcomes_[i].message));
       } else {
         waiting_.push_back(i);
@@ -274,7 +275,7 @@ private:
       outcomes_[i].status = RunStatus::stopped;
       progress_.note(fmt::format("{} stopped", title(i)));
     } else {
-      outcomes_[i] = {RunStatus::failed, reason(end, folder(i) / kLog), causeOf(folder(i))};
+      outcomes_[i] = {RunStatus::failed, reason(end, folder(i) / kLog), causeIn(RunManifest(folder(i)))};
       progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
     }
     changed_(outcomes_);
