@@ -43,7 +43,8 @@ void DeviceGraph::end() {
     if (graph_) cudaGraphExecDestroy(graphOf(graph_));
     graph_ = nullptr;
     cudaGraphExec_t fresh = nullptr;
-    code = cudaGraphInstantiate(&fresh, graph, 0);
+    // The flag keeps each stream's priority; otherwise all nodes run at the priority of the launching stream.
+    code = cudaGraphInstantiate(&fresh, graph, cudaGraphInstantiateFlagUseNodePriority);
     graph_ = fresh;
   }
   cudaGraphDestroy(graph);

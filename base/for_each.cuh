@@ -29,7 +29,16 @@ template <class Body> double nanosecondsOf(const Body& body) {
 
 #if defined(__CUDACC__)
 namespace detail {
-template <class Body> __global__ void __launch_bounds__(128) forEachKernel(Body body, std::int64_t count) {
+/// Blocks that a multiprocessor must be able to run concurrently, which limits the registers of a thread: the body's
+/// `static constexpr int kBlocksTogether`, or 0 for no limit.
+template <class Body> constexpr int blocksTogether() {
+  if constexpr (requires { Body::kBlocksTogether; })
+    return Body::kBlocksTogether;
+  else
+    return 0;
+}
+template <class Body> __global__ void __launch_bounds__(128, blocksTogether<Body>())
+    forEachKernel(Body body, std::int64_t count) {
   const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
   if (i < count) body(static_cast<int>(i));
 }

@@ -51,6 +51,12 @@ struct SurfaceGridView {
   double perEdge{};
   base::Vec3i cells;
 
+  /// Returns false if a ball lies outside the table and therefore has no contact.
+  GROUSER_HD bool reaches(const base::Vec3d& p, double radius) const {
+    const base::Vec3d u = (p - low) * perEdge;
+    const double r = radius * perEdge;
+    return u.x > -r && u.y > -r && u.z > -r && u.x < cells.x + r && u.y < cells.y + r && u.z < cells.z + r;
+  }
   /// Index of the cell that holds `p`; -1 outside the table, where nothing can touch.
   GROUSER_HD std::int64_t cellAt(const base::Vec3d& p) const {
     const base::Vec3d u = (p - low) * perEdge;

@@ -38,4 +38,58 @@ struct PatchState {
   double dissipated; ///< [J] since the start
 };
 
+/// Contact pressure at one point in one step.
+template <class T> struct PointPressure {
+  T size;                ///< magnitude of the normal force [N]
+  T elastic, dissipated; ///< [J]
+};
+
+/// `area` that the point represents [m2]; `overlap` [m], >= 0 or of zero area; `opening`: speed at which the surfaces
+/// separate [m/s]. T is a number or a SIMD vector.
+template <class T> GROUSER_HD PointPressure<T> pressureAt(const PatchLaw& law, double timeStep, const T& area,
+                                                          const T& overlap, const T& opening) {
+  const T stiffness = area * law.modulus, pressed = stiffness * (overlap - opening * law.relaxation);
+  const T size = pressed < T{} ? T{} : pressed;
+  return {size, stiffness * overlap * overlap * 0.5, (stiffness * overlap - size) * opening * timeStep};
+}
+
+/// Friction of a patch in one step.
+struct PatchSlide {
+  base::Vec3d force;   ///< on A [N]
+  double elastic{};    ///< in the tangential spring [J]
+  double dissipated{}; ///< [J] in this step
+};
+
+/// Advances the tangential spring of a touching patch. `normal`: outward unit normal of B; `relative`: velocity of A
+/// relative to B at the centre of pressure [m/s]; `weight`: sum of the normal forces' sizes [N]; `area`: in touch [m2].
+GROUSER_HD PatchSlide slide(const PatchLaw& law, PatchState& state, const base::Vec3d& normal,
+                            const base::Vec3d& relative, double weight, double area, double timeStep) {
+  const base::Vec3d slip = relative - normal * dot(relative, normal);
+  base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
+  const double stiffness = law.tangentialRatio * law.modulus * area;
+  // The area has changed: where it grew, fresh material touches without strain and the force stays; where it shrank,
+  // the strain stays and the energy of the area that has lost contact is dissipated. Neither gives energy.
+  const double storedBefore = state.stiffness * dot(state.shear, state.shear);
+  if (stiffness > state.stiffness) shear *= state.stiffness / stiffness;
+  shear += slip * timeStep;
+  const double dashpot = law.relaxation * stiffness;
+  base::Vec3d force = shear * -stiffness - slip * dashpot;
+  const double limit = law.friction * weight, size = norm(force), spring = stiffness * norm(shear);
+  if (size > limit) {
+    force *= limit / size;
+    // A spring that took over the dashpot's force would be stretched without work.
+    if (spring > limit) shear *= limit / spring;
+  }
+  state.shear = shear, state.stiffness = stiffness;
+  const double stored = stiffness * dot(shear, shear);
+  // Work put in, less what the spring has gained.
+  return {force, 0.5 * stored, -(dot(force, slip) * timeStep + 0.5 * (stored - storedBefore))};
+}
+
+/// Ends the contact of a patch and dissipates the energy of its spring.
+GROUSER_HD void endContact(PatchState& state) {
+  state.dissipated += 0.5 * state.stiffness * dot(state.shear, state.shear);
+  state.shear = {}, state.stiffness = 0;
+}
+
 } // namespace grouser::contact

@@ -117,21 +117,17 @@ template <class Target> struct SamplePressure {
     const base::Vec3d x = centre - normal * (static_cast<double>(sample.radius) - 0.5 * overlap);
     base::Vec3d relative = motion[a].velocityAt(x);
     if (b >= 0) relative -= motion[b].velocityAt(x);
-    const PatchLaw law = target.law(pair);
-    const double stiffness = law.modulus * static_cast<double>(sample.area);
-    const double opening = dot(relative, normal);
-    double size = stiffness * (overlap - law.relaxation * opening);
-    if (size < 0) size = 0;
-    const double dissipated = (stiffness * overlap - size) * opening * timeStep;
-    const base::Vec3l force = quanta.force.quantise(normal * size);
+    const double area = static_cast<double>(sample.area);
+    const PointPressure<double> p = pressureAt(target.law(pair), timeStep, area, overlap, dot(relative, normal));
+    const base::Vec3l force = quanta.force.quantise(normal * p.size);
     applyToBoth(quanta, motion, a, b, x, force, loads);
     PatchSums& patch = patches[static_cast<std::int64_t>(pair) * kClusters + sample.cluster];
-    base::atomicAdd64(&patch.area, quanta.area.quantise(static_cast<double>(sample.area)));
-    base::atomicAdd64(&patch.weight, quanta.force.quantise(size));
-    addTo(patch.place, quanta.moment.quantise((x - motion[a].centre) * size));
+    base::atomicAdd64(&patch.area, quanta.area.quantise(area));
+    base::atomicAdd64(&patch.weight, quanta.force.quantise(p.size));
+    addTo(patch.place, quanta.moment.quantise((x - motion[a].centre) * p.size));
     addTo(patch.normalForce, force);
-    base::atomicAdd64(&patch.elastic, quanta.energy.quantise(0.5 * stiffness * overlap * overlap));
-    base::atomicAdd64(&patch.dissipated, quanta.energy.quantise(dissipated));
+    base::atomicAdd64(&patch.elastic, quanta.energy.quantise(p.elastic));
+    base::atomicAdd64(&patch.dissipated, quanta.energy.quantise(p.dissipated));
   }
 };
 
@@ -152,8 +148,7 @@ template <class Target> struct PatchFriction {
     PatchSums& sums = patches[index];
     PatchState& state = states[index];
     if (sums.weight <= 0) {
-      state.dissipated += 0.5 * state.stiffness * dot(state.shear, state.shear); // contact has ended
-      state.shear = {}, state.stiffness = 0;
+      endContact(state);
       state.dissipated += quanta.energy.value(sums.dissipated);
       return;
     }
@@ -165,31 +160,14 @@ template <class Target> struct PatchFriction {
     const double pressing = norm(normalForce);
     double dissipated = quanta.energy.value(sums.dissipated);
     if (law.friction > 0 && pressing > 0) {
-      const base::Vec3d normal = normalForce * (1 / pressing);
       const base::Vec3d x = motion[a].centre + quanta.moment.value(sums.place) * (1 / weight);
       base::Vec3d relative = motion[a].velocityAt(x);
       if (b >= 0) relative -= motion[b].velocityAt(x);
-      const base::Vec3d slip = relative - normal * dot(relative, normal);
-      base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
-      const double stiffness = law.tangentialRatio * law.modulus * quanta.area.value(sums.area);
-      // The area has changed: where it grew, fresh material touches without strain and the force stays; where it
-      // shrank, the strain stays and the energy of the area that has lost contact is dissipated. Neither gives energy.
-      const double storedBefore = state.stiffness * dot(state.shear, state.shear);
-      if (stiffness > state.stiffness) shear *= state.stiffness / stiffness;
-      shear += slip * timeStep;
-      const double dashpot = law.relaxation * stiffness;
-      base::Vec3d force = shear * -stiffness - slip * dashpot;
-      const double limit = law.friction * weight, size = norm(force), spring = stiffness * norm(shear);
-      if (size > limit) {
-        force *= limit / size;
-        // A spring that took over the dashpot's force would be stretched without work.
-        if (spring > limit) shear *= limit / spring;
-      }
-      // Work put in, less what the spring has gained.
-      dissipated -= dot(force, slip) * timeStep + 0.5 * (stiffness * dot(shear, shear) - storedBefore);
-      base::atomicAdd64(&sums.elastic, quanta.energy.quantise(0.5 * stiffness * dot(shear, shear)));
-      state.shear = shear, state.stiffness = stiffness;
-      applyToBoth(quanta, motion, a, b, x, quanta.force.quantise(force), loads);
+      const PatchSlide slid =
+          slide(law, state, normalForce * (1 / pressing), relative, weight, quanta.area.value(sums.area), timeStep);
+      dissipated += slid.dissipated;
+      base::atomicAdd64(&sums.elastic, quanta.energy.quantise(slid.elastic));
+      applyToBoth(quanta, motion, a, b, x, quanta.force.quantise(slid.force), loads);
     }
     state.dissipated += dissipated;
   }

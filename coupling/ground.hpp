@@ -11,6 +11,7 @@
 #include "coupling/replicated_work.hpp"
 
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 namespace grouser::terrain {
@@ -34,6 +35,7 @@ struct GroundTraits {
   ReplicatedWork replicated;                       ///< for work that every rank does alike
   double smallestGrain = base::kInfinity;          ///< radius [m], which limits how coarsely parts are cut
   const terrain::HeightField* hullMeets = nullptr; ///< an elastic foundation for the hull, computed with the obstacles
+  bool onHost = false;                             ///< contacts are computed by computeOnHost() instead of compute()
   bool hasMomentum = false; ///< whether the ledger includes the momentum of the ground; true only for grains
 };
 
@@ -95,7 +97,7 @@ public:
   virtual bool refreshLists() { return false; }
   /// Lists what the parts at these places may touch until one has moved by the margin. Not in every step. `motion`:
   /// one a contact part, on the device, as in compute().
-  virtual void refreshContacts(const base::Array<contact::PartMotion>& motion) = 0;
+  virtual void refreshContacts(const base::Array<contact::PartMotion>&) {}
   /// Queues the ground's own work that needs no poses of the vehicle; it may run beside compute().
   virtual void beginUncoupled() {}
   /// Changes where compute() reads other memory than in the step before, as of a double buffer: work is recorded and
@@ -106,8 +108,15 @@ public:
   /// contact part c about its centre of mass, in integers, whose sums do not depend on their order. loads[number of
   /// parts] is the ground's own. `exec`: a stream beside that of the track's contacts. `travelled`, on the device: no
   /// part has moved farther since refreshContacts() [m].
-  virtual void compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double* travelled,
-                       contact::PartLoad* loads) = 0;
+  virtual void compute(const base::Exec&, const base::Array<contact::PartMotion>&, const double* /*travelled*/,
+                       contact::PartLoad* /*loads*/) {
+    throw std::logic_error("a ground without onHost overrides compute()");
+  }
+  /// Computes the contacts of this step at once, on one thread, in the memory of the host: called instead of compute()
+  /// where the traits have onHost. refreshContacts() is then not called, and every rank computes all loads.
+  virtual void computeOnHost(const contact::PartMotion*, contact::PartLoad* /*loads*/) {
+    throw std::logic_error("a ground with onHost overrides computeOnHost()");
+  }
   /// Gives the ground its own sum of compute(), over all ranks of traits().comm.
   virtual void collect(const contact::PartLoad&) {}
   /// Queues the ground's motion or change of shape under these contacts; the host then solves the vehicle beside it.

@@ -12,7 +12,7 @@ std::unique_ptr<Ground> makeGround(LaidGround& laid, const GroundSetup& setup, c
     throw base::InputError("the scene has grains and a ground of another kind, which do not meet; remove one of them");
   if (setup.otherKind) return setup.otherKind(setup, exec);
   if (laid.grains) return std::make_unique<GranularGround>(laid, setup, exec);
-  if (laid.rigid) return std::make_unique<RigidGround>(laid, exec);
+  if (laid.rigid) return std::make_unique<RigidGround>(laid);
   return nullptr;
 }
 

@@ -12,12 +12,12 @@
 namespace grouser::coupling {
 
 using base::Vec3d;
-using terrain::SurfaceContacts;
+using terrain::RigidContacts;
 
 std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const vehicle::Assembly& assembly, const VehicleParts& parts,
                                                          const std::vector<Obstacle>& obstacles,
-                                                         const terrain::HeightField* hullOn, const base::Exec& exec,
-                                                         const Model& model, const base::Comm& comm, SphereSets* kept) {
+                                                         const terrain::HeightField* hullOn, const Model& model,
+                                                         const base::Comm& comm, SphereSets* kept) {
   if (obstacles.empty() && !hullOn) return nullptr;
   std::unique_ptr<ObstacleContacts> made(new ObstacleContacts);
   std::vector<PartCut> cuts;
@@ -26,19 +26,19 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const vehicle::Assembly
     cuts.push_back(meshCut(o.surface, VehicleParts::contactSize(assembly.spec)));
   }
   made->sets_ = cutParts(cuts, kept, comm, &made->cutReports_);
-  std::vector<const base::SphereSet*> sets = parts.sets();
+  std::vector<const base::SphereSet*> meshes;
+  for (const base::SphereSet& set : made->sets_) meshes.push_back(&set);
   const std::vector<int> setOfPart = parts.setOfContactPart();
   const int count = static_cast<int>(setOfPart.size());
-  int nextSet = static_cast<int>(sets.size());
-  for (const base::SphereSet& set : made->sets_) sets.push_back(&set);
+  int nextMesh = 0;
 
   const vehicle::ContactSpec& spec = assembly.spec.contact;
-  std::vector<SurfaceContacts::Surface> surfaces;
-  std::vector<SurfaceContacts::Pair> pairs;
-  using Kind = SurfaceContacts::Surface::Kind;
+  std::vector<RigidContacts::Surface> surfaces;
+  std::vector<RigidContacts::Pair> pairs;
+  using Kind = RigidContacts::Surface::Kind;
   for (const Obstacle& o : obstacles) {
     const int index = static_cast<int>(surfaces.size());
-    surfaces.push_back({o.surface.mesh ? Kind::mesh : Kind::shape, o.surface.geometry, o.surface.mesh ? nextSet++ : -1,
+    surfaces.push_back({o.surface.mesh ? Kind::mesh : Kind::shape, o.surface.geometry, o.surface.mesh ? nextMesh++ : -1,
                         count + index, o.friction});
     made->motions_.push_back(startingPose(o.surface).motion);
     for (int part = 0; part < count; ++part) pairs.push_back({part, index});
@@ -52,9 +52,8 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const vehicle::Assembly
         pairs.push_back({part, index});
   }
   const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, 0, spec.tangentialRatio};
-  made->contacts_ =
-      std::make_unique<SurfaceContacts>(exec, SurfaceContacts::Model{law, model.quanta, model.timeStep, model.margin},
-                                        sets, setOfPart, surfaces, pairs, hullOn);
+  made->contacts_ = std::make_unique<RigidContacts>(RigidContacts::Model{law, model.quanta, model.timeStep},
+                                                    parts.points(pairs), setOfPart, surfaces, pairs, meshes, hullOn);
   return made;
 }
 

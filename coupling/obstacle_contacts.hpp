@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/array.hpp"
 #include "coupling/ground_setup.hpp"
 #include "coupling/sphere_sets.hpp"
 #include "coupling/vehicle_parts.hpp"
-#include "terrain/surface_contacts.hpp"
+#include "terrain/rigid_contacts.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <cstddef>
@@ -21,28 +20,23 @@ public:
   struct Model {
     contact::PatchQuanta quanta;
     double timeStep{};
-    double margin{}; ///< [m] how far before touching a sample is listed
   };
   /// `kept`: where sphere sets of meshes come from; null: they are cut. `hullOn`: rigid ground for the hull; may be
   /// null. Null where there is nothing to meet.
   static std::unique_ptr<ObstacleContacts> make(const vehicle::Assembly& assembly, const VehicleParts& parts,
                                                 const std::vector<Obstacle>& obstacles,
-                                                const terrain::HeightField* hullOn, const base::Exec& exec,
-                                                const Model& model, const base::Comm& comm, SphereSets* kept);
+                                                const terrain::HeightField* hullOn, const Model& model,
+                                                const base::Comm& comm, SphereSets* kept);
 
   /// Those of the scene, in its order, and behind them the ground that the hull meets. Their motions stand behind those
   /// of the contact parts.
   std::size_t surfaces() const { return motions_.size(); }
   const std::vector<contact::PartMotion>& motions() const { return motions_; }
 
-  void refresh(const base::Array<contact::PartMotion>& motion) { contacts_->refresh(motion); }
-  /// As SurfaceContacts::compute(): loads of parts and surfaces.
-  void compute(const base::Array<contact::PartMotion>& motion, const double* travelled, contact::PartLoad* loads) {
-    contacts_->compute(motion, travelled, loads);
-  }
+  /// Adds the loads of parts and surfaces; see RigidContacts::compute().
+  void compute(const contact::PartMotion* motion, contact::PartLoad* loads) { contacts_->compute(motion, loads); }
 
   const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; } ///< cuts of the meshes
-  std::size_t samplesListed() const { return contacts_->samplesListed(); }
   contact::PatchBuffers::Ledger ledger() const { return contacts_->ledger(); }
   contact::SavedPatches save() const { return contacts_->save(); }
   void restore(const contact::SavedPatches& saved) { contacts_->restore(saved); }
@@ -53,7 +47,7 @@ private:
   std::vector<base::SphereSet> sets_; ///< of the meshes among them
   std::vector<spheredecomp::CutReport> cutReports_;
   std::vector<contact::PartMotion> motions_;
-  std::unique_ptr<terrain::SurfaceContacts> contacts_;
+  std::unique_ptr<terrain::RigidContacts> contacts_;
 };
 
 /// How much higher a vehicle has to be set down so that no part stands in an obstacle [m]: 0 where none does. Throws

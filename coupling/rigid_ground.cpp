@@ -10,24 +10,21 @@ namespace grouser::coupling {
 GroundTraits RigidGround::traits() const {
   GroundTraits traits;
   traits.hullMeets = &*laid_.rigid;
+  traits.onHost = true;
   return traits;
 }
 
 LoadQuanta RigidGround::meet(const PartsOnGround& on) {
   const vehicle::ContactSpec& spec = on.assembly.spec.contact;
-  const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
-  std::vector<int> shoes;
-  for (const int part : on.assembly.groundParts) shoes.push_back(on.parts.contactIndex(part));
-  shoes_ = std::make_unique<terrain::GroundContacts>(
-      exec_, terrain::GroundContacts::Model{law, on.quanta, on.timeStep, on.margin}, *laid_.rigid, on.parts.sets(),
-      on.parts.setOfContactPart(), shoes);
+  const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, 0, spec.tangentialRatio};
+  using Contacts = terrain::RigidContacts;
+  const Contacts::Surface field{Contacts::Surface::Kind::field, {}, -1, -1, spec.frictionGround};
+  std::vector<Contacts::Pair> pairs;
+  for (const int part : on.assembly.groundParts) pairs.push_back({on.parts.contactIndex(part), 0});
+  shoes_ = std::make_unique<Contacts>(Contacts::Model{law, on.quanta, on.timeStep}, on.parts.points(pairs),
+                                      on.parts.setOfContactPart(), std::vector{field}, pairs,
+                                      std::vector<const base::SphereSet*>{}, &*laid_.rigid);
   return {on.quanta.force, on.quanta.torque};
-}
-
-/// Few samples touch: not on a stream of their own.
-void RigidGround::compute(const base::Exec&, const base::Array<contact::PartMotion>& motion, const double* travelled,
-                          contact::PartLoad* loads) {
-  shoes_->compute(motion, travelled, loads);
 }
 
 void RigidGround::addContactsTo(ContactLedger& ledger) const { ledger.rigid += shoes_->ledger(); }

@@ -109,6 +109,7 @@ void Simulation::stepAhead(bool last) {
   // An alarm leaves the state as this step has made it, to be looked at.
   const bool mayAlarm = (steps_ + 1) % VehicleRig::kAlarmInterval == 0;
   if (!last && !mayAlarm) ahead_->launchNext();
+  ahead_->computeOnHost();
   ahead_->awaitLoads();
   vehicle_->collectLoads();
   vehicle_->advance();

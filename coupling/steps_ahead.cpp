@@ -32,6 +32,8 @@ void StepsAhead::begin() {
   begun_ = true;
 }
 
+void StepsAhead::computeOnHost() { vehicle_.stepContacts().computeOnHost(); }
+
 void StepsAhead::launchNext() {
   if (vehicle_.contacts().listsHold(true)) launch();
 }

@@ -9,9 +9,9 @@
 
 namespace grouser::coupling {
 
-/// Steps of a vehicle on grains whose work is launched before it is known where the vehicle will be. Walls and floor
-/// start at once; all else waits at a gate for the poses that the host is about to solve. So neither waits for a
-/// launch, and the same is computed as by Simulation::step().
+/// Steps of a vehicle on grains whose work is launched before it is known where the vehicle will be. Walls, floor and
+/// the contacts between grains start at once; all else waits at a gate for the poses that the host is about to solve.
+/// So neither waits for a launch, and the same is computed as by Simulation::step().
 ///
 /// On one GPU. Where a list of grains ends, or a grain is at fault, the device calls the next step off by itself; where
 /// a list of parts is about to end, the next step is not launched ahead. A part that is thrown out of its list within
@@ -29,6 +29,8 @@ public:
   void begin();
   /// Launches the next one, unless lists end before.
   void launchNext();
+  /// Computes the host contacts of this step while the device works.
+  void computeOnHost();
   void awaitLoads() { gate_.await(base::Gate::kFirst); }
   /// Waits for the grains. Throws as terrain::Grains::endStep().
   void end();
@@ -36,8 +38,8 @@ public:
   /// Whether the next step is under way: until it is over no list may be made, and nobody may wait for the device.
   bool nextIsLaunched() const { return launched_ > 0; }
   /// After an exception: waits for what is under way, and calls off what is not. Then the positions and velocities are
-  /// those of the step that has begun last, but walls and floor, and grains near them, may have taken part in the next
-  /// one: to be looked at, not to be stepped further.
+  /// those of the step that has begun last, but contact springs may be those of the next one: inspect this state, but
+  /// do not step it further.
   void callOff();
 
 private:

@@ -37,18 +37,24 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
   quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums are of one step only
   quanta_.area = base::fixedPointFor(1, 40);
   groundQuanta_ = {quanta_.force, quanta_.torque};
-  makeTrack();
+  makeTrack(parts.shapes());
   if (ground_) groundQuanta_ = ground_->meet({assembly_, parts_, quanta_, timeStep_, kGroundMargin, shoesAlone});
   makeObstacles(obstacles, kept);
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n + surfaces());
   if (obstacles_) std::copy(obstacles_->motions().begin(), obstacles_->motions().end(), motion_.host() + n);
-  // And the ground's own.
-  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n + 1 + (obstacles_ ? n + surfaces() : 0));
+  loadSums_ = base::Mirrored<contact::PartLoad>(exec_, 2 * n + 1);
+  gearLoads_.resize(gear_ ? n : 0);
+  groundLoads_.resize(traits_.onHost ? n + 1 : 0);
+  surfaceLoads_.resize(obstacles_ ? n + surfaces() : 0);
 }
 
-void VehicleContacts::makeTrack() {
+void VehicleContacts::makeTrack(bool shapes) {
   const vehicle::ContactSpec& spec = assembly_.spec.contact;
   const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionInside, spec.tangentialRatio};
+  if (shapes) {
+    gear_ = std::make_unique<ShapedGear>(assembly_, parts_, ShapedGear::Model{law, quanta_, timeStep_});
+    return;
+  }
   std::vector<contact::PartPair> pairs;
   for (const vehicle::PartPair& pair : assembly_.pairs)
     pairs.push_back({parts_.contactIndex(pair.shoe), parts_.contactIndex(pair.other)});
@@ -59,8 +65,8 @@ void VehicleContacts::makeTrack() {
 
 void VehicleContacts::makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept) {
   const bool hullTouches = parts_.contactIndex(0) >= 0; // the hull stands first among the parts
-  obstacles_ = ObstacleContacts::make(assembly_, parts_, obstacles, hullTouches ? traits_.hullMeets : nullptr, exec_,
-                                      {quanta_, timeStep_, kGroundMargin}, traits_.comm, kept);
+  obstacles_ = ObstacleContacts::make(assembly_, parts_, obstacles, hullTouches ? traits_.hullMeets : nullptr,
+                                      {quanta_, timeStep_}, traits_.comm, kept);
 }
 
 contact::PartMotion VehicleContacts::motionOf(std::size_t c, const multibody::State& state) const {
@@ -76,11 +82,12 @@ void VehicleContacts::setPoses(const multibody::State& state) {
 }
 
 /// Two parts approach each other at most as fast as both move relative to the hull.
-bool VehicleContacts::trackHasLeft() const { return 2 * relativeTravel_ > kTrackMargin; }
-bool VehicleContacts::groundHasLeft() const { return (onGround() || obstacles_) && absoluteTravel_ > kGroundMargin; }
+bool VehicleContacts::trackHasLeft() const { return track_ && 2 * relativeTravel_ > kTrackMargin; }
+bool VehicleContacts::groundHasLeft() const { return ground_ && !traits_.onHost && absoluteTravel_ > kGroundMargin; }
 
 void VehicleContacts::refreshLists(bool groundListsEnded) {
-  const bool trackIsDue = trackHasLeft(), groundIsDue = groundHasLeft() || (onGround() && groundListsEnded);
+  const bool trackIsDue = trackHasLeft(),
+             groundIsDue = groundHasLeft() || (ground_ && !traits_.onHost && groundListsEnded);
   if (!trackIsDue && !groundIsDue) return;
   ++listings_;
   motion_.upload();
@@ -90,36 +97,42 @@ void VehicleContacts::refreshLists(bool groundListsEnded) {
     relativeTravel_ = 0;
   }
   if (!groundIsDue) return;
-  if (ground_) ground_->refreshContacts(motion_.device());
-  if (obstacles_) obstacles_->refresh(motion_.device());
+  ground_->refreshContacts(motion_.device());
   absoluteTravel_ = 0;
 }
 
 void VehicleContacts::compute(StepObserver* observer) {
   noteTravel();
   if (observer) return computeInParts(*observer);
-  graph_.from(ground_ ? ground_->buffer() : nullptr).run([this] {
-    uploadPoses();
-    // Side by side: all write different parts of loadSums_, and read the same poses.
-    side_.fork();
-    computeGround(side_.exec());
-    computeTrack();
-    computeObstacles();
-    side_.join();
-    downloadLoads();
-  });
+  if (usesDevice())
+    graph_.from(ground_ ? ground_->buffer() : nullptr).run([this] {
+      uploadPoses();
+      // Side by side: both write different parts of loadSums_, and read the same poses.
+      side_.fork();
+      computeGround(side_.exec());
+      computeTrack();
+      side_.join();
+      downloadLoads();
+    });
+  computeOnHost();
 }
 
 /// The same one after another, without graph and side stream, so that an observer can time each.
 void VehicleContacts::computeInParts(StepObserver& observer) {
-  uploadPoses();
+  if (usesDevice()) uploadPoses();
   observer.after(Stage::posesUploaded);
   computeTrack();
+  computeGear();
   observer.after(Stage::trackContacts);
   computeGround(exec_);
-  computeObstacles();
+  computeRigid();
   observer.after(Stage::groundContacts);
-  downloadLoads();
+  if (usesDevice()) downloadLoads();
+}
+
+void VehicleContacts::computeOnHost() {
+  computeGear();
+  computeRigid();
 }
 
 /// Writes the travel into the pinned memory that uploadPoses() copies from. Not within the graph, whose host code runs
@@ -138,34 +151,45 @@ void VehicleContacts::downloadLoads() {
   base::carry(exec_, std::array{base::Parcel{loadSums_.host(), loadSums_.device().data(), loadSums_.bytes()}});
 }
 
-/// Shoes against sprocket, wheels, rollers, idler.
+/// Shoes against sprocket, wheels, rollers, idler: samples on the device.
 void VehicleContacts::computeTrack() {
+  if (!track_) return;
   traits_.replicated.run(
       [this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
 }
 
-/// All parts against the surfaces at rest, and the hull against rigid ground.
-void VehicleContacts::computeObstacles() {
-  if (!obstacles_) return;
-  traits_.replicated.run([this] {
-    obstacles_->compute(motion_.device(), travelled_.device().data() + 1, loadSums_.device().data() + obstacleLoads());
-  });
+/// Computes gear contacts from part shapes on the host.
+void VehicleContacts::computeGear() {
+  if (!gear_) return;
+  std::fill(gearLoads_.begin(), gearLoads_.end(), contact::PartLoad{});
+  traits_.replicated.run([this] { gear_->compute(motion_.host(), gearLoads_.data()); });
 }
 
 void VehicleContacts::computeGround(const base::Exec& exec) {
-  if (!ground_) return;
+  if (!ground_ || traits_.onHost) return;
   ground_->compute(exec, motion_.device(), travelled_.device().data() + 1,
                    loadSums_.device().data() + parts_.contactParts());
 }
 
+/// Computes contacts with rigid ground and fixed surfaces on the host, including those of the hull.
+void VehicleContacts::computeRigid() {
+  std::fill(groundLoads_.begin(), groundLoads_.end(), contact::PartLoad{});
+  std::fill(surfaceLoads_.begin(), surfaceLoads_.end(), contact::PartLoad{});
+  traits_.replicated.run([this] {
+    if (traits_.onHost) ground_->computeOnHost(motion_.host(), groundLoads_.data());
+    if (obstacles_) obstacles_->compute(motion_.host(), surfaceLoads_.data());
+  });
+}
+
 void VehicleContacts::collect(multibody::Loads& loads) {
   const std::size_t n = parts_.contactParts();
-  const contact::PartLoad *track = loadSums_.host(), *ground = loadSums_.host() + n;
-  const contact::PartLoad* surfaces = obstacles_ ? loadSums_.host() + obstacleLoads() : nullptr;
+  const contact::PartLoad* track = gear_ ? gearLoads_.data() : loadSums_.host();
+  const contact::PartLoad* surfaces = obstacles_ ? surfaceLoads_.data() : nullptr;
+  contact::PartLoad* const ground = groundLoads();
   // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
   constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
   static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
-  traits_.comm.sum(&(loadSums_.host() + n)->force.x, (n + 1) * kNumbers);
+  if (ground_ && !traits_.onHost) traits_.comm.sum(&ground->force.x, (n + 1) * kNumbers);
   if (ground_) ground_->collect(ground[n]);
   for (multibody::Wrench& wrench : loads.external) wrench = {};
   for (std::size_t c = 0; c < n; ++c) {
@@ -185,6 +209,10 @@ void VehicleContacts::collect(multibody::Loads& loads) {
   }
 }
 
+contact::PartLoad* VehicleContacts::groundLoads() {
+  return traits_.onHost ? groundLoads_.data() : loadSums_.host() + parts_.contactParts();
+}
+
 base::Vec3l VehicleContacts::inGroundQuanta(const base::Vec3l& force) const {
   return groundQuanta_.force.quantise(quanta_.force.value(force));
 }
@@ -192,8 +220,8 @@ base::Vec3l VehicleContacts::inGroundQuanta(const base::Vec3l& force) const {
 base::Vec3l VehicleContacts::groundForce(std::size_t index) const {
   const std::size_t n = parts_.contactParts();
   base::Vec3l force{};
-  if (index < n) force = (loadSums_.host() + n + index)->force;
-  if (obstacles_) force += inGroundQuanta((loadSums_.host() + obstacleLoads() + index)->force);
+  if (index < n) force = traits_.onHost ? groundLoads_[index].force : (loadSums_.host() + n + index)->force;
+  if (obstacles_) force += inGroundQuanta(surfaceLoads_[index].force);
   return force;
 }
 
@@ -217,29 +245,30 @@ void VehicleContacts::trackTravel(const multibody::State& state) {
 /// Ahead a part may go four times as far as in the step before.
 bool VehicleContacts::listsHold(bool ahead) const {
   if (!ahead) return !trackHasLeft() && !groundHasLeft();
-  return 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin &&
-         absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kGroundMargin;
+  const bool track = !track_ || 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin;
+  return track && absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kGroundMargin;
 }
 
 void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnVehicle& onGrains) {
   contact::GrainPartContacts& bed = onGrains.contacts();
   const base::Watch watch = grains.flagsBefore();
   contact::PartLoad *const track = loadSums_.device().data(), *const ground = track + parts_.contactParts();
-  grains.launchBoundaries();
+  grains.launchUncoupled();
   side_.fork();
-  gate.carryBefore(
-      side_.exec(), watch,
-      std::array{base::Parcel{track, nullptr, loadSums_.bytes()}, track_->clearedSums(), bed.clearedSums()});
+  gate.carryBefore(side_.exec(), watch,
+                   std::array{base::Parcel{track, nullptr, loadSums_.bytes()},
+                              track_ ? track_->clearedSums() : base::Parcel{}, bed.clearedSums()});
   gate.pass(exec_, watch,
             std::array{base::Parcel{motion_.device().data(), motion_.host(), motion_.bytes()},
                        base::Parcel{travelled_.device().data(), travelled_.host(), travelled_.bytes()}});
   side_.join();
   side_.fork();
-  track_->computeOnCleared(side_.exec(), motion_.device(), travelled_.device().data(), track, gate.calledOff());
+  if (track_)
+    track_->computeOnCleared(side_.exec(), motion_.device(), travelled_.device().data(), track, gate.calledOff());
   bed.computeOnCleared(exec_, grains.view(), motion_.device(), ground, gate.calledOff());
-  grains.launchGrains(onGrains.loads());
-  side_.fork(); // the loads are told when both are known, while the grains step
+  side_.fork(); // the host receives the loads while the grains advance
   gate.tell(side_.exec(), base::Gate::kFirst, std::array{base::Parcel{loadSums_.host(), track, loadSums_.bytes()}});
+  grains.launchGrains(onGrains.loads());
   side_.join();
   grains.joinGrains();
   gate.tell(exec_, base::Gate::kSecond, std::array{grains.flagsAfter()});
@@ -247,7 +276,7 @@ void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains
 
 ContactLedger VehicleContacts::ledger() const {
   ContactLedger ledger;
-  ledger.rigid = track_->ledger();
+  ledger.rigid = track_ ? track_->ledger() : gear_->ledger();
   if (ground_) ground_->addContactsTo(ledger);
   if (obstacles_) ledger.rigid += obstacles_->ledger();
   if (traits_.hasMomentum) {
@@ -259,13 +288,12 @@ ContactLedger VehicleContacts::ledger() const {
 
 ListedContacts VehicleContacts::listed() const {
   ListedContacts listed = ground_ ? ground_->listed() : ListedContacts{};
-  listed.samples += track_->samplesListed();
-  if (obstacles_) listed.samples += obstacles_->samplesListed();
+  if (track_) listed.samples += track_->samplesListed();
   return listed;
 }
 
 void VehicleContacts::save(VehicleState& s) const {
-  s.track = track_->save();
+  s.track = track_ ? track_->save() : gear_->save();
   if (ground_) ground_->saveContacts(s);
   if (obstacles_) s.surfaces = obstacles_->save();
   s.impulseOnParts = impulseOnParts_;
@@ -273,7 +301,10 @@ void VehicleContacts::save(VehicleState& s) const {
 }
 
 void VehicleContacts::restore(const VehicleState& s) {
-  track_->restore(s.track);
+  if (track_)
+    track_->restore(s.track);
+  else
+    gear_->restore(s.track);
   if (ground_) ground_->restoreContacts(s);
   if (obstacles_) obstacles_->restore(s.surfaces);
   impulseOnParts_ = s.impulseOnParts;

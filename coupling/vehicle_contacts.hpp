@@ -8,6 +8,7 @@
 #include "coupling/ground.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/obstacle_contacts.hpp"
+#include "coupling/shaped_gear.hpp"
 #include "coupling/step_observer.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "coupling/vehicle_state.hpp"
@@ -26,8 +27,9 @@ namespace grouser::coupling {
 class GrainsOnVehicle;
 
 /// What the parts of a vehicle touch: shoes the running gear, all parts the ground and the surfaces at rest of the
-/// scene. Computed on the device where there is one. On several ranks each computes its share of a ground that is
-/// divided among them; all else is done alike.
+/// scene. The device, if any, computes contacts with grains and, in the samples model, gear contacts. The host
+/// computes gear contacts from shapes and all contacts with rigid surfaces at the same time. A ground that is divided
+/// among MPI ranks is computed in parts; every rank repeats all other contacts.
 class VehicleContacts {
 public:
   /// `assembly`, `parts` and `ground` outlive it. `ground`: meets the parts; null where the vehicle hangs.
@@ -41,7 +43,8 @@ public:
   void setPoses(const multibody::State& state);
   /// `groundListsEnded`: as Ground::refreshLists() returned.
   void refreshLists(bool groundListsEnded);
-  /// Queues the contacts on the device, without waiting. `observer`: called after each kind of contacts.
+  /// Queues the contacts on the device, without waiting, and computes those of the host. `observer`: called after each
+  /// kind of contacts.
   void compute(StepObserver* observer);
   /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them.
   void collect(multibody::Loads& loads);
@@ -54,6 +57,8 @@ public:
   void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnVehicle& onGrains);
   /// Before the gate opens: what the device reads beside the poses.
   void noteTravel();
+  /// After the gate opens: computes the host contacts.
+  void computeOnHost();
   /// For the poses last set; `ahead`: for those of the next step too, unless a part is thrown.
   bool listsHold(bool ahead = false) const;
   std::int64_t listings() const { return listings_; }
@@ -76,7 +81,7 @@ public:
 private:
   friend std::vector<spheredecomp::CutReport> obstacleReports(const VehicleContacts& contacts);
 
-  void makeTrack();
+  void makeTrack(bool shapes);
   void makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept);
   contact::PartMotion motionOf(std::size_t contactPart, const multibody::State& state) const;
 
@@ -87,12 +92,13 @@ private:
   void computeInParts(StepObserver& observer);
   void uploadPoses();
   void computeTrack();
-  void computeObstacles();
+  void computeGear();
   void computeGround(const base::Exec& exec);
-  /// Of all contact parts, then of the surfaces.
-  std::size_t obstacleLoads() const { return 2 * parts_.contactParts() + 1; }
+  void computeRigid();
+  bool usesDevice() const { return track_ || (ground_ && !traits_.onHost); }
   base::Vec3l inGroundQuanta(const base::Vec3l& force) const;
   void downloadLoads();
+  contact::PartLoad* groundLoads(); ///< of all contact parts, and the ground's own
 
   const vehicle::Assembly& assembly_;
   const VehicleParts& parts_;
@@ -107,9 +113,14 @@ private:
   LoadQuanta groundQuanta_;
   base::Mirrored<contact::PartMotion> motion_; ///< of the contact parts, then of the surfaces, which rest
   base::Mirrored<double> travelled_; ///< relative and absolute travel since the lists were made [m], for the device
-  /// Of all contact parts: from the track, then from the ground; behind these see obstacleLoads().
+  /// Loads from the device: gear loads of all contact parts, then their ground loads, then the load on the ground.
   base::Mirrored<contact::PartLoad> loadSums_;
-  std::unique_ptr<contact::PartPartContacts> track_;
+  // Loads from the host.
+  std::vector<contact::PartLoad> gearLoads_;         ///< [contact part] from shapes
+  std::vector<contact::PartLoad> groundLoads_;       ///< [contact part], then the load on the ground
+  std::vector<contact::PartLoad> surfaceLoads_;      ///< [contact part], then [surface]
+  std::unique_ptr<contact::PartPartContacts> track_; ///< by samples; null where `gear_` has shapes
+  std::unique_ptr<ShapedGear> gear_;
   std::unique_ptr<ObstacleContacts> obstacles_;
   static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
   double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};

@@ -3,6 +3,7 @@
 
 #include "contact/part_surface.hpp"
 #include "spheredecomp/mesh.hpp"
+#include "vehicle/shoe_points.hpp"
 
 #include <fmt/format.h>
 
@@ -15,14 +16,15 @@ namespace grouser::coupling {
 using base::Vec3d;
 
 VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup& setup, const base::Comm& comm,
-                           SphereSets* kept, double smallestGrain)
-    : contactIndex_(assembly.parts.size(), -1) {
+                           SphereSets* kept, double smallestGrain, bool shapesAlone)
+    : contactIndex_(assembly.parts.size(), -1), spec_(assembly.spec), shapes_(setup.shapes),
+      pointSpacing_(std::min(setup.sphereRadius, 0.05 * spec_.shoe.pitch) / setup.sphereRefinement) {
   std::map<std::string, std::size_t> indexOf;
   std::vector<std::size_t> touching; // meshes that are to be cut
   std::vector<std::size_t> hulls;    // parts
   for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
     const vehicle::Part& part = assembly.parts[p];
-    const bool isHull = part.kind == vehicle::PartKind::kChassis, touches = setup.hullTouches || !isHull;
+    const bool isHull = part.kind == vehicle::PartKind::kChassis, touches = isHull ? setup.hullTouches : !shapesAlone;
     const auto [at, fresh] = indexOf.emplace(part.mesh, meshes_.size());
     if (fresh) {
       meshes_.push_back(
@@ -42,9 +44,13 @@ VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup
     for (const std::size_t hull : hulls) addContactPart(hull);
   cut(touching, hulls.empty() ? meshes_.size() : meshOfPart_[hulls.front()], setup,
       std::min(contactSize(assembly.spec), smallestGrain), kept, comm);
-  for (std::size_t c = 0; c < contactParts_.size(); ++c)
-    reach_.push_back(contact::enclosingRadius(sets_[meshOfPart_[partOf(c)]]) +
-                     norm(assembly.parts[partOf(c)].pose_B.position));
+  for (std::size_t c = 0; c < contactParts_.size(); ++c) {
+    const std::size_t mesh = meshOfPart_[partOf(c)];
+    double reach = contact::enclosingRadius(sets_[mesh]);
+    if (sets_[mesh].spheres.empty())
+      for (const Vec3d& v : meshes_[mesh].vertices) reach = std::max(reach, norm(v));
+    reach_.push_back(reach + norm(assembly.parts[partOf(c)].pose_B.position));
+  }
 }
 
 void VehicleParts::addContactPart(std::size_t part) {
@@ -96,6 +102,18 @@ std::vector<int> VehicleParts::setOfContactPart() const {
   std::vector<int> sets;
   for (std::size_t c = 0; c < contactParts_.size(); ++c) sets.push_back(static_cast<int>(meshOfPart_[partOf(c)]));
   return sets;
+}
+
+std::vector<contact::PointTree> VehicleParts::points(const std::vector<terrain::RigidContacts::Pair>& pairs) const {
+  std::vector<contact::PointTree> points(sets_.size());
+  for (const terrain::RigidContacts::Pair& pair : pairs) {
+    const std::size_t part = partOf(static_cast<std::size_t>(pair.part)), set = meshOfPart_[part];
+    if (!points[set].nodes().empty()) continue;
+    const bool byShapes = shapes_ && setFigures_[set].mesh == spec_.shoe.mesh;
+    points[set] = contact::PointTree(byShapes ? vehicle::shoePoints(spec_, pointSpacing_)
+                                              : contact::surfaceSamplesOf(sets_[set]));
+  }
+  return points;
 }
 
 std::size_t VehicleParts::totalSpheres() const {

@@ -5,6 +5,7 @@
 #include "base/sphere_set.hpp"
 #include "coupling/sphere_sets.hpp"
 #include "coupling/vehicle_setup.hpp"
+#include "terrain/rigid_contacts.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <cstddef>
@@ -18,10 +19,10 @@ namespace grouser::coupling {
 class VehicleParts {
 public:
   /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets come from; null: all are cut.
-  /// `smallestGrain`: radius of the smallest grain that touches them [m]; infinity without. Throws InputError where a
-  /// mesh is of no use.
+  /// `smallestGrain`: radius of the smallest grain that touches them [m]; infinity without. `shapesAlone`: nothing
+  /// touches the parts by spheres but the hull, so that no other is cut. Throws InputError where a mesh is of no use.
   VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup& setup, const base::Comm& comm, SphereSets* kept,
-               double smallestGrain);
+               double smallestGrain, bool shapesAlone);
 
   /// Smallest feature at which a vehicle's parts, ground and obstacles meet each other [m]: a quarter of a pitch.
   static double contactSize(const vehicle::VehicleSpec& spec) { return 0.25 * spec.shoe.pitch; }
@@ -50,6 +51,10 @@ public:
   std::vector<const base::SphereSet*> sets() const;
   /// [contact part] its place among the sets.
   std::vector<int> setOfContactPart() const;
+  /// Returns true if gear contacts use part shapes instead of mesh samples.
+  bool shapes() const { return shapes_; }
+  /// Returns the surface points of the parts in `pairs` for contact with rigid surfaces, indexed by set.
+  std::vector<contact::PointTree> points(const std::vector<terrain::RigidContacts::Pair>& pairs) const;
 
 private:
   void addContactPart(std::size_t part);
@@ -59,11 +64,14 @@ private:
 
   std::vector<base::TriangleMesh> meshes_;
   std::vector<std::size_t> meshOfPart_;
-  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for a hull that touches nothing
+  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for what touches nothing by them
   std::vector<SetFigures> setFigures_;
   std::vector<spheredecomp::CutReport> cutReports_;
   std::vector<int> contactParts_, contactIndex_;
   std::vector<double> reach_;
+  vehicle::VehicleSpec spec_;
+  bool shapes_;
+  double pointSpacing_; ///< between points of shapes [m]
 };
 
 } // namespace grouser::coupling

@@ -33,6 +33,12 @@ vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<doubl
 
 GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() : GroundTraits{}; }
 
+/// Returns true if contacts need spheres of the hull only.
+bool shapesAlone(const SimulationSetup& setup) {
+  const GroundSetup& ground = setup.ground;
+  return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty();
+}
+
 /// So much that no shoe stands in the ground, and no part in an obstacle.
 double liftFor(const SimulationSetup& setup, const Ground* ground, const VehicleParts& parts,
                const std::function<double(double, double)>& surfaceHeight) {
@@ -100,7 +106,8 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
       gravity_(setup.gravity), area_(setup.ground.area), surfaceHeight_(surfaceHeight),
       replicated_(traitsOf(ground).replicated),
       parts_(std::make_unique<VehicleParts>(assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle,
-                                            traitsOf(ground).comm, kept, traitsOf(ground).smallestGrain)),
+                                            traitsOf(ground).comm, kept, traitsOf(ground).smallestGrain,
+                                            shapesAlone(setup))),
       lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),

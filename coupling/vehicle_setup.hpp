@@ -43,6 +43,7 @@ struct VehicleSetup {
   double sphereRadius{};      ///< of the parts' sphere sets [m]
   bool sphereRadiusGiven{};   ///< by the scene; else it may become finer
   double sphereRefinement{1}; ///< [-] divides all radii and what automatic ones permit
+  bool shapes{};              ///< gear contacts use spec.shapes, which must exist
   bool soilMeetsShoesAlone{}; ///< and no other part
   bool hullTouches{};         ///< ground, grains and obstacles
   double hullSphereRadius{};  ///< of its set then [m]

@@ -4,8 +4,8 @@
 
 #include "terrain/boundary_contacts.cuh"
 #include "terrain/detail/kernel_lists.hpp"
+#include "terrain/grain_halves.cuh"
 #include "terrain/grain_simd.hpp"
-#include "terrain/grain_step.cuh"
 #include "terrain/kernel_choice.hpp"
 
 #include <stdexcept>
@@ -20,12 +20,21 @@ namespace {
 
 template <unsigned... kSets> struct KernelList {};
 
-template <std::size_t... kPlace>
-KernelList<detail::kStepKernels[kPlace]..., kGeneral> stepKernels(std::index_sequence<kPlace...>);
-template <std::size_t... kPlace>
-KernelList<detail::kBoundaryKernels[kPlace]..., kGeneral> boundaryKernels(std::index_sequence<kPlace...>);
-using StepKernels = decltype(stepKernels(std::make_index_sequence<detail::kStepKernels.size()>{}));
-using BoundaryKernels = decltype(boundaryKernels(std::make_index_sequence<detail::kBoundaryKernels.size()>{}));
+template <const auto& kList, std::size_t... kPlace>
+KernelList<kList[kPlace]..., kGeneral> kernelsIn(std::index_sequence<kPlace...>);
+/// The kernels of a list, and the general one.
+template <const auto& kList> using KernelsOf = decltype(kernelsIn<kList>(std::make_index_sequence<kList.size()>{}));
+
+/// Calls run<kSet>() for the set of features that is `wanted`.
+template <unsigned... kSets, class Run> void runChosen(KernelList<kSets...>, unsigned wanted, const Run& run) {
+  const bool found = ((kSets == wanted && (run.template operator()<kSets>(), true)) || ...);
+  if (!found) throw std::logic_error("no kernel of grains is compiled for the features that were chosen");
+}
+
+/// Items of a loop over `count` grains whose energies are accounted.
+template <class Body> std::int64_t itemsOf(const base::Exec& exec, std::int64_t count) {
+  return exec.onCpu() ? (count + Booked<Body>::kOnCpu - 1) / Booked<Body>::kOnCpu : count;
+}
 
 /// A kernel that keeps books where there are some. On a CPU a thread takes several grains before it adds to the books
 /// that all share.
@@ -38,20 +47,22 @@ void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
   if constexpr (detail::withoutBooks(kSet, kOfStep))
     if (!d.books) return base::forEach(exec, name, count, body);
   if constexpr (detail::withBooks(kSet, kOfStep))
-    if (d.books) {
-      const std::int64_t items = exec.onCpu() ? (count + Booked<Body>::kOnCpu - 1) / Booked<Body>::kOnCpu : count;
-      return base::forEachLooped(exec, name, items, Booked<Body>{body, count});
-    }
+    if (d.books) return base::forEachLooped(exec, name, itemsOf<Body>(exec, count), Booked<Body>{body, count});
   throw std::logic_error("a kernel of grains was chosen that is not compiled for scenes with, or without, books");
 }
 
-template <template <unsigned, class> class Kernel, unsigned... kSets>
-void runChosen(KernelList<kSets...>, const KernelChoice& choice, const base::Exec& exec, const char* name,
-               const GrainKernelData& d, const ForceData<float>& f, std::int64_t count) {
-  const auto runIf = [&]<unsigned kSet>() {
-    if (choice.compiledFor == kSet) runBody<Kernel, kSet>(exec, name, d, f, count);
-  };
-  (runIf.template operator()<kSets>(), ...);
+// Only GPU runs split steps. On a CPU the general kernels are compiled for tests.
+#if defined(__CUDACC__)
+using GatherKernels = KernelsOf<detail::kGatherKernels>;
+using AdvanceKernels = KernelsOf<detail::kAdvanceKernels>;
+#else
+using GatherKernels = KernelList<kGeneral>;
+using AdvanceKernels = KernelList<kGeneral>;
+#endif
+
+/// The kernel of one half of a split step, which depends on the features `of`.
+unsigned halfOf(const base::Exec& exec, const KernelChoice& step, unsigned of) {
+  return step.general() || exec.onCpu() ? kGeneral : step.compiledFor & of;
 }
 
 } // namespace
@@ -60,11 +71,31 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
                               std::int64_t count, const GrainModel& model) {
   const KernelChoice choice = stepKernel(d.features, model);
   if (exec.onCpu() && choice.lanes > 1) return runGrainSimd(exec, d, f, count, choice.lanes);
-  runChosen<GrainStep>(StepKernels{}, choice, exec, "grain step", d, f, count);
+  runChosen(KernelsOf<detail::kStepKernels>{}, choice.compiledFor,
+            [&]<unsigned kSet>() { runBody<GrainStep, kSet>(exec, "grain step", d, f, count); });
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                               std::int64_t count, const GrainModel&) {
   runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count); // in double no other is compiled
+}
+
+void gatherGrainContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
+                         const GrainModel& model) {
+  const KernelChoice step = stepKernel(d.features | kLoads, model);
+  runChosen(GatherKernels{}, halfOf(exec, step, detail::kAtGather), [&]<unsigned kSet>() {
+    base::forEach(exec, "gather contacts of grains", d.count, GatherContacts<kSet>{{{d, f}}});
+  });
+}
+
+void advanceGatheredGrains(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
+                           const GrainModel& model) {
+  const KernelChoice step = stepKernel(d.features, model);
+  runChosen(AdvanceKernels{}, halfOf(exec, step, detail::kAtAdvance), [&]<unsigned kSet>() {
+    using Body = AdvanceGathered<kSet>;
+    const Body body{{{d, f}}};
+    if (!d.books) return base::forEach(exec, "advance grains", d.count, body);
+    base::forEach(exec, "advance grains", itemsOf<Body>(exec, d.count), Booked<Body>{body, d.count});
+  });
 }
 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
@@ -72,7 +103,8 @@ template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelDa
   const KernelChoice choice = boundaryKernel(d.features, model);
   // The lanes do not look at the flags of the step before.
   if (exec.onCpu() && choice.lanes > 1 && !d.former) return runWallSimd(exec, d, f, near, choice.lanes);
-  runChosen<BoundaryContacts>(BoundaryKernels{}, choice, exec, "boundary contacts", d, f, near);
+  runChosen(KernelsOf<detail::kBoundaryKernels>{}, choice.compiledFor,
+            [&]<unsigned kSet>() { runBody<BoundaryContacts, kSet>(exec, "boundary contacts", d, f, near); });
 }
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                                      std::int64_t near, const GrainModel&) {

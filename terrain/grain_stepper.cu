@@ -12,7 +12,7 @@
 namespace grouser::terrain {
 
 GrainStepper::GrainStepper(const base::Exec& exec)
-    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true), aside_(exec) {
+    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true), gathering_(exec), aside_(exec) {
   std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
 }
@@ -84,16 +84,32 @@ GrainStepper::Launch GrainStepper::ahead(GrainSystem& system, const contact::Gra
   return {system, loads, place, 1 - place};
 }
 
-void GrainStepper::launchBoundaries(GrainSystem& system) {
+/// Large beds are not split: their contact kernel occupies the device while the vehicle's kernels wait. On one H100 the
+/// split shortens a step of 18,752 grains by 16 % and one of 284,715 grains by 5 %, but lengthens one of 747,873 grains
+/// by 20 %.
+void GrainStepper::beginLaunchingAhead(GrainSystem& system) {
+  constexpr std::size_t kMostLinear = 300000, kMostHertz = 150000; // a Hertz contact takes about twice as long
+  const std::size_t most = system.constants.has(contact::kHertz) ? kMostHertz : kMostLinear;
+  if (system.constants.model.precision == Precision::single && system.present() <= most) system.arrays.keepGathered();
+}
+
+void GrainStepper::launchUncoupled(GrainSystem& system) {
+  const Launch step = ahead(system, nullptr);
   aside_.fork();
-  computeBoundaryContacts(aside_.exec(), ahead(system, nullptr));
+  computeBoundaryContacts(aside_.exec(), step);
+  if (!splits(system)) return;
+  gathering_.fork();
+  gatherGrainContacts(gathering_.exec(), kernelData(step), system.forceData<float>(), system.constants.model);
 }
 
 void GrainStepper::launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads) {
+  const Launch step = ahead(system, &loads);
+  if (splits(system)) gathering_.join();
   aside_.fork();
+  if (splits(system))
+    return advanceGatheredGrains(aside_.exec(), kernelData(step), system.forceData<float>(), system.constants.model);
   base::Exec exec = aside_.exec();
   exec.leavesRoom = true;
-  const Launch step = ahead(system, &loads);
   if (system.constants.model.precision == Precision::single)
     advanceGrains<float>(exec, step, nullptr);
   else

@@ -6,22 +6,23 @@
 namespace grouser::terrain {
 
 /// Steps of grains that are launched before their loads are known; coupling::StepsAhead has them wait. What
-/// flagsBefore(), launchBoundaries(), launchGrains(), joinGrains() and flagsAfter() give makes up one step and may be
+/// flagsBefore(), launchUncoupled(), launchGrains(), joinGrains() and flagsAfter() give makes up one step and may be
 /// recorded; exchangeBuffers() comes after its launch, end() once its flags have been carried to the host. While one is
 /// under way the next one may be launched, and nothing else be done with the grains but view().
 class GrainsAhead {
 public:
   /// `grains` outlive it.
-  explicit GrainsAhead(Grains& grains) : grains_(grains) {}
+  explicit GrainsAhead(Grains& grains) : grains_(grains) { grains_.stepper_.beginLaunchingAhead(grains_.system_); }
   /// On one GPU, without moving surfaces.
   static bool canLaunch(const Grains& grains) { return grains.stepper_.canLaunchAhead(grains.system_); }
 
   contact::GrainsView view() const { return grains_.view(); }
   /// Raised by the step before: then this one does nothing.
   base::Watch flagsBefore() const { return grains_.stepper_.flagsBefore(grains_.system_); }
-  /// Walls and floor, beside whatever is queued before joinGrains().
-  void launchBoundaries() { grains_.stepper_.launchBoundaries(grains_.system_); }
-  /// The grains' step, behind all that is queued so far, beside whatever is queued before joinGrains().
+  /// Launches the work that does not depend on loads. It runs concurrently with what is queued before launchGrains().
+  void launchUncoupled() { grains_.stepper_.launchUncoupled(grains_.system_); }
+  /// Launches the rest of the grains' step after all that is queued so far. It runs concurrently with what is queued
+  /// before joinGrains(). The queue waits for the work of launchUncoupled().
   void launchGrains(const contact::GrainLoadsView& loads) { grains_.stepper_.launchGrains(grains_.system_, loads); }
   void joinGrains() { grains_.stepper_.joinGrains(); }
   /// To be carried to the host behind it.

@@ -115,8 +115,8 @@ HeightField::HeightField(const Rectangle& area, int columns, int rows, std::vect
     throw InputError(fmt::format("height field: the height of node column {}, row {} is {}; it must be finite",
                                  index % columns, index / columns, *bad));
   }
-  if (interpolation != Interpolation::smooth && isPlane(heights_, columns, rows))
-    interpolation_ = Interpolation::smooth;
+  isPlane_ = terrain::isPlane(heights_, columns, rows);
+  if (isPlane_) interpolation_ = Interpolation::smooth;
   if (interpolation_ == Interpolation::monotone) slopes_ = monotoneSlopes(heights_, columns, rows);
   bounds_ = boundsOver(area);
 }

@@ -234,6 +234,7 @@ public:
   int rows() const { return rows_; }
   const std::vector<double>& heights() const { return heights_; }
   Interpolation interpolation() const { return interpolation_; }    ///< smooth where all nodes lie in a plane
+  bool isPlane() const { return isPlane_; }                         ///< true if all nodes lie in one plane
   const std::vector<NodeSlopes>& slopes() const { return slopes_; } ///< empty unless monotone
   const HeightFieldBounds& bounds() const { return bounds_; }
   /// Bounds of one cell.
@@ -249,6 +250,7 @@ private:
   int columns_, rows_;
   std::vector<double> heights_;
   Interpolation interpolation_;
+  bool isPlane_;
   std::vector<NodeSlopes> slopes_;
   HeightFieldBounds bounds_;
 };

@@ -3,6 +3,7 @@
 
 #include "base/enum_words.hpp"
 #include "base/vec.hpp"
+#include "vehicle/gear_shapes.hpp"
 
 #include <optional>
 #include <string>
@@ -128,6 +129,7 @@ struct VehicleSpec {
   IdlerSpec idler;
   ContactSpec contact;
   std::optional<EngineSpec> engine; ///< where the file has one
+  std::optional<GearShapes> shapes; ///< where the file has them
 
   /// Of the sprocket: in front where the idler lies behind it.
   bool sprocketInFront() const { return idler.x < 0; }

@@ -66,7 +66,7 @@ base::Document documentOf(const SpecSource& source) {
 /// Reads the sections one by one.
 VehicleSpec readSections(const base::Section& root) {
   root.allowOnly({"version", "vehicle", "chassis", "shoe", "sprocket", "road_wheel", "arm", "roller", "idler",
-                  "contact", "engine"});
+                  "contact", "engine", "shapes"});
   VehicleSpec spec = root.section("vehicle").read(vehicleTable());
   spec.chassis = root.section("chassis").read(chassisTable());
   spec.shoe = root.section("shoe").read(shoeTable());
@@ -74,6 +74,7 @@ VehicleSpec readSections(const base::Section& root) {
   spec.roadWheel = root.section("road_wheel").read(roadWheelTable());
   spec.arm = root.section("arm").read(armTable());
   if (root.has("engine")) spec.engine = root.section("engine").read(engineTable());
+  if (root.has("shapes")) spec.shapes = root.section("shapes").read(shapesTable());
   if (root.has("roller")) spec.roller = root.section("roller").read(rollerTable());
   spec.idler = root.section("idler").read(idlerTable());
   spec.contact = root.section("contact").read(contactTable());
@@ -113,8 +114,9 @@ void refuseMesh(const SpecSource& source, const std::string& section, const std:
 
 std::vector<SpecSection> specSections() {
   const auto of = [](const auto& table) { return SpecSection{table.name(), table.fields()}; };
-  return {of(vehicleTable()), of(chassisTable()), of(shoeTable()),  of(sprocketTable()), of(roadWheelTable()),
-          of(armTable()),     of(rollerTable()),  of(idlerTable()), of(contactTable()),  of(engineTable())};
+  return {of(vehicleTable()),   of(chassisTable()), of(shoeTable()),   of(sprocketTable()),
+          of(roadWheelTable()), of(armTable()),     of(rollerTable()), of(idlerTable()),
+          of(contactTable()),   of(engineTable()),  of(shapesTable())};
 }
 
 std::vector<std::string> specKeys(const std::string& before) {
@@ -129,9 +131,9 @@ std::string specFieldHelp() {
 
 The file that `vehicle.spec` of a scene names. A scene, `--set` and sweeps can change each key for a run, with `spec.`
 before it: `[spec.shoe]` with `pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`. The file begins with
-`version = 1`; all sections but [roller] and [engine] are required. SI units, angles in radians. Axes: x forward, y
-left, z up; origin: the middle of the sprockets' axle line. The two tracks are alike. Inertia is about a part's centre
-of mass, along the axes of its frame.
+`version = 1`; all sections but [roller], [engine] and [shapes] are required. SI units, angles in radians. Axes: x
+forward, y left, z up; origin: the middle of the sprockets' axle line. The two tracks are alike. Inertia is about a
+part's centre of mass, along the axes of its frame.
 
 A mesh is closed, its triangles face outward, its vertices are in metres in the frame of its part:
 
@@ -141,11 +143,11 @@ A mesh is closed, its triangles face outward, its vertices are in metres in the 
 - sprocket, road wheel, roller, idler: origin on the axle, y along it; gap k of the sprocket at the angle
   2 pi k / teeth from +x towards +z, so deep that pins seat at the radius pitch / (2 sin(pi / teeth)).
 )";
-  const std::string tables[] = {base::describe(vehicleTable()),   base::describe(chassisTable()),
-                                base::describe(shoeTable()),      base::describe(sprocketTable()),
-                                base::describe(roadWheelTable()), base::describe(armTable()),
-                                base::describe(rollerTable()),    base::describe(idlerTable()),
-                                base::describe(contactTable()),   base::describe(engineTable())};
+  const std::string tables[] = {
+      base::describe(vehicleTable()),  base::describe(chassisTable()),   base::describe(shoeTable()),
+      base::describe(sprocketTable()), base::describe(roadWheelTable()), base::describe(armTable()),
+      base::describe(rollerTable()),   base::describe(idlerTable()),     base::describe(contactTable()),
+      base::describe(engineTable()),   base::describe(shapesTable())};
   for (const std::string& table : tables) text.append("\n").append(table);
   return text;
 }

@@ -181,6 +181,55 @@ Table<EngineSpec> engineTable() {
   return t;
 }
 
+Table<GearShapes> shapesTable() {
+  Table<GearShapes> t("shapes",
+                      "Dimensions of the running gear for the shape contact model; without this section contacts use "
+                      "samples of the meshes. All parts are symmetric about y = 0");
+  const auto add = [&t](const char* key, double GearShapes::*length, const char* help) {
+    t.add(key, length, "m", help).above(0).atMost(2).required();
+  };
+  add("plate_inner", &GearShapes::plateInner, "shoe: inner edges of the wheel plates, at +-y");
+  add("plate_outer", &GearShapes::plateOuter, "shoe: outer edges of the wheel plates, at +-y");
+  add("horn_length", &GearShapes::hornLength, "shoe: length of the guide horn (x) at plate height");
+  add("horn_width", &GearShapes::hornWidth, "shoe: width of the guide horn (y) at plate height");
+  add("horn_tip_length", &GearShapes::hornTipLength, "shoe: length of the guide horn (x) at its tip");
+  add("horn_tip_width", &GearShapes::hornTipWidth, "shoe: width of the guide horn (y) at its tip");
+  add("boss_radius", &GearShapes::bossRadius,
+      "shoe: radius of the bosses about the pins (x = pitch / 2), which mesh with the sprocket");
+  add("boss_inner", &GearShapes::bossInner, "shoe: inner faces of the bosses, at +-y");
+  add("boss_outer", &GearShapes::bossOuter, "shoe: outer faces of the bosses, at +-y");
+  t.add("pad_top", &GearShapes::padTop, "m", "shoe: height of the upper face of the pad, beside the plates")
+      .atLeast(-0.5)
+      .atMost(0.2)
+      .required();
+  t.add("grouser_x", &GearShapes::grouserX, "m", "shoe: position of the grousers, at +-x; 0: one in the middle")
+      .atLeast(0)
+      .atMost(0.5)
+      .required();
+  add("grouser_width", &GearShapes::grouserWidth, "shoe: width of a grouser (x)");
+  t.add("chamfer", &GearShapes::chamfer, "m", "shoe: chamfer of the lower edges of pad and grousers, at 45 degrees")
+      .atLeast(0)
+      .atMost(0.1)
+      .required();
+  add("disc_inner", &GearShapes::discInner, "wheels, rollers, idler: inner sides of the two discs, at +-y");
+  add("disc_outer", &GearShapes::discOuter, "wheels, rollers, idler: outer sides of the two discs, at +-y");
+  t.add("disc_chamfer", &GearShapes::discChamfer, "m",
+        "wheels, rollers, idler: chamfer of the disc edges, at 45 degrees")
+      .atLeast(0)
+      .atMost(0.1)
+      .required();
+  add("ring_inner", &GearShapes::ringInner, "sprocket: inner sides of the two toothed rings, at +-y");
+  add("ring_outer", &GearShapes::ringOuter, "sprocket: outer sides of the two toothed rings, at +-y");
+  add("seat_radius", &GearShapes::seatRadius, "sprocket: radius of the seat, the arc that holds a boss");
+  t.add("seat_half_angle", &GearShapes::seatHalfAngle, "rad", "sprocket: half angle of the seat, from its bottom")
+      .above(0)
+      .below(base::kPi / 2)
+      .required();
+  add("flank_radius", &GearShapes::flankRadius, "sprocket: radius of the convex tooth flanks, tangent to the seat");
+  add("tip_radius", &GearShapes::tipRadius, "sprocket: radius of the tooth tips, from the axle");
+  return t;
+}
+
 Table<ContactSpec> contactTable() {
   Table<ContactSpec> t("contact", "Part against part, and part against rigid ground");
   t.add("foundation_modulus", &ContactSpec::foundationModulus, "N/m3", "force = modulus x sum of area x overlap")

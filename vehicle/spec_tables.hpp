@@ -17,5 +17,6 @@ base::Table<RollerSpec> rollerTable();
 base::Table<IdlerSpec> idlerTable();
 base::Table<ContactSpec> contactTable();
 base::Table<EngineSpec> engineTable();
+base::Table<GearShapes> shapesTable();
 
 } // namespace grouser::vehicle

@@ -25,7 +25,6 @@
 #include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
 #include "runs/setup/scene_surfaces.hpp"
-#include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_surroundings.hpp"
 #include "runs/storage/bed_cache.hpp"
 #include "terrain/kernel_choice.hpp"
@@ -272,27 +271,9 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   for (const support::SoilUse& use : scene::soilUses(scene))
     text += fmt::format("  {:<24} {}\n", "soil", scene::soilLine(use));
   text += pairsText(scene);
-  text += "\ntime\n";
-  const double contact = setup::shortestContact(scene);
-  const double resolved = contact / scene.run.stepsPerContact;
-  if (contact > 0) {
-    text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
-    text += fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved,
-                        scene.run.stepsPerContact);
-  }
-  const double steps = std::round(scene.run.duration / step);
-  if (scene.run.tolerance) {
-    text += fmt::format("  {:<24} as the error allows, {:g} m or rad a second\n", "time step", *scene.run.tolerance);
-  } else {
-    text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
-                        contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
-    text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
-  }
-  if (grains) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * static_cast<double>(grains));
-  if (contact > 0 && step > resolved * 1.0000001)
-    text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
-                        contact / step, base::roundedDown(resolved, 4));
-  if (const double calm = setup::stepLimit(scene).calm; grains && scene.mechanism.empty() && step > calm)
+  const setup::StepLimit limit = setup::stepLimit(scene);
+  text += timeText(scene, limit, step, static_cast<double>(grains));
+  if (const double calm = limit.calm; grains && scene.mechanism.empty() && step > calm)
     text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
                         "(docs/step_limits.md)\n",
                         base::roundedDown(calm, 4));

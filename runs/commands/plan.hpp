@@ -3,6 +3,7 @@
 
 #include "runs/campaigns/forecast/counted_grains.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/step_limit.hpp"
 
 #include <cstdint>
 #include <string>
@@ -20,6 +21,10 @@ std::string switchesText(const scene::Scene& scene);
 /// A part of it: every pair of materials that can meet, with the values that act between them, and a note where a value
 /// of one material does nothing. Empty where nothing can touch.
 std::string pairsText(const scene::Scene& scene);
+
+/// A part of it: shortest contact, time step, number of steps, and the stable steps of a vehicle's own contacts.
+/// `step` of the run [s]; `grains`: how many.
+std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, double step, double grains);
 
 /// How `ranks` ranks would share the scene's grains: lattice, ghosts, memory, messages. Empty for a scene without
 /// grains.

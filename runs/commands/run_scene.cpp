@@ -101,8 +101,12 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
   const std::string sets = kept.spheres ? kept.spheres->summary(simulation.comm()) : "";
   if (!sets.empty()) fmt::print("spheres   {}\n", sets);
   if (const coupling::VehicleRig* rig = simulation.vehicle()) {
-    fmt::print("vehicle   {:.0f} kg, {} bodies, {} spheres ({} unique sets)\n", rig->assembly().mass,
-               rig->assembly().model.bodies().size(), rig->parts().totalSpheres(), rig->parts().setFigures().size());
+    const auto isCut = [](const coupling::VehicleParts::SetFigures& f) { return f.spheres > 0; };
+    const std::vector<coupling::VehicleParts::SetFigures>& figures = rig->parts().setFigures();
+    fmt::print("vehicle   {:.0f} kg, {} bodies, running gear touches by {}, {} spheres ({} of {} meshes)\n",
+               rig->assembly().mass, rig->assembly().model.bodies().size(),
+               rig->parts().shapes() ? "shapes" : "samples", rig->parts().totalSpheres(),
+               std::count_if(figures.begin(), figures.end(), isCut), figures.size());
     if (simulation.ground().grains && simulation.setup().vehicle->soilMeetsShoesAlone)
       fmt::print(
           "soil      meets the shoes alone (vehicle.soil_meets): wheels, sprocket, rollers and idler pass through "

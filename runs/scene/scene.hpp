@@ -6,6 +6,7 @@
 #include "runs/scene/choices.hpp"
 #include "runs/scene/mechanism_structs.hpp"
 #include "runs/scene/surface_structs.hpp"
+#include "vehicle/gear_shapes.hpp"
 #include "vehicle/spec_source.hpp"
 
 #include <array>
@@ -180,8 +181,9 @@ struct Vehicle {
   Tracks tracks = Tracks::both;
   SoilMeets soilMeets = SoilMeets::all;   ///< which parts grains touch
   std::vector<vehicle::SpecKey> specKeys; ///< [spec.SECTION]: keys of the vehicle file with other values
-  std::optional<double> hullSphereRadius; ///< [m]; empty: 0.02, or sphereRadius where that is more
-  std::optional<bool> hullTouches;        ///< ground, grains and obstacles; empty: see setup::hullTouches()
+  std::optional<vehicle::GearContactModel> gearContactModel; ///< empty: by shapes where the vehicle file has them
+  std::optional<double> hullSphereRadius;                    ///< [m]; empty: 0.02, or sphereRadius where that is more
+  std::optional<bool> hullTouches; ///< ground, grains and obstacles; empty: see setup::hullTouches()
   bool operator==(const Vehicle&) const = default;
 
   vehicle::SpecSource source() const { return {spec, specKeys}; }

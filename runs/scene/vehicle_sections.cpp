@@ -68,6 +68,10 @@ Table<Vehicle> vehicleTable() {
         "parts that grains touch: all (the hull if hull_touches), or the shoes alone, so that no grain is pinched by "
         "sprocket, wheels, "
         "rollers or idler, which pass through those that lie on the track; named in all results");
+  t.add("gear_contact_model", &S::gearContactModel, "",
+        "contact geometry of shoes with wheels, sprocket, rigid ground and obstacles: \"shapes\", the dimensions in "
+        "[shapes] of the vehicle file; \"samples\", points on the meshes; \"auto\": shapes if the file has them")
+      .orWord("auto");
   t.add("hull_sphere_radius", &S::hullSphereRadius, "m",
         "of the hull's sphere set, where it touches something; \"auto\": 0.02, or sphere_radius where that is more")
       .above(0)

@@ -11,6 +11,7 @@
 #include "vehicle/hull_clearance.hpp"
 #include "vehicle/part_masses.hpp"
 #include "vehicle/part_meshes.hpp"
+#include "vehicle/shape_check.hpp"
 #include "vehicle/spec_file.hpp"
 #include "vehicle/wrap.hpp"
 
@@ -145,6 +146,9 @@ void checkParts(const scene::Scene& scene) {
   }
   for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})
     if (const std::optional<vehicle::SpecFault> fault = faultOf(spec, meshes))
+      vehicle::refuse(scene.vehicle->source(), *fault);
+  if (scene.vehicle->gearContactModel != vehicle::GearContactModel::samples)
+    if (const std::optional<vehicle::SpecFault> fault = vehicle::shapeFault(spec, meshes))
       vehicle::refuse(scene.vehicle->source(), *fault);
 }
 

@@ -36,6 +36,7 @@ void consider(StepLimit& limit, double stiffness, double damping, const std::str
               const std::string& remedy = "lower its stiffness") {
   if (stiffness <= 0 && damping <= 0) return;
   const double step = contact::stableStepOfMode(stiffness, damping);
+  limit.vehicle.push_back({step, what});
   if (step < limit.step) limit.step = step, limit.what = what, limit.remedy = remedy;
 }
 void considerCalm(StepLimit& limit, double stiffness, double damping) {
@@ -193,6 +194,7 @@ StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const 
     considerModes(limit, c);
   }
   considerFreeSurfaces(limit, scene, pairs);
+  limit.vehicle.clear();
   if (!scene.vehicle) return limit;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   considerVehicle(limit, spec), considerPressedShoe(limit, scene, spec);

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace grouser::setup {
 
@@ -20,12 +21,18 @@ inline constexpr double kRayleighShare = 0.2;
 
 /// Steps [s] that a scene bears; infinite where nothing limits them.
 struct StepLimit {
+  /// The limit that one kind of contact sets.
+  struct Bound {
+    double step;      ///< [s]
+    std::string what; ///< "shoe on rigid ground under a road wheel"
+  };
   double step = std::numeric_limits<double>::infinity(); ///< up to which no contact gives energy; a run takes no longer
   std::string what;                                      ///< gives energy beyond it: "grain on the floor"
   std::string remedy;                                    ///< "lower its stiffness"
   /// Up to which every motion decays that sticking contacts make together. Between the two, strong dashpots let grains
   /// at rest tremble, by as much as Coulomb's limit and forces that only push allow.
   double calm = std::numeric_limits<double>::infinity();
+  std::vector<Bound> vehicle; ///< limits that contacts of the vehicle with itself and with rigid ground set
 };
 
 /// Both limits from the contacts that grains and vehicle can have, a function of the scene alone:

@@ -83,6 +83,13 @@ coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
         "driver", "drive",
         "wants engines, and the vehicle file has none; give it a section [engine] (grouser fields --vehicle), or "
         "set \"speed\" or \"torque\"");
+  const bool shapesAsked = v.gearContactModel == vehicle::GearContactModel::shapes;
+  if (shapesAsked && !setup.spec.shapes)
+    scene.fail(
+        "vehicle", "gear_contact_model",
+        "requires a section [shapes] in the vehicle file, which has none (grouser fields --vehicle); add it, or set "
+        "\"samples\"");
+  setup.shapes = setup.spec.shapes && v.gearContactModel != vehicle::GearContactModel::samples;
   setup.place = placeVehicle(scene, setup.spec);
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
   setup.fixChassis = v.chassis == scene::ChassisMount::fixed;

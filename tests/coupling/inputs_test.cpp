@@ -38,6 +38,8 @@ TEST(Inputs, TheHashIsOfWhatActsInWhateverOrderItWasSet) {
   other.set(speed(0, 1, 7)), other.set(speed(3, 1, 2)), other.set(speed(3, 0, 1));
   EXPECT_EQ(one.words(), other.words());
   EXPECT_TRUE(none.words().empty());
+  other.set(speed(3, 0, 1.5));
+  EXPECT_NE(one.words(), other.words()) << "another speed";
   other.set({4, InputKind::sprocketSpeed, 0, true, {}}), other.set({4, InputKind::sprocketSpeed, 1, true, {}});
   EXPECT_TRUE(other.words().empty());
 }

@@ -150,7 +150,7 @@ class Process(FolderTest):
 
     def test_a_step_leaves_the_interpreter_to_other_threads_but_not_the_simulation(self):
         with grouser.Simulation(vehicle_scene(), threads=1) as sim:
-            thread = threading.Thread(target=sim.step, args=(600,))
+            thread = threading.Thread(target=sim.step, args=(5000,))
             thread.start()
             time.sleep(0.05)
             counted, refused = 0, None
@@ -240,6 +240,9 @@ class Process(FolderTest):
                 self.assertRaisesRegex(TypeError, words, call)
             with self.assertRaises(AttributeError):
                 sim.sprocket_speed = 3
+        scene = vehicle_scene()
+        scene["vehicle.gear_contact_model"] = "samples"  # its shoes are cut into spheres
+        with grouser.Simulation(scene, threads=1) as sim:
             self.assertIn("shoe.obj", sim.warnings[0])
         with self.assertRaisesRegex(grouser.InputError, "threads = -1"):
             grouser.Simulation(vehicle_scene(), threads=-1)

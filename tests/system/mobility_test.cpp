@@ -18,7 +18,7 @@ namespace {
 
 /// Hash of tests/scenes/coupled.toml: the vehicle on 4,992 grains after 2,000 steps. A change of it is a change of
 /// the physics or of its order of operations, and needs a stated reason in the commit.
-constexpr const char* kCoupledHash = "c40810d81e727f93";
+constexpr const char* kCoupledHash = "a730de5cca96dbe3";
 
 void quiet(double, double) {}
 
@@ -180,7 +180,7 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
       setup::simulationSetup(setup::loadScene(testScene("rigid.toml"), {"vehicle.sphere_radius=0.03"})), testExec(),
       quiet, {}, nullptr, sharedSpheres());
   const double omega = 2, begin = 0.5;
-  const Drive d = drive(simulation, 3.0);
+  const Drive d = drive(simulation, 6.0);
   const vehicle::VehicleSpec& spec = simulation.vehicle()->assembly().spec;
 
   // Static overlap: the ground carries the weight on grousers as an elastic foundation, a fraction of a millimetre.
@@ -199,8 +199,8 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
   double sum = 0;
   int n = 0;
   for (std::size_t i = 0; i < d.time.size(); ++i)
-    if (d.time[i] > 2.0) sum += d.speed[i], ++n;
-  EXPECT_NEAR(sum / n / (omega * spec.pitchRadius()), 1, 0.01);
+    if (d.time[i] > 3.0) sum += d.speed[i], ++n; // it swings for two seconds
+  EXPECT_NEAR(sum / n / (omega * spec.pitchRadius()), 1, 0.004);
 
   const Line line = slopeOnGround(d, fourShoes(d, begin), begin);
   std::printf("rigid: heights within %.3f mm, speed %.4f of omega r, slope %.3g +- %.2g m/s\n",

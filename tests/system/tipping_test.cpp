@@ -44,21 +44,6 @@ Simulation standingOn(double angle) {
       setup::simulationSetup(leaning(angle)), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
 
-/// Across the middle of the right track's shoes, of the outermost of the spheres on which they stand [m].
-double padEdge(const Simulation& simulation) {
-  const VehicleRig& rig = *simulation.vehicle();
-  const vehicle::Track& track = rig.assembly().tracks.back();
-  const int shoe = rig.parts().contactIndex(track.shoeParts.front());
-  const auto set = static_cast<std::size_t>(rig.parts().setOfContactPart()[static_cast<std::size_t>(shoe)]);
-  const std::vector<base::SetSphere>& spheres = rig.parts().sets()[set]->spheres;
-  const auto under = [](const base::SetSphere& s) { return s.centre.z - s.radius; };
-  double lowest = 1e9, edge = 0;
-  for (const base::SetSphere& s : spheres) lowest = std::min(lowest, under(s));
-  for (const base::SetSphere& s : spheres)
-    if (under(s) < lowest + 1e-4) edge = std::max(edge, std::fabs(s.centre.y) + s.flat);
-  return edge;
-}
-
 /// Slope [rad] on which it tips over the right track's pads, as drawn. Its wheels lift off the left track's ground run,
 /// whose shoes lie on the ground until the track is taut: these do not hold it down.
 double tippingAngle(const Simulation& simulation) {
@@ -78,7 +63,7 @@ double tippingAngle(const Simulation& simulation) {
   for (const int shoe : left.shoes)
     if (at(shoe).z < low + 1e-3) add(shoe, -1), ++loose;
   centre = centre * (1 / mass);
-  const double edge = assembly.spec.trackOffset + padEdge(simulation);
+  const double edge = assembly.spec.trackOffset + assembly.spec.shoe.padHalfWidth;
   std::printf("%d shoes loose, edge at %.4f m, middle of the mass %.4f m beside the middle and %.4f m high\n", loose,
               edge, centre.y, centre.z);
   return std::atan((edge + centre.y) / centre.z);

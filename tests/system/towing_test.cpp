@@ -105,7 +105,7 @@ TEST(Towing, ASledPullsWithItsFriction) {
 
 /// The grip ends where the ramp has come to friction times weight.
 TEST(Towing, ARampStopsTheVehicleAtItsFriction) {
-  Simulation simulation = begin(sceneWith("kind = \"ramp\"\nforce = 36e3\nrate = 10e3\n", 1));
+  Simulation simulation = begin(sceneWith("kind = \"ramp\"\nforce = 25e3\nrate = 10e3\n", 1));
   const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
   const auto speed = [&] { return simulation.vehicle()->state().twist[0].v.x; };
   constexpr double kRate = 10e3; // [N/s]

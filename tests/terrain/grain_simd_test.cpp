@@ -5,6 +5,7 @@
 
 #include "base/carry.hpp"
 #include "base/random.hpp"
+#include "terrain/grain_faults.hpp"
 #include "terrain/grains_ahead.hpp"
 #include "terrain/kernel_choice.hpp"
 
@@ -100,7 +101,7 @@ struct Pushes {
 /// As a step that is launched ahead.
 void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
   GrainsAhead ahead(grains);
-  ahead.launchBoundaries();
+  ahead.launchUncoupled();
   ahead.launchGrains(loads);
   ahead.joinGrains();
   base::carry(base::cpuExec(1), std::array{ahead.flagsAfter()});
@@ -146,8 +147,24 @@ std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threa
 }
 
 TEST(GrainsLaunchedAhead, StepToTheSameBits) {
-  for (const LaneKind& kind : {LaneKind{.loads = true}, LaneKind{.loads = true, .fixed = true}})
-    EXPECT_EQ(wordsAfter(kind, 1, 2, 150, 0.5, true), wordsAfter(kind, 1, 2, 150));
+  std::vector<LaneKind> kinds = {{.loads = true}};
+  for (const bool soil : {false, true}) {
+    LaneKind kind{.loads = true};
+    kind.fixed = true;
+    if (soil) kind.hertz = kind.rolling = kind.cohesive = kind.yielding = true, kind.smallest = 0.6;
+    kinds.push_back(kind);
+  }
+  for (const LaneKind& kind : kinds) EXPECT_EQ(wordsAfter(kind, 1, 2, 150, 0.5, true), wordsAfter(kind, 1, 2, 150));
+}
+
+TEST(GrainsLaunchedAhead, DeepOverlapIsAFault) {
+  const GrainModel m = laneModel({});
+  GrainSpec lower, upper;
+  upper.position = {0, 0, (2 - 1.5 * m.maxOverlap) * m.radius};
+  Grains grains(base::cpuExec(1), m, {}, {lower, upper});
+  grains.refreshNeighbours();
+  Pushes pushes;
+  EXPECT_THROW(stepApart(grains, pushes.view(grains, 0)), GrainFault);
 }
 
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {

@@ -76,7 +76,7 @@ base::Cause causeIn(const RunManifest& manifest) {
   return base::valueOf<base::Cause>(manifest.text("cause")).value_or(base::Cause::unknown);
 }
 
-/// Waits for a run that is still ending in this folder: one of a sweep that was killed writes a checkpoint first.
+/// Waits until no run writes in this folder: the runs of a killed sweep still write their checkpoints.
 void awaitFormer(const fs::path& folder) {
   constexpr auto kPatience = std::chrono::seconds(60);
   constexpr auto kLook = std::chrono::milliseconds(20);
@@ -119,7 +119,7 @@ public:
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       const bool anew =
           options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
-      const RunStatus former = anew ? RunStatus::pending : statusOf(folder(i), plan.runs[i]);
+      const RunStatus former = anew ? RunStatus::pending : statusAtEnd(i);
       if (former == RunStatus::finished) {
         outcomes_[i].status = RunStatus::finished;
         progress_.note(fmt::format("{} finished already", title(i)));
@@ -183,6 +183,13 @@ private:
   const fs::path& fileOf(std::size_t i) const { return plan_.runs[i].file.empty() ? plan_.scene : plan_.runs[i].file; }
   std::string title(std::size_t i) const {
     return fmt::format("run {} of {}  {:<28}", i + 1, plan_.runs.size(), plan_.runs[i].name);
+  }
+  /// The status of a run of an earlier sweep. Waits for runs of a killed sweep, which still write their checkpoints.
+  RunStatus statusAtEnd(std::size_t i) const {
+    const RunStatus now = statusOf(folder(i), plan_.runs[i]);
+    if (now != RunStatus::running) return now;
+    awaitFormer(folder(i));
+    return statusOf(folder(i), plan_.runs[i]);
   }
   bool isLate() const {
     return options_.seconds > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() > options_.seconds;

@@ -5,6 +5,7 @@
 #include "base/math.hpp"
 #include "runs/campaigns/forecast/elastic_layer.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/step_limit.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -43,6 +44,20 @@ TEST(PlanValues, VehicleIsWeighedAndMeasured) {
   const std::string plan = planText(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml"));
   EXPECT_EQ(after(plan, "vehicle"), "5018 kg, 2 x 46 shoes, pitch radius 0.2451 m");
   EXPECT_EQ(after(plan, "steps"), "40000 for 4 s");
+}
+
+TEST(PlanValues, StableStepsOfAVehicleAreSorted) {
+  const scene::Scene scene = setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml");
+  const std::string plan = planText(scene);
+  const std::size_t at = plan.find("  stable steps of the vehicle\n"), first = plan.find('\n', at) + 1;
+  ASSERT_NE(at, std::string::npos);
+  const std::string line = plan.substr(first, plan.find('\n', first) - first);
+  const setup::StepLimit limit = setup::stepLimit(scene);
+  EXPECT_NE(line.find(limit.what), std::string::npos) << line;
+  EXPECT_NEAR(std::stod(line.substr(line.find_last_of(' ', line.size() - 3))), limit.step, 1e-2 * limit.step);
+  for (const char* contact :
+       {"idler that turns on ", "road wheel of ", "roller of ", "joints, torsion bars, tensioner"})
+    EXPECT_NE(plan.find(contact, at), std::string::npos) << contact;
 }
 
 TEST(PlanValues, DepthOfTheBedIsToldByAnElasticLayerUnderTheTracks) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Calls that are stopped: the last line is the command that goes on, and it does; half-done runs go on from their
 // checkpoints, to the same bits.
+#include "runs/support/file_lock.hpp"
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <filesystem>
+#include <future>
 #include <string>
 
 namespace grouser::commands {
@@ -17,9 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A grain that falls and bounces, 5e4 steps.
+/// A grain that falls and bounces, 5e5 steps: more than a second, so that a signal comes before its end on a busy
+/// machine too.
 constexpr const char* kFall =
-    "version = 1\n[run]\nduration = 0.5\ntime_step = 1e-5\noutput_interval = 1e-3\nthreads = 1\n[material.glass]\n"
+    "version = 1\n[run]\nduration = 0.5\ntime_step = 1e-6\noutput_interval = 1e-3\nthreads = 1\n[material.glass]\n"
     "[[grain]]\nposition = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n[[plane]]\npoint = [0, 0, 0.98]\n"
     "material = \"glass\"\n[output]\nplots = false\npicture = false\nframes = false\n";
 
@@ -89,6 +93,27 @@ TEST_F(StoppedCall, OfASweepThatWasKilledGoesOnByTheSameCommand) {
   const Outcome on = call(words); // its run gets a SIGTERM, and writes a checkpoint
   ASSERT_EQ(on.code, 0) << on.errors << on.out;
   EXPECT_NE(on.out.find("goes on from its checkpoint"), std::string::npos) << on.out;
+}
+
+TEST_F(StoppedCall, OfASweepWaitsForTheCheckpointOfARunThatIsStillEnding) {
+  const std::string words = "sweep fall.toml --set run.seed=1 --out s";
+  ASSERT_EQ(stop(words, "TERM", "[ -s s/seed=1/timeseries.csv ]").code, 143);
+  const fs::path run = folder_ / "s/seed=1", checkpoint = run / "checkpoint.h5", aside = folder_ / "aside.h5";
+  const nlohmann::json stopped = manifest("s/seed=1");
+  nlohmann::json running = stopped;
+  running["status"] = "running";
+  fs::rename(checkpoint, aside);
+  put(run / "manifest.json", running.dump());
+  support::FileLock lock; // as the run itself holds until it has ended
+  ASSERT_TRUE(lock.take(run));
+  std::future<Outcome> on = std::async(std::launch::async, [&] { return call(words); });
+  EXPECT_EQ(on.wait_for(std::chrono::seconds(1)), std::future_status::timeout);
+  fs::rename(aside, checkpoint);
+  put(run / "manifest.json", stopped.dump());
+  lock.release();
+  const Outcome ended = on.get();
+  ASSERT_EQ(ended.code, 0) << ended.errors << ended.out;
+  EXPECT_NE(ended.out.find("goes on from its checkpoint"), std::string::npos) << ended.out;
 }
 
 TEST_F(StoppedCall, WithADamagedCheckpointBeginsThatRunAnew) {

@@ -2,37 +2,39 @@
 // Files of grains: what is a grain's line is read to the last digit, and what is none is one error with its place.
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
+#include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace grouser::scene {
 namespace {
 
-const std::string kFile = ::testing::TempDir() + "/table_of_grains.csv";
-
-std::vector<Grain> read(const std::string& text) {
-  std::ofstream(kFile, std::ios::binary) << text;
-  GrainFill fill;
-  fill.velocity = {0, 0, -1};
-  return readGrainFile(kFile, fill);
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    read(text);
-  } catch (const base::InputError& e) {
-    return e.what();
+class GrainFile : public test::FolderTest {
+protected:
+  std::string file() const { return (folder_ / "table_of_grains.csv").string(); }
+  std::vector<Grain> read(const std::string& text) const {
+    test::put(file(), text);
+    GrainFill fill;
+    fill.velocity = {0, 0, -1};
+    return readGrainFile(file(), fill);
   }
-  return "";
-}
+  std::string refusal(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const base::InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
 
 const Grain kMoving{{0.1, -0.2, 0.3}, {1, 2, 3}, {4, 5, 6}, 0.01, "", false};
 
-TEST(GrainFile, EverySeparatorAndLineEndGivesTheSameGrain) {
+TEST_F(GrainFile, EverySeparatorAndLineEndGivesTheSameGrain) {
   const char* withUnits = "\xEF\xBB\xBFX [m], Y [m], Z [m], radius [m], vx [m/s], vy [m/s], vz [m/s], wx [rad/s], "
                           "wy [rad/s], wz [rad/s]\n0.1,-0.2,0.3,0.01,1,2,3,4,5,6\n";
   for (const char* text :
@@ -50,7 +52,7 @@ TEST(GrainFile, EverySeparatorAndLineEndGivesTheSameGrain) {
   }
 }
 
-TEST(GrainFile, AllLinesHaveOneWidth) {
+TEST_F(GrainFile, AllLinesHaveOneWidth) {
   EXPECT_EQ(read("0,0,0,0.1\r1,0,0,0.1\r\n").at(1).velocity, (base::Vec3d{0, 0, -1})) << "that of the scene";
   EXPECT_EQ(read("0,0,0,0.1,4,5,6\n1 0 0 0.1 1 2 3\n").at(1).velocity, (base::Vec3d{1, 2, 3}));
   EXPECT_EQ(read("2 0 0 0.1 1 2 3 4 5 6\n").at(0).spin, (base::Vec3d{4, 5, 6}));
@@ -59,7 +61,7 @@ TEST(GrainFile, AllLinesHaveOneWidth) {
     EXPECT_NE(refusal(text).find("give all lines as many"), std::string::npos) << refusal(text);
 }
 
-TEST(GrainFile, EmptyFieldIsAnErrorAtItsColumnAndShiftsNothing) {
+TEST_F(GrainFile, EmptyFieldIsAnErrorAtItsColumnAndShiftsNothing) {
   // Skipped, the first made a grain of seven numbers, another a radius of what stands behind it.
   const std::pair<const char*, const char*> empty[] = {{"0.1,0.2,0.3,0.01,,,,1,2,3", ":1:18: column 5 is empty"},
                                                        {"0.1,0.2,,0.3,0.02", ":1:9: column 3 is empty"},
@@ -73,10 +75,10 @@ TEST(GrainFile, EmptyFieldIsAnErrorAtItsColumnAndShiftsNothing) {
                                                        {"\t\t\t0 0 0 0.1", ":1:2: column 1 is empty"},
                                                        {"x,y,,r\n0,0,0,1", ":1:5: column 3 is empty"}};
   for (const auto& [text, place] : empty)
-    EXPECT_NE(refusal(text).find(kFile + place), std::string::npos) << refusal(text);
+    EXPECT_NE(refusal(text).find(file() + place), std::string::npos) << refusal(text);
 }
 
-TEST(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
+TEST_F(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
   const std::pair<const char*, const char*> wrong[] = {
       {"0,0,nan,0.1", ":1:5: column 3, z = nan [m] is not finite"},
       {"inf 0 0 0.1", ":1:1: column 1, x = inf [m] is not finite"},
@@ -106,7 +108,7 @@ TEST(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
   for (const auto& [text, place] : wrong) EXPECT_NE(refusal(text).find(place), std::string::npos) << refusal(text);
 }
 
-TEST(GrainFile, HeaderIsCheckedForNamesUnitsAndItsNumberOfColumns) {
+TEST_F(GrainFile, HeaderIsCheckedForNamesUnitsAndItsNumberOfColumns) {
   const std::pair<const char*, const char*> wrong[] = {
       {"x [m],y [m],z [m],r [mm]\n0,0,0,10\n", ":1:19: column 4 of the header is in [mm], expected [m]; convert"},
       {"x,y,z,diameter\n0,0,0,1\n", ":1:7: column 4 of the header is \"diameter\", expected \"r [m]\""},
@@ -122,7 +124,7 @@ TEST(GrainFile, HeaderIsCheckedForNamesUnitsAndItsNumberOfColumns) {
   for (const auto& [text, place] : wrong) EXPECT_NE(refusal(text).find(place), std::string::npos) << refusal(text);
 }
 
-TEST(GrainFile, WhatIsNoTextIsRefused) {
+TEST_F(GrainFile, WhatIsNoTextIsRefused) {
   for (const std::string& text : {std::string("\xFF\xFE"
                                               "0\0,\0",
                                               6),
@@ -131,8 +133,8 @@ TEST(GrainFile, WhatIsNoTextIsRefused) {
                                               4),
                                   std::string("0,0,0\0,1", 8)})
     EXPECT_NE(refusal(text).find("is not plain text"), std::string::npos) << refusal(text);
-  EXPECT_THROW(readGrainFile(::testing::TempDir(), {}), base::InputError) << "a folder";
-  EXPECT_THROW(readGrainFile(kFile + "x", {}), base::InputError) << "nothing";
+  EXPECT_THROW(readGrainFile(folder_.string(), {}), base::InputError) << "a folder";
+  EXPECT_THROW(readGrainFile(file() + "x", {}), base::InputError) << "nothing";
 }
 
 } // namespace

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/point_tree.hpp"
+
+#include <vector>
+
+namespace grouser::contact {
+
+/// Parameters that all points of one part share while they touch one fixed surface. Vectors are in the part frame;
+/// moments refer to its origin.
+struct PointPress {
+  const PatchLaw& law;
+  double timeStep;               ///< [s]
+  RelativeMotion<double> motion; ///< of the part
+};
+
+/// Adds the contact pressure of a block's points. `normal`: outward unit normals of the surface; `overlap` [m].
+void pressBlock(const PointBlock& block, const PointPress& press, const Vec3P& normal, const PointLanes& overlap,
+                PressureLanes& sums);
+PatchPressure sumOf(const PressureLanes& sums);
+
+/// Returns the contact pressure of several blocks of points on the plane normal . x = height.
+PatchPressure pressOnPlane(const std::vector<const PointBlock*>& blocks, const PointPress& press,
+                           const base::Vec3d& normal, double height);
+
+} // namespace grouser::contact

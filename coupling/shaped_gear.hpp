@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/gear_surfaces.hpp"
+#include "contact/host_patches.hpp"
+#include "coupling/vehicle_parts.hpp"
+#include "vehicle/assembly.hpp"
+
+#include <array>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// Contacts within the running gear, computed from part shapes (vehicle::GearShapes): plates on wheel rims, horns
+/// against disc sides, bosses in sprocket gaps. Runs on the host. There are no contact lists; each step finds the shoes
+/// near a wheel from their positions.
+class ShapedGear {
+public:
+  struct Model {
+    contact::PatchLaw law;
+    contact::PatchQuanta quanta;
+    double timeStep{};
+  };
+  /// `assembly`, whose spec has shapes, outlives it.
+  ShapedGear(const vehicle::Assembly& assembly, const VehicleParts& parts, const Model& model);
+
+  /// Adds this step's loads, opposite ones to shoe and wheel.
+  void compute(const contact::PartMotion* motion, contact::PartLoad* loads);
+
+  contact::PatchBuffers::Ledger ledger() const { return patches_.ledger(); }
+  contact::SavedPatches save() const { return patches_.save(); }
+  void restore(const contact::SavedPatches& saved) { patches_.restore(saved); }
+
+private:
+  /// Patch indices of one shoe with one wheel or sprocket.
+  enum Patch { kPlates = 0, kHornSides = 2, kHornTip = 4, kBosses = 0, kPatches = 6 };
+  struct Wheel {
+    int part;      ///< contact part
+    double radius; ///< [m]; of a sprocket that of its tips
+    bool isSprocket;
+  };
+  struct Track {
+    std::vector<int> shoes;  ///< contact parts
+    std::vector<Wheel> gear; ///< in the order of the assembly's parts
+    std::size_t firstPair{}; ///< its place among the assembly's pairs
+  };
+  /// A shoe near a wheel, with the geometry of the current step.
+  struct Near {
+    const contact::PartMotion &shoe, &wheel;
+    int shoePart;
+    const Wheel& of;
+    std::size_t patches;
+    base::Vec3d x, y, z;      ///< axes of the shoe
+    base::Vec3d origin, axle; ///< of their frames, from the shoe's centre of mass
+    base::Vec3d axis;         ///< of the wheel
+    contact::RelativeMotion<double> motion;
+  };
+
+  Near nearby(const contact::PartMotion* motion, int shoe, const Wheel& wheel, std::size_t patches) const;
+  void meetWheel(const Near& near);
+  void meetPlate(const Near& near, double level, double halfLength, double from, double to, int patch);
+  void meetHorn(const Near& near, double side, int patch);
+  void meetSprocket(const Near& near);
+  void pressRims();
+
+  contact::PatchLaw law_;
+  vehicle::GearShapes shapes_;
+  double halfLength_, plateTop_, hornHeight_, pin_;
+  contact::GapProfile gap_;
+  std::vector<Track> tracks_;
+  contact::HostPatches patches_;
+
+  // Scratch data of one step.
+  const contact::PartMotion* motion_{nullptr};
+  contact::PartLoad* loads_{nullptr};
+  contact::RimsOnPlates rims_{};
+  struct Rim {
+    std::size_t patch;
+    int shoe, wheel;
+  };
+  std::array<Rim, contact::kPointLanes> rimOf_{};
+  std::size_t rimCount_{0};
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/rounded.hpp"
+#include "runs/commands/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::commands {
+
+namespace {
+
+/// Stable steps of the vehicle's own contacts, the shortest first.
+std::string boundsText(const setup::StepLimit& limit) {
+  std::vector<setup::StepLimit::Bound> bounds = limit.vehicle;
+  std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.step < b.step; });
+  const auto line = [](const std::string& what, const std::string& step) {
+    return fmt::format("    {:<42} {}\n", what, step);
+  };
+  std::string text = "  stable steps of the vehicle\n";
+  for (const setup::StepLimit::Bound& b : bounds) text += line(b.what, base::roundedDown(b.step, 3) + " s");
+  return text + line("joints, torsion bars, tensioner", "any step (implicit)");
+}
+
+} // namespace
+
+std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, double step, double grains) {
+  std::string text = "\ntime\n";
+  const double contact = setup::shortestContact(scene);
+  const double resolved = contact / scene.run.stepsPerContact;
+  if (contact > 0) {
+    text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
+    text += fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved,
+                        scene.run.stepsPerContact);
+  }
+  const double steps = std::round(scene.run.duration / step);
+  if (scene.run.tolerance) {
+    text += fmt::format("  {:<24} as the error allows, {:g} m or rad a second\n", "time step", *scene.run.tolerance);
+  } else {
+    text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
+                        contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
+    text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
+  }
+  if (scene.vehicle) text += boundsText(limit);
+  if (grains > 0) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * grains);
+  if (contact > 0 && step > resolved * 1.0000001)
+    text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
+                        contact / step, base::roundedDown(resolved, 4));
+  return text;
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/host_patches.hpp"
+#include "contact/part_surface.hpp"
+#include "contact/point_tree.hpp"
+#include "terrain/faces_in_part.hpp"
+#include "terrain/foot_lanes.hpp"
+#include "terrain/height_field_cells.hpp"
+#include "terrain/rigid_surface.hpp"
+#include "terrain/searched_height_field.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace grouser::terrain {
+
+/// Contacts of rigid parts with fixed rigid surfaces: height-field, planes, boxes, cylinders, meshes. Surface points of
+/// the part press on an elastic foundation. Runs on the host in SIMD lanes of eight points, without contact lists.
+class RigidContacts {
+public:
+  /// A surface. Its pose is stored with the motions of the parts.
+  struct Surface {
+    enum class Kind { shape, mesh, field };
+    Kind kind{};
+    SurfaceGeometry geometry; ///< of a shape
+    int set{-1};              ///< of a mesh: its sphere set
+    int motion{-1};           ///< index of its motion and load; -1: a height-field whose load is not needed
+    double friction{};        ///< [-] against all parts
+  };
+  /// A part that may touch a surface.
+  struct Pair {
+    int part{}, surface{};
+  };
+  struct Model {
+    contact::PatchLaw law; ///< but for its friction
+    contact::PatchQuanta quanta;
+    double timeStep{};
+  };
+  /// `points`: by set; `setOfPart`: which one each part has; `meshes`: sphere sets of meshes, by Surface::set; `field`:
+  /// null where no surface is one.
+  RigidContacts(const Model& model, std::vector<contact::PointTree> points, const std::vector<int>& setOfPart,
+                const std::vector<Surface>& surfaces, const std::vector<Pair>& pairs,
+                const std::vector<const base::SphereSet*>& meshes, const HeightField* field);
+
+  /// Adds the loads of this step to parts and, with opposite sign, to surfaces.
+  void compute(const contact::PartMotion* motion, contact::PartLoad* loads);
+
+  contact::PatchBuffers::Ledger ledger() const { return patches_.ledger(); }
+  contact::SavedPatches save() const { return patches_.save(); }
+  void restore(const contact::SavedPatches& saved) { patches_.restore(saved); }
+
+private:
+  struct Press;
+  const contact::PointTree& treeOf(int part) const {
+    return points_[static_cast<std::size_t>(setOfPart_[static_cast<std::size_t>(part)])];
+  }
+  void press(std::size_t pair, const contact::PartMotion* motion, contact::PartLoad* loads);
+  void pressNodes(Press& press, std::uint32_t from, std::uint32_t to) const;
+  void pressBlock(Press& press, const contact::PointBlock& block) const;
+  void pressOnPlane(Press& press, const Plane& plane, std::uint32_t from, std::uint32_t to) const;
+  bool mayTouch(const Press& press, const contact::PointTree::Node& node, std::optional<Plane>& plane) const;
+  bool mayTouch(const Surface& surface, const contact::PartMotion* motion, const base::Vec3d& x, double radius) const;
+  bool touches(const Surface& surface, const contact::PartMotion* motion, const base::Vec3d& x, double radius,
+               base::Vec3d& normal, double& overlap) const;
+  bool gapsOf(const contact::PointBlock& block, const Surface& surface, const contact::PartMotion* motion,
+              const contact::PartMotion& part, contact::Vec3P& normal, contact::PointLanes& overlap) const;
+  std::optional<Plane> planeOf(const Surface& surface, const contact::PartMotion* motion,
+                               const contact::PartMotion& part) const;
+
+  Model model_;
+  std::vector<contact::PointTree> points_;
+  std::vector<int> setOfPart_;
+  std::vector<Surface> surfaces_;
+  std::vector<Pair> pairs_;
+  std::vector<contact::SurfaceGrid> grids_; ///< by set of meshes
+  SearchedHeightField field_;
+  HeightFieldCells cells_;
+  FootLanes feet_;
+  std::optional<Plane> fieldPlane_; ///< if the whole height-field is planar
+  contact::HostPatches patches_;
+  std::vector<const contact::PointBlock*> touched_; ///< scratch of one step
+};
+
+} // namespace grouser::terrain
