@@ -46,7 +46,7 @@ static_assert(
 GrainFields::GrainFields(const GrainLayout& scene) {
   boundaryContactMask.width = boundaryOf.width = scene.boundaries > 0;
   crossings.width = scene.periodic > 0;
-  formerMotion.width = rowOrigin.width = gathered.width = 0;
+  formerMotion.width = rowOrigin.width = 0;
 }
 
 std::size_t GrainFields::bytesPerGrain() const {
@@ -59,7 +59,7 @@ std::size_t GrainFields::bytesPerGrain() const {
 }
 
 std::size_t GrainFields::bytesMadeAnew() const {
-  std::size_t bytes = reference.width * sizeof(base::Vec3<std::uint32_t>) + gathered.width * sizeof(GatheredContacts);
+  std::size_t bytes = reference.width * sizeof(base::Vec3<std::uint32_t>);
   const auto add = [&]<class T>(const GrainField<T>& field) {
     if (field.has(kBuffered)) bytes += field.width * sizeof(T);
   };
@@ -138,7 +138,6 @@ void GrainArrays::beginRebuild() {
     if (field.has(kBuffered)) field.next = base::Array<T>(exec_);
   });
   fields_.reference.now = base::Array<base::Vec3<std::uint32_t>>(exec_);
-  fields_.gathered.now = base::Array<GatheredContacts>(exec_);
 }
 
 void GrainArrays::endRebuild() {
@@ -146,7 +145,6 @@ void GrainArrays::endRebuild() {
     if (field.has(kBuffered)) field.next.resize(slots_ * field.width);
   });
   fields_.reference.now.resize(slots_);
-  fields_.gathered.now.resize(slots_ * fields_.gathered.width);
   base::forEach(exec_, "keep reference", static_cast<std::int64_t>(slots_),
                 KeepReference{fields_.position.now.data(), fields_.reference.now.data()});
 }
@@ -203,11 +201,6 @@ void GrainArrays::stop() {
   hasFormer_ = false;
 }
 
-void GrainArrays::keepGathered() {
-  fields_.gathered.width = 1;
-  fields_.gathered.now.resize(slots_);
-}
-
 void GrainArrays::describe(GrainKernelData& d) {
   GrainFields& f = fields_;
   d.count = static_cast<std::int64_t>(slots_);
@@ -216,7 +209,6 @@ void GrainArrays::describe(GrainKernelData& d) {
   d.remainders = f.remainders.now.data();
   d.id = f.id.now.data();
   d.reference = f.reference.now.data();
-  d.gathered = f.gathered.now.data();
   d.crossings = f.crossings.now.data();
   d.boundaryOf = f.boundaryOf.now.data();
   d.boundaryContactMask = f.boundaryContactMask.now.data();

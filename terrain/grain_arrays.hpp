@@ -28,8 +28,6 @@ struct GrainFields {
   GrainField<Motion> formerMotion{kSorted | kMigrates};
   /// Low words of the positions when the neighbours were listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
-  /// Passed between the two kernels of a split step. Has width 0 until keepGathered().
-  GrainField<GatheredContacts> gathered{0};
   /// 1 + place in the list of grains near boundaries, and so of their springs there, until the next such list; 0 for
   /// all others. Of ghosts it says nothing until then.
   GrainField<std::uint32_t> boundaryOf{kSorted | kMigrates};
@@ -38,7 +36,7 @@ struct GrainFields {
 
   template <class Self> static auto all(Self& f) {
     return std::tie(f.position, f.motion, f.remainders, f.id, f.boundaryContactMask, f.crossings, f.formerMotion,
-                    f.reference, f.gathered, f.boundaryOf, f.rowOrigin);
+                    f.reference, f.boundaryOf, f.rowOrigin);
   }
 
   /// On the device, of one grain.
@@ -77,8 +75,7 @@ public:
   /// For a state that is loaded: its fields are the caller's to set.
   void setSlots(std::size_t slots);
   /// Before grains migrate and are sorted: gives back the memory of what is made anew behind that (the `next` of
-  /// fields, references, gathered contacts), so that lists may have it meanwhile. Between the two calls no step may be
-  /// taken.
+  /// fields, references), so that lists may have it meanwhile. Between the two calls no step may be taken.
   void beginRebuild();
   /// The neighbours are listed where the grains are now; all has its memory again.
   void endRebuild();
@@ -103,9 +100,6 @@ public:
   void releaseFormer();
   /// Forgets velocities and spins.
   void stop();
-
-  /// Allocates what a split step needs.
-  void keepGathered();
 
   void describe(GrainKernelData& d);
   std::size_t bytes() const;

@@ -48,7 +48,6 @@ struct GrainKernelData {
   Remainders* remainders;
   const std::uint32_t* id;
   base::Vec3<std::uint32_t>* reference; ///< low words of the positions at the last rebuild
-  GatheredContacts* gathered;           ///< [slots]; null if steps are not split
   Crossings* crossings;                 ///< of periodic boundaries; null without them
   contact::NeighbourView neighbours;
   const std::uint32_t* nearBoundary; ///< slots of the grains that may touch walls or floor before the next rebuild

@@ -19,14 +19,6 @@ template <class Real> struct BoundaryLoad {
   Real unused;                    ///< of a record of whole 16 bytes
 };
 
-/// Sums over the contacts of one grain with other grains, passed between the two kernels of a split step
-/// (grain_halves.cuh).
-struct GatheredContacts {
-  Vec4f force;  ///< [N]; w: deepest overlap [m]
-  Vec4f torque; ///< [N m]; w: energy that dashpots dissipate [J]
-  Vec4f lost;   ///< energy that sliding, rolling and partial slip dissipate [J]
-};
-
 /// Whether a grain of this velocity is one that never moves.
 GROUSER_HD bool isFixed(const Vec4f& velocity) { return velocity.w < 0; }
 

@@ -51,37 +51,27 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// Adds what the step does to the energies to `books`, where they are kept.
   GROUSER_HD void run(int k, Books& books) const {
-    if (Kernel::ended()) return skip(k);
+    if (Kernel::ended()) {
+      if (k == 0)
+        // Each step of a batch reads only the flags of the step before it: one that is skipped raises its own, so that
+        // all behind it are skipped too.
+        base::raise(&d.flags->stale);
+      return;
+    }
     const int i = d.active ? static_cast<int>(d.active[k]) : k;
+    Sum sum;
     const base::Position p = d.position[i];
     const Motion m = d.motion[i];
-    if (d.role && d.role[i] != 0) return;
-    if (has(kFixed) && isFixed(m.velocity)) return stay(i, p, m);
-    Sum sum;
-    gather(i, p, m, sum);
-    finish(i, p, m, sum, books);
-  }
-
-  /// Each step of a batch reads only the flags of the step before it: one that is skipped raises its own, so that all
-  /// behind it are skipped too.
-  GROUSER_HD void skip(int k) const {
-    if (k == 0) base::raise(&d.flags->stale);
-  }
-
-  /// Sums the contacts with other grains, and carries their histories to the end of the step.
-  GROUSER_HD void gather(int i, const base::Position& p, const Motion& m, Sum& sum) const {
     const Vec4f v = m.velocity, w = m.spin;
-    gatherGrains(i, p, {Kernel::sizeOf(v.w, w.w), v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
-    if (has(kFixed) && sum.held.any) bookHeld(i, p, sum.held);
-    if (has(contact::kPlastic) && has(kLedger)) addYielded(d, i, static_cast<double>(sum.yielded));
-  }
-
-  /// Adds all other forces, and advances the grain.
-  GROUSER_HD void finish(int i, const base::Position& p, const Motion& m, Sum& sum, Books& books) const {
-    const GrainSize<Real> size = Kernel::sizeOf(m.velocity.w, m.spin.w);
+    if (d.role && d.role[i] != 0) return;
+    if (has(kFixed) && isFixed(v)) return stay(i, p, m);
+    const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
+    gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
     // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
+    if (has(kFixed) && sum.held.any) bookHeld(i, p, sum.held);
+    if (has(contact::kPlastic) && has(kLedger)) addYielded(d, i, static_cast<double>(sum.yielded));
     if (has(kBoundaries)) addBoundaries(i, size, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);

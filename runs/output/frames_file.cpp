@@ -194,7 +194,7 @@ void FramesFile::add(const Frame& frame) {
     writeGrains(*shared, frame, group);
     shared.reset();
     comm_.wait();
-    if (comm_.first()) file_ = support::Hdf5File::openAgain(folder_ / "frames.h5");
+    if (comm_.first()) file_ = support::Hdf5File::openShared(folder_ / "frames.h5", base::Comm());
   }
   if (!file_) {
     ++count_;

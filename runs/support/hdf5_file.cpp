@@ -175,24 +175,15 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) { return {openedAs(H5
 
 Hdf5File Hdf5File::openToChange(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDWR, path), path}; }
 
-Hdf5File Hdf5File::openAgain(const std::filesystem::path& path) {
-  const Turn turn;
-  quiet();
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  if (file < 0) throw failure(path, "open the file again");
-  return {file, path};
-}
-
 Hdf5File Hdf5File::openShared(const std::filesystem::path& path, const base::Comm& comm) {
   const Turn turn;
-  if (comm.alone()) return openAgain(path);
   quiet();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
+  if (!comm.alone()) H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
-  if (file < 0) throw failure(path, "open the file on all ranks");
+  if (file < 0) throw failure(path, comm.alone() ? "open the file again" : "open the file on all ranks");
   Hdf5File opened(file, path);
-  opened.shared_ = true;
+  opened.shared_ = !comm.alone();
   return opened;
 }
 

@@ -54,9 +54,8 @@ public:
   static Hdf5File open(const std::filesystem::path& path);
   /// The same for reading and writing.
   static Hdf5File openToChange(const std::filesystem::path& path);
-  /// Opens for reading and writing what this run has written and closed. Throws NotWritten with the path.
-  static Hdf5File openAgain(const std::filesystem::path& path);
-  /// The same on all ranks at once, for writeRows() alone: one process has made the datasets and closed the file.
+  /// Opens for writing, on all ranks of `comm` at once, a file that this run has written and closed; on several ranks
+  /// for writeRows() alone. Throws NotWritten with the path.
   static Hdf5File openShared(const std::filesystem::path& path, const base::Comm& comm);
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File& operator=(Hdf5File&& other) noexcept;
