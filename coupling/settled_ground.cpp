@@ -11,10 +11,11 @@ namespace grouser::coupling {
 namespace {
 
 /// The grains of a tile, come to rest. Throws SimulationError where they do not. Every rank has all of them.
-std::unique_ptr<terrain::Grains> settledTile(const TileSetup& tile, const base::Exec& exec) {
+std::unique_ptr<terrain::Grains> settledTile(const TileSetup& tile, const base::Exec& exec,
+                                             const SettleProgress& progress) {
   LaidGround ground = buildGround(*tile.ground, exec);
   const BedSetup& bed = *tile.ground->grains->bed;
-  if (bed.settle.timeLimit > 0) settle(bed, ground, [](double, double) {});
+  if (bed.settle.timeLimit > 0) settle(bed, ground, SettleProgress(progress.tell));
   return std::move(ground.grains);
 }
 
@@ -28,11 +29,12 @@ std::vector<terrain::GrainSpec> tiledGrains(const GroundSetup& setup, const BedS
 
 } // namespace
 
-LaidGround buildGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm) {
+LaidGround buildGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm,
+                       const SettleProgress& progress) {
   const BedSetup* bed = setup.grains && setup.grains->bed ? &*setup.grains->bed : nullptr;
-  if (bed && bed->alone) return buildGround(*bed->alone, exec, comm);
+  if (bed && bed->alone) return buildGround(*bed->alone, exec, comm, progress);
   if (!bed || !bed->tile) return layGround(setup, exec, comm);
-  const TiledBed tiles(*bed->tile, *settledTile(*bed->tile, exec), *setup.surface);
+  const TiledBed tiles(*bed->tile, *settledTile(*bed->tile, exec, progress), *setup.surface);
   const std::vector<terrain::GrainSpec> start = tiledGrains(setup, *bed, tiles);
   LaidGround ground = layGround(setup, exec, comm, &start);
   tiles.bringToRest(*ground.grains, setup.grains->boundaries.walls.size()); // the floor stands behind the walls
@@ -41,7 +43,7 @@ LaidGround buildGround(const GroundSetup& setup, const base::Exec& exec, const b
 
 SettledGround settledGround(const GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
                             const base::Comm& comm) {
-  SettledGround settled{buildGround(setup, exec, comm), {}};
+  SettledGround settled{buildGround(setup, exec, comm, progress), {}};
   const BedSetup& bed = *setup.grains->bed;
   if (bed.settle.timeLimit > 0) settled.report = settle(bed, settled.ground, progress);
   return settled;

@@ -84,7 +84,7 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
     }
     if (std::optional<coupling::SettledGround> kept = taken()) return std::move(*kept);
   }
-  coupling::SettledGround settled{coupling::buildGround(setup, exec, comm), {}};
+  coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress), {}};
   const terrain::Grains& grains = *settled.ground.grains;
   const bool fits = files_.fits(kBytesPerGrain * static_cast<double>(grains.count()));
   if (!fits) lock.release(); // others would wait for nothing
