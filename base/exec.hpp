@@ -13,9 +13,8 @@ enum class Device { Cpu, Cuda };
 /// cudaExec() makes lives as long as the program.
 struct Exec {
   Device device{Device::Cpu};
-  int threads{1};         ///< CPU threads, >= 1
-  void* stream{nullptr};  ///< cudaStream_t where device is Cuda
-  bool leavesRoom{false}; ///< kernels that loop (forEachLooped) leave room on the device to others that run beside them
+  int threads{1};        ///< CPU threads, >= 1
+  void* stream{nullptr}; ///< cudaStream_t where device is Cuda
 
   bool onCpu() const { return device == Device::Cpu; }
 };

@@ -27,36 +27,21 @@ template <class Body> double nanosecondsOf(const Body& body) {
     return 5;
 }
 
-#if defined(__CUDACC__)
-namespace detail {
-/// Blocks that a multiprocessor must be able to run concurrently, which limits the registers of a thread: the body's
-/// `static constexpr int kBlocksTogether`, or 0 for no limit.
+/// Blocks that a GPU's multiprocessor must be able to run concurrently, which limits the registers of a thread: the
+/// body's `static constexpr int kBlocksTogether`, or 0 for no limit.
 template <class Body> constexpr int blocksTogether() {
   if constexpr (requires { Body::kBlocksTogether; })
     return Body::kBlocksTogether;
   else
     return 0;
 }
+
+#if defined(__CUDACC__)
+namespace detail {
 template <class Body> __global__ void __launch_bounds__(128, blocksTogether<Body>())
     forEachKernel(Body body, std::int64_t count) {
   const std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
   if (i < count) body(static_cast<int>(i));
-}
-/// Threads take several items one after the other.
-template <class Body> __global__ void __launch_bounds__(128) forEachLoopedKernel(Body body, std::int64_t count) {
-  const std::int64_t threads = static_cast<std::int64_t>(gridDim.x) * blockDim.x;
-  for (std::int64_t i = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x; i < count; i += threads)
-    body(static_cast<int>(i));
-}
-/// So many blocks that each multiprocessor could take one more.
-template <class Body> std::int64_t blocksThatLeaveRoom(const Exec& exec, int block) {
-  static const std::int64_t most = [&exec, block] {
-    int fit = 0;
-    checkCuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&fit, forEachLoopedKernel<Body>, block, 0),
-              "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-    return static_cast<std::int64_t>(fit > 1 ? fit - 1 : 1) * multiprocessors(exec);
-  }();
-  return most;
 }
 } // namespace detail
 #endif
@@ -81,21 +66,6 @@ template <class Body> void forEach(const Exec& exec, const char* name, std::int6
 #else
   // Only files that nvcc compiles can launch.
   throw DeviceError(std::string(name) + ": this file was not compiled for CUDA");
-#endif
-}
-
-/// As forEach, for large kernels that others are to run beside: where `exec` leaves room, a GPU is given as many blocks
-/// as fit but one on each of its multiprocessors. All at once would hold up whatever is launched after them until the
-/// first have ended.
-template <class Body> void forEachLooped(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
-  if (count <= 0 || exec.onCpu()) return forEach(exec, name, count, body);
-#if defined(__CUDACC__)
-  constexpr int kBlock = 128;
-  std::int64_t blocks = (count + kBlock - 1) / kBlock;
-  if (exec.leavesRoom) blocks = std::min(blocks, detail::blocksThatLeaveRoom<Body>(exec, kBlock));
-  detail::forEachLoopedKernel<<<static_cast<unsigned>(blocks), kBlock, 0, static_cast<cudaStream_t>(exec.stream)>>>(
-      body, count);
-  checkCuda(cudaGetLastError(), std::string("launch of ") + name);
 #endif
 }
 

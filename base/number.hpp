@@ -5,6 +5,7 @@
 #include "base/vec.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 /// Formulas of laws are templates over a number: float, double, or several of them side by side (base/simd.hpp).
 /// Beside the operators they need the functions below. Choices are written `mask ? a : b`, which both kinds understand.
@@ -31,6 +32,16 @@ template <class T> GROUSER_HD Vec3<T> broadcast(const Vec3<ScalarOf<T>>& v) {
 
 /// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
 template <class T> GROUSER_HD T squareRoot(const T& x) { return NumberTraits<T>::squareRoot(x); }
+
+/// part / whole, for whole > 0. A GPU takes a division of zero for a special case, which is slow.
+template <class T> GROUSER_HD T shareOf(const T& part, const T& whole) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const T share = (part == 0 ? T(1) : part) / whole;
+    return part == 0 ? part : share;
+  } else {
+    return part / whole;
+  }
+}
 
 /// base::cubeRoot(), lane by lane.
 template <class T> GROUSER_HD T cubeRootOf(const T& x) { return NumberTraits<T>::cubeRoot(x); }

@@ -44,29 +44,41 @@ GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
 }
 
 #if defined(__CUDACC__)
-/// The same for the threads of a warp together, those that are here: `kCount` sums side by side. The processor sums 32
-/// bits at once, so the numbers go in limbs of 26: two for numbers below 2^51, three for all below 2^63.
-template <int kLimbs, int kCount>
-__device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
-#if __CUDA_ARCH__ >= 800
-  constexpr int kBits = 26;
-  constexpr std::int64_t kMask = (std::int64_t{1} << kBits) - 1;
-  const unsigned here = __activemask();
-  const int threads = __popc(here), own = __popc(here & ((1u << (threadIdx.x & 31u)) - 1));
-  // A thread adds one of the sums: one after the other they would each wait for memory.
-  std::int64_t mine = 0;
-  for (int k = 0; k < kCount; ++k) {
-    std::int64_t sum = __reduce_add_sync(here, static_cast<int>(values[k] >> kBits * (kLimbs - 1))); // with the sign
-    for (int limb = kLimbs - 2; limb >= 0; --limb)
-      sum = (sum << kBits) + __reduce_add_sync(here, static_cast<unsigned>(values[k] >> kBits * limb & kMask));
-    if (k == own) mine = sum;
-    if (k >= threads && own == 0) atomicAddWide(sums + k, sum); // more sums than threads
+namespace detail {
+/// Leaves in `values[0]` the sum over all lanes of the value that bits 1 to log2(kCount) of the lane select, highest
+/// bit first: each exchange halves the number of values that a lane sums.
+template <int kCount> __device__ inline void reduceScatter(std::int64_t* values, unsigned lane, unsigned apart = 16) {
+  if constexpr (kCount > 1) {
+    constexpr int kHalf = kCount / 2;
+    const bool upper = lane & apart;
+    for (int k = 0; k < kHalf; ++k) {
+      const std::int64_t sent = upper ? values[k] : values[k + kHalf];
+      values[k] = (upper ? values[k + kHalf] : values[k]) + __shfl_xor_sync(~0u, sent, static_cast<int>(apart));
+    }
+    reduceScatter<kHalf>(values, lane, apart / 2);
+  } else {
+    for (; apart > 0; apart /= 2) values[0] += __shfl_xor_sync(~0u, values[0], static_cast<int>(apart));
   }
-  if (own < kCount && mine != 0) atomicAddWide(sums + own, mine);
-#else
+}
+} // namespace detail
+
+/// atomicAddWide() of `kCount` values to as many sums, at most 32, by each thread. A complete warp adds its total once.
+template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
+  if (__activemask() == ~0u) {
+    constexpr int kPadded = kCount > 16 ? 32 : kCount > 8 ? 16 : kCount > 4 ? 8 : kCount > 2 ? 4 : kCount;
+    constexpr unsigned kLanes = 32 / kPadded; // that end with the same total
+    const unsigned lane = threadIdx.x % 32;
+    std::int64_t all[kPadded] = {};
+    for (int k = 0; k < kCount; ++k) all[k] = values[k];
+    detail::reduceScatter<kPadded>(all, lane);
+    if (lane % kLanes == 0 && lane / kLanes < kCount && all[0] != 0) atomicAddWide(sums + lane / kLanes, all[0]);
+    return;
+  }
+  std::int64_t own[kCount]; // apart from `values`, which stay in registers
+  for (int k = 0; k < kCount; ++k) own[k] = values[k];
+#pragma unroll 1
   for (int k = 0; k < kCount; ++k)
-    if (values[k] != 0) atomicAddWide(sums + k, values[k]);
-#endif
+    if (own[k] != 0) atomicAddWide(sums + k, own[k]);
 }
 #endif
 

@@ -261,13 +261,13 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   const auto slides = size2 > limit2;
   if (base::any(slides)) {
     // Sliding: the force lies on Coulomb's cone.
-    tangential = base::select(slides, tangential * (scaledLimit / squareRoot(size2)), tangential);
+    tangential = base::select(slides, tangential * base::shareOf(scaledLimit, squareRoot(size2)), tangential);
     // The spring is shortened only where it is beyond the cone by itself: one that took over the dashpot's force would
     // be stretched without work.
     const T scaledStiffness = c.tangentialStiffness * law.squareScale;
     const T spring2 = scaledStiffness * scaledStiffness * dot(shear, shear);
     if (const auto beyond = slides & (spring2 > limit2); base::any(beyond))
-      shear = base::select(beyond, shear * (scaledLimit / squareRoot(spring2)), shear);
+      shear = base::select(beyond, shear * base::shareOf(scaledLimit, squareRoot(spring2)), shear);
   }
   // A force at the rim of a sphere speeds the slip up by 1 + 5/2 of what it does to the centres: slip + 7/2 F h is the
   // slip in the middle of the step.

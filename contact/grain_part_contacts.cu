@@ -162,6 +162,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   range_ = base::Array<std::uint32_t>(exec);
   count_ = base::Array<std::uint32_t>(exec);
   slot_ = base::Array<std::uint32_t>(exec);
+  near_ = base::Array<std::uint32_t>(exec);
   oldIndex_ = base::Array<std::uint32_t>(exec);
   key_ = base::Array<std::uint64_t>(exec);
   oldKey_ = base::Array<std::uint64_t>(exec);
@@ -261,6 +262,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   if (rolling_) angle_.resize(pairs_ * kPatches);
   if (crushes_) dent_.resize(pairs_ * kPatches), energyHeld_.resize(pairs_);
   load_.resize(pairs_);
+  near_.resize(pairs_ < model_.searchFrom ? 0 : kNearCount + pairs_);
   list.key = key_.data(), list.slot = slot_.data();
   base::forEach(exec_, "list parts near grains", n, list);
   base::forEach(exec_, "restore patch history", static_cast<std::int64_t>(pairs_),
@@ -278,9 +280,12 @@ std::vector<std::int64_t> GrainPartContacts::allSums() const {
 
 void GrainPartContacts::computeOn(const base::Exec& exec, const GrainsView& grains,
                                   const base::Array<PartMotion>& motion, PartLoad* loads) {
-  const base::Parcel cleared = clearedSums();
-  base::setZero(exec, cleared.to, cleared.bytes);
+  for (const base::Parcel& cleared : {clearedSums(), clearedCount()}) base::setZero(exec, cleared.to, cleared.bytes);
   computeOnCleared(exec, grains, motion, loads, nullptr);
+}
+
+base::Parcel GrainPartContacts::clearedCount() {
+  return near_.empty() ? base::Parcel{} : base::Parcel{near_.data(), nullptr, kNearCount * sizeof(std::uint32_t)};
 }
 
 base::Parcel GrainPartContacts::clearedSums() { return {sums_.data(), nullptr, kSumsOfStep * sizeof(std::int64_t)}; }
@@ -289,27 +294,34 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
                                          const base::Array<PartMotion>& motion, PartLoad* loads,
                                          const std::uint32_t* off) {
   const auto run = [&]<unsigned kFeatures>() {
-    base::forEachGroup<16>(exec, "grain-part contacts", static_cast<std::int64_t>(pairs_),
-                           GrainPartForces<kFeatures>{model_,
-                                                      laws_.data(),
-                                                      massPerCube_.data(),
-                                                      grains,
-                                                      motion.data(),
-                                                      parts_.data(),
-                                                      gridViews_.data(),
-                                                      key_.data(),
-                                                      slot_.data(),
-                                                      memory_.data(),
-                                                      rolling_ ? angle_.data() : nullptr,
-                                                      crushes_ ? crushing_.data() : nullptr,
-                                                      crushes_ ? dent_.data() : nullptr,
-                                                      crushes_ ? energyHeld_.data() : nullptr,
-                                                      static_cast<int>(partCount_),
-                                                      load_.data(),
-                                                      loads,
-                                                      sums_.data(),
-                                                      deepest_.data(),
-                                                      off});
+    const GrainPartForces<kFeatures> forces{model_,
+                                            laws_.data(),
+                                            massPerCube_.data(),
+                                            grains,
+                                            motion.data(),
+                                            parts_.data(),
+                                            gridViews_.data(),
+                                            key_.data(),
+                                            slot_.data(),
+                                            memory_.data(),
+                                            rolling_ ? angle_.data() : nullptr,
+                                            crushes_ ? crushing_.data() : nullptr,
+                                            crushes_ ? dent_.data() : nullptr,
+                                            crushes_ ? energyHeld_.data() : nullptr,
+                                            static_cast<int>(partCount_),
+                                            load_.data(),
+                                            loads,
+                                            sums_.data(),
+                                            deepest_.data(),
+                                            off};
+    const auto pairs = static_cast<std::int64_t>(pairs_);
+    if (pairs_ < model_.searchFrom) return base::forEachGroup<16>(exec, "grain-part contacts", pairs, forces);
+    constexpr std::int64_t kGroups = 8192;
+    std::uint32_t *const count = near_.data(), *const near = count + kNearCount;
+    base::forEach(exec, "find grains near parts", pairs, FindNearPairs<kFeatures>{forces, near, count});
+    const std::int64_t groups = std::min(pairs, kGroups);
+    base::forEachGroup<16>(exec, "grain-part contacts", groups,
+                           NearPairForces<kFeatures>{forces, near, count, static_cast<std::uint32_t>(groups)});
   };
   // Most beds are linear with friction, soils have Hertz' law; all else takes the general functions.
   constexpr unsigned kSoil = kHertz | kFriction | kRollingFriction | kCohesion;
@@ -324,7 +336,9 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
 }
 
 GrainLoadsView GrainPartContacts::grainLoads() {
-  return {range_.data(), load_.data(), model_.force, sums_.data() + kReceivedByGrains};
+  return {range_.data(), load_.data(),
+          model_.force,  sums_.data() + kReceivedByGrains,
+          slot_.data(),  static_cast<std::int64_t>(pairs_)};
 }
 
 GrainPartContacts::Ledger GrainPartContacts::ledger() const {
@@ -408,7 +422,7 @@ std::vector<GrainPartContacts::Press> GrainPartContacts::pressing(std::uint32_t 
 std::size_t GrainPartContacts::bytes() const {
   std::size_t total = range_.bytes() + count_.bytes() + slot_.bytes() + key_.bytes() + oldKey_.bytes() +
                       memory_.bytes() + oldMemory_.bytes() + angle_.bytes() + oldAngle_.bytes() + dent_.bytes() +
-                      oldDent_.bytes() + load_.bytes();
+                      oldDent_.bytes() + load_.bytes() + near_.bytes();
   for (const SurfaceGrid& grid : grids_) total += grid.bytes();
   return total;
 }

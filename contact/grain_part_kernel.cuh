@@ -68,9 +68,33 @@ template <unsigned kFeatures> struct GrainPartForces {
   const std::uint32_t* off; ///< not 0: called off, see base::Gate; null: never
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
-    if (off && *off) return;
+    if (calledOff()) return;
     const AddAtOnce shared{sums};
     run(e, group, shared);
+  }
+  GROUSER_HD bool calledOff() const { return off && *off; }
+  /// Whether any disc of the part is within reach of the grain.
+  GROUSER_HD bool isNear(int e) const {
+    const PartMotion& part = motion[partOf(e)];
+    const SurfaceGridView& grid = grids[parts[partOf(e)].surface];
+    const Ball ball = ballOf(static_cast<int>(slot[e]));
+    const base::Vec3d c = part.toPart(ball.x);
+    const std::int64_t cell = grid.cellAt(c);
+    if (cell < 0) return false;
+    for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k)
+      if (!outOfReach(grid.disc[grid.entry[k]], c, ball.radius)) return true;
+    return false;
+  }
+  /// The result of a pair that is not near.
+  GROUSER_HD void release(int e) const {
+    for (int k = 0; k < kPatches; ++k) {
+      const std::int64_t patch = static_cast<std::int64_t>(e) * kPatches + k;
+      memory[patch] = {};
+      if (rolls()) angle[patch] = {};
+      if (crushes()) dent[patch] = 0;
+    }
+    if (crushes()) energyHeld[e] = 0;
+    load[e] = {};
   }
   /// A thread's pairs on a CPU.
   void runOnCpu(std::int64_t firstPair, std::int64_t endPair) const {
@@ -81,9 +105,10 @@ template <unsigned kFeatures> struct GrainPartForces {
   }
 
 private:
+  GROUSER_HD int partOf(int e) const { return static_cast<int>(key[e] & 0xFFFFu); }
   template <class Group, class Sums> GROUSER_HD void run(int e, const Group& group, Sums& total) const {
     const int i = static_cast<int>(slot[e]);
-    const int p = static_cast<int>(key[e] & 0xFFFFu);
+    const int p = partOf(e);
     const PartMotion part = motion[p];
     const Ball ball = ballOf(i);
     TouchedPatch patches[kPatches];
@@ -305,6 +330,35 @@ private:
       sum.onGrain.torque += model.torque.value(turned).template as<float>();
       sum.torqueOnPart -= turned;
     }
+  }
+};
+
+/// Lists the pairs that are near, and releases all others. One thread a pair with few registers: most listed pairs of a
+/// fine soil are not near, and a group of threads with the registers of GrainPartForces takes five times as long to
+/// find that.
+template <unsigned kFeatures> struct FindNearPairs {
+  static constexpr double kNanoseconds = 100;
+  GrainPartForces<kFeatures> forces;
+  std::uint32_t *near, *count;
+  GROUSER_HD void operator()(int e) const {
+    if (forces.calledOff()) return;
+    if (forces.isNear(e))
+      near[base::atomicAdd32(count, 1)] = static_cast<std::uint32_t>(e);
+    else
+      forces.release(e);
+  }
+};
+
+/// The loads of the pairs in that list; `groups` work on it together.
+template <unsigned kFeatures> struct NearPairForces {
+  static constexpr double kNanoseconds = GrainPartForces<kFeatures>::kNanoseconds;
+  GrainPartForces<kFeatures> forces;
+  const std::uint32_t *near, *count;
+  std::uint32_t groups;
+  template <class Group> GROUSER_HD void operator()(int first, const Group& group) const {
+    if (forces.calledOff()) return;
+    for (std::uint32_t k = static_cast<std::uint32_t>(first); k < *count; k += groups)
+      forces(static_cast<int>(near[k]), group);
   }
 };
 

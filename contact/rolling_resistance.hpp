@@ -65,12 +65,12 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarO
   base::Vec3<T> torque = spring - rolling * (Scalar(2) * law.rollingDamping * squareRoot(inertia * stiffness));
   const T both2 = dot(torque, torque);
   if (const auto beyond = both2 > limit2; base::any(beyond))
-    torque = base::select(beyond, torque * (limit / squareRoot(both2)), torque);
+    torque = base::select(beyond, torque * base::shareOf(limit, squareRoot(both2)), torque);
   // About their centres spheres are 7/2 times easier to turn than about the point of contact.
   const base::Vec3<T> middle = rolling + torque * (Scalar(1.75) * dt / inertia);
   T given = dot(torque - spring, middle) * dt;
   if (base::any(slides)) {
-    const base::Vec3<T> held = spring * (limit / squareRoot(size2));
+    const base::Vec3<T> held = spring * base::shareOf(limit, squareRoot(size2));
     const base::Vec3<T> shortened =
         base::select(stiffness > zero, held * (Scalar(-1) / stiffness), base::Vec3<T>{zero, zero, zero});
     torque = base::select(slides, held, torque);

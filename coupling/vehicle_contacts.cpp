@@ -253,11 +253,11 @@ void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains
   contact::GrainPartContacts& bed = onGrains.contacts();
   const base::Watch watch = grains.flagsBefore();
   contact::PartLoad *const track = loadSums_.device().data(), *const ground = track + parts_.contactParts();
-  grains.launchUncoupled();
+  grains.launchUncoupled(onGrains.loads());
   side_.fork();
   gate.carryBefore(side_.exec(), watch,
                    std::array{base::Parcel{track, nullptr, loadSums_.bytes()},
-                              track_ ? track_->clearedSums() : base::Parcel{}, bed.clearedSums()});
+                              track_ ? track_->clearedSums() : base::Parcel{}, bed.clearedSums(), bed.clearedCount()});
   gate.pass(exec_, watch,
             std::array{base::Parcel{motion_.device().data(), motion_.host(), motion_.bytes()},
                        base::Parcel{travelled_.device().data(), travelled_.host(), travelled_.bytes()}});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/bits.hpp"
+#include "base/for_each.cuh"
 #include "base/vec.hpp"
 #include "base/wide_sum.cuh"
 #include "terrain/compensated_sum.hpp"
@@ -15,8 +16,8 @@
 /// that the two check each other. All sums are of integers: order-free, the same for any device, threads and ranks.
 namespace grouser::terrain {
 
-/// The sums. Kernels of grains add to the first kGrainBooks, those of walls, floor and surfaces, and fixed grains, to
-/// all from kFirstOfWalls on.
+/// The sums. Kernels of grains add to the first kGrainBooks, and to forces where some never move; those of walls, floor
+/// and surfaces to all from kFirstOfWalls on.
 enum Book : int {
   kWork,     ///< by all forces on the grains
   kTurnover, ///< the same without signs, a grain and a step each
@@ -70,11 +71,12 @@ template <int kBegin, int kEnd> struct BooksOf {
     }
   }
 };
-/// Without kSlipped where contacts are linear.
-template <bool kSlips> using GrainBooksOf = BooksOf<0, kSlips ? kGrainBooks : kSlipped>;
-using GrainBooks = GrainBooksOf<true>;
+/// Without kSlipped where contacts are linear. `kHolds`: with forces by grains that never move.
+template <bool kSlips, bool kHolds> using GrainBooksOf = BooksOf<0, kHolds   ? kYielded
+                                                                    : kSlips ? kGrainBooks
+                                                                             : kSlipped>;
+using GrainBooks = GrainBooksOf<true, true>;
 using WallBooks = BooksOf<kFirstOfWalls, kYielded>;
-using HeldBooks = BooksOf<kWallForce, kYielded>; ///< forces by grains that never move
 using YieldBooks = BooksOf<kYielded, kBooks>;
 
 /// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what
@@ -90,7 +92,7 @@ inline constexpr int kBookBanks = 64;
 template <class Books> GROUSER_HD void addToBank(base::WideSum* books, int item, const Books& some) {
   base::WideSum* const bank = books + (item % kBookBanks) * kBooks + Books::kFirst;
 #if defined(__CUDA_ARCH__)
-  base::atomicAddTogether<2>(bank, some.of);
+  base::atomicAddTogether(bank, some.of);
 #else
   for (int b = 0; b < Books::kCount; ++b)
     if (some.of[b] != 0) base::atomicAddWide(bank + b, some.of[b]);
@@ -99,6 +101,7 @@ template <class Books> GROUSER_HD void addToBank(base::WideSum* books, int item,
 
 /// A kernel that keeps books: of as many grains as one thread takes at a time. `Body` has run(k, books).
 template <class Body> struct Booked {
+  static constexpr int kBlocksTogether = base::blocksTogether<Body>();
   static constexpr int kOnCpu = 32;
   Body body;
   std::int64_t count;

@@ -4,8 +4,8 @@
 
 #include "terrain/boundary_contacts.cuh"
 #include "terrain/detail/kernel_lists.hpp"
-#include "terrain/grain_halves.cuh"
 #include "terrain/grain_simd.hpp"
+#include "terrain/grain_step.cuh"
 #include "terrain/kernel_choice.hpp"
 
 #include <stdexcept>
@@ -47,22 +47,8 @@ void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
   if constexpr (detail::withoutBooks(kSet, kOfStep))
     if (!d.books) return base::forEach(exec, name, count, body);
   if constexpr (detail::withBooks(kSet, kOfStep))
-    if (d.books) return base::forEachLooped(exec, name, itemsOf<Body>(exec, count), Booked<Body>{body, count});
+    if (d.books) return base::forEach(exec, name, itemsOf<Body>(exec, count), Booked<Body>{body, count});
   throw std::logic_error("a kernel of grains was chosen that is not compiled for scenes with, or without, books");
-}
-
-// Only GPU runs split steps. On a CPU the general kernels are compiled for tests.
-#if defined(__CUDACC__)
-using GatherKernels = KernelsOf<detail::kGatherKernels>;
-using AdvanceKernels = KernelsOf<detail::kAdvanceKernels>;
-#else
-using GatherKernels = KernelList<kGeneral>;
-using AdvanceKernels = KernelList<kGeneral>;
-#endif
-
-/// The kernel of one half of a split step, which depends on the features `of`.
-unsigned halfOf(const base::Exec& exec, const KernelChoice& step, unsigned of) {
-  return step.general() || exec.onCpu() ? kGeneral : step.compiledFor & of;
 }
 
 } // namespace
@@ -70,32 +56,13 @@ unsigned halfOf(const base::Exec& exec, const KernelChoice& step, unsigned of) {
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                               std::int64_t count, const GrainModel& model) {
   const KernelChoice choice = stepKernel(d.features, model);
-  if (exec.onCpu() && choice.lanes > 1) return runGrainSimd(exec, d, f, count, choice.lanes);
+  if (exec.onCpu() && choice.lanes > 1 && !d.role) return runGrainSimd(exec, d, f, count, choice.lanes);
   runChosen(KernelsOf<detail::kStepKernels>{}, choice.compiledFor,
             [&]<unsigned kSet>() { runBody<GrainStep, kSet>(exec, "grain step", d, f, count); });
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                               std::int64_t count, const GrainModel&) {
   runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count); // in double no other is compiled
-}
-
-void gatherGrainContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
-                         const GrainModel& model) {
-  const KernelChoice step = stepKernel(d.features | kLoads, model);
-  runChosen(GatherKernels{}, halfOf(exec, step, detail::kAtGather), [&]<unsigned kSet>() {
-    base::forEach(exec, "gather contacts of grains", d.count, GatherContacts<kSet>{{{d, f}}});
-  });
-}
-
-void advanceGatheredGrains(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
-                           const GrainModel& model) {
-  const KernelChoice step = stepKernel(d.features, model);
-  runChosen(AdvanceKernels{}, halfOf(exec, step, detail::kAtAdvance), [&]<unsigned kSet>() {
-    using Body = AdvanceGathered<kSet>;
-    const Body body{{{d, f}}};
-    if (!d.books) return base::forEach(exec, "advance grains", d.count, body);
-    base::forEach(exec, "advance grains", itemsOf<Body>(exec, d.count), Booked<Body>{body, d.count});
-  });
 }
 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,

@@ -10,13 +10,6 @@ namespace grouser::terrain {
 template <class Real> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<Real>& f,
                                         std::int64_t count, const GrainModel& model);
 
-/// The same step split into two kernels (grain_halves.cuh); only the second one reads the loads in `d`. Single
-/// precision only. Requires GrainArrays::keepGathered().
-void gatherGrainContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
-                         const GrainModel& model);
-void advanceGatheredGrains(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
-                           const GrainModel& model);
-
 /// Walls and floor on the `near` grains listed near them.
 template <class Real> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d,
                                                const ForceData<Real>& f, std::int64_t near, const GrainModel& model);

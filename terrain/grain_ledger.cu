@@ -215,7 +215,7 @@ private:
     for (int k = 0; k < kSums; ++k)
       if (share[k] >= kEnd || share[k] <= -kEnd) base::atomicMin64(extremes + 2, static_cast<std::uint64_t>(k));
 #if defined(__CUDA_ARCH__)
-    base::atomicAddTogether<3>(bank, share);
+    base::atomicAddTogether(bank, share);
 #else
     for (int k = 0; k < kSums; ++k) base::atomicAddWide(bank + k, share[k]);
 #endif

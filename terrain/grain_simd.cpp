@@ -79,15 +79,15 @@ void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i) {
   step.raise(Fault::through, i);
 }
 
-void letStay(const GrainKernelData& d, const ForceData<float>& f, int i) {
+void letStay(const GrainKernelData& d, const ForceData<float>& f, int i, GrainBooks& books) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  step.stay(i, d.position[i], d.motion[i]);
+  step.stay(i, d.position[i], d.motion[i], books);
 }
 
 void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
-              const base::Vec3f& torque) {
+              const base::Vec3f& torque, GrainBooks& books) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  step.bookHeld(i, d.position[i], {force, torque, true});
+  step.bookHeld(d.position[i], {force, torque, true}, books);
 }
 
 void bookYielded(const GrainKernelData& d, int i, float yielded) { addYielded(d, i, static_cast<double>(yielded)); }

@@ -34,9 +34,9 @@ void bookYielded(const GrainKernelData& d, int i, float yielded);
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);
 void addToBooks(const GrainKernelData& d, int first, const WallBooks& books);
 /// GrainStep's own, of a grain that never moves and of forces by such grains.
-void letStay(const GrainKernelData& d, const ForceData<float>& f, int i);
+void letStay(const GrainKernelData& d, const ForceData<float>& f, int i, GrainBooks& books);
 void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
-              const base::Vec3f& torque);
+              const base::Vec3f& torque, GrainBooks& books);
 
 } // namespace detail
 } // namespace grouser::terrain

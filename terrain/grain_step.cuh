@@ -5,17 +5,24 @@
 #include "contact/sphere_pair.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
+#include <type_traits>
+
 namespace grouser::terrain {
 
 /// One grain, one step: gather its contacts in the order of the neighbours' ids, then advance it by symplectic Euler.
 /// The scene's features are template parameters, so that what is absent costs nothing.
 template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatures, Real> {
   static constexpr double kNanoseconds = 200;
+  /// Limits a thread to 96 registers where Hertz' law would take up to 114: a few are spilled, but one more block fits
+  /// on a multiprocessor.
+  static constexpr int kBlocksTogether =
+      std::is_same_v<Real, float> && (kFeatures & (contact::kHertz | contact::kPlastic)) == contact::kHertz ? 5 : 0;
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;
-  static constexpr bool kMaySlip = kFeatures & (contact::kHertz | contact::kGeneral);
-  using Books = GrainBooksOf<kMaySlip>;
+  static constexpr bool kMaySlip = kFeatures & (contact::kHertz | contact::kGeneral),
+                        kMayHold = kFeatures & (kFixed | contact::kGeneral);
+  using Books = GrainBooksOf<kMaySlip, kMayHold>;
 
   /// By grains that never move: part of the sum.
   struct Held {
@@ -42,6 +49,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     float* at;          ///< null where the laws need none
     bool held;          ///< whether it is that of this contact, and not of an earlier one
     base::Vec3f spring; ///< its first three numbers, or 0
+    base::Vec3f angle;  ///< the next three where grains resist rolling, or 0
   };
 
   GROUSER_HD void operator()(int k) const {
@@ -58,19 +66,20 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
         base::raise(&d.flags->stale);
       return;
     }
+    if (d.active && k > 0 && d.active[k] == d.active[k - 1]) return;
     const int i = d.active ? static_cast<int>(d.active[k]) : k;
     Sum sum;
     const base::Position p = d.position[i];
     const Motion m = d.motion[i];
     const Vec4f v = m.velocity, w = m.spin;
     if (d.role && d.role[i] != 0) return;
-    if (has(kFixed) && isFixed(v)) return stay(i, p, m);
+    if (has(kFixed) && isFixed(v)) return stay(i, p, m, books);
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
     // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
-    if (has(kFixed) && sum.held.any) bookHeld(i, p, sum.held);
+    if (has(kFixed) && sum.held.any) bookHeld(p, sum.held, books);
     if (has(contact::kPlastic) && has(kLedger)) addYielded(d, i, static_cast<double>(sum.yielded));
     if (has(kBoundaries)) addBoundaries(i, size, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
@@ -99,9 +108,17 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       const std::uint32_t count = has(kManyRadii) && n - first > 64 ? 64 : n - first;
       const std::int64_t row = d.neighbours.at(i, first);
       const std::uint64_t before = *touching, now = findTouching(p, row, count, sum);
-      for (std::uint64_t rest = now; rest != 0; rest &= rest - 1) {
+      // The next neighbour's slot is loaded ahead: its contact need not wait for it.
+      const auto slotOf = [&](std::uint64_t bits) {
+        return d.neighbours.slot[row + base::lowestBit(bits) * d.neighbours.stride];
+      };
+      std::uint32_t j = now != 0 ? slotOf(now) : 0;
+      for (std::uint64_t rest = now; rest != 0;) {
         const int k = base::lowestBit(rest);
-        touchNeighbour(row + k * d.neighbours.stride, before >> k & 1, p, own, sum);
+        rest &= rest - 1;
+        const std::uint32_t next = rest != 0 ? slotOf(rest) : 0;
+        touchNeighbour(row + k * d.neighbours.stride, j, before >> k & 1, p, own, sum);
+        j = next;
       }
       *touching++ = now;
       if (!has(kManyRadii)) break;
@@ -140,14 +157,18 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     return static_cast<std::int64_t>(std::uint64_t{units} * units);
   }
 
-  /// The contact with the neighbour at place `at` of the list. `heldBefore`: it was there in the last step.
-  GROUSER_HD void touchNeighbour(std::int64_t at, bool heldBefore, const base::Position& p, const Side& own,
-                                 Sum& sum) const {
-    const std::uint32_t j = d.neighbours.slot[at];
+  /// The contact with neighbour j, at place `at` of the list. `heldBefore`: it was there in the last step.
+  GROUSER_HD void touchNeighbour(std::int64_t at, std::uint32_t j, bool heldBefore, const base::Position& p,
+                                 const Side& own, Sum& sum) const {
     History history{Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr,
                     Kernel::hasHistory() && heldBefore,
+                    {},
                     {}};
-    if (history.held) history.spring = loadVector(history.at);
+    // Loaded whether held or not, together with the neighbour's state: a branch would put one wait for memory behind
+    // the other.
+    if (Kernel::hasHistory()) history.spring = loadVector(history.at);
+    if (has(contact::kRollingFriction)) history.angle = loadVector(history.at + 3);
+    if (!history.held) history.spring = history.angle = {};
     const auto [velocity, spin] = d.motion[j];
     const base::Vec3i apart = Kernel::apart(p, d.position[j]);
     Side other{{}, velocity.xyz().template as<Real>(), spin.xyz().template as<Real>()};
@@ -205,8 +226,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (has(contact::kFriction) && has(contact::kHertz)) sum.slipped += share * reaction.slipped;
     if (has(contact::kPlastic)) sum.yielded += share * reaction.yielded;
     if (has(contact::kRollingFriction)) {
-      Vec angle{};
-      if (history.held) angle = loadVector(history.at + 3).template as<Real>();
+      Vec angle = history.angle.template as<Real>();
       const GrainSize<Real>&a = own.size, &b = other.size;
       const Real inertia = onGround          ? contact::rollingInertia(a.mass, a.radius)
                            : has(kManyRadii) ? contact::rollingInertia(a.mass, a.radius, b.mass, b.radius)
@@ -224,22 +244,20 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   }
 
   /// One that never moves: its state is handed on. The ground gives it the opposite of what parts do to it.
-  GROUSER_HD void stay(int i, const base::Position& p, const Motion& m) const {
+  GROUSER_HD void stay(int i, const base::Position& p, const Motion& m, Books& books) const {
     d.nextPosition[i] = p, d.nextMotion[i] = m;
     if (!has(kLoads) || d.loads.range[i] == 0) return;
     base::Vec3d force, torque;
     addLoads(i, Kernel::sizeOf(m.velocity.w, m.spin.w), force, torque);
-    bookHeld(i, p, {(-force).template as<Real>(), (-torque).template as<Real>()});
+    bookHeld(p, {(-force).template as<Real>(), (-torque).template as<Real>()}, books);
   }
 
   /// Impulses of what never moves are booked as those of walls. Few grains have any.
-  GROUSER_HD void bookHeld(int i, const base::Position& p, const Held& held) const {
+  GROUSER_HD void bookHeld(const base::Position& p, const Held& held, Books& books) const {
     if (!has(kLedger)) return;
     const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
     const base::Vec3d force = held.force.template as<double>();
-    HeldBooks books;
-    books.addForce(force, cross(x, force) + held.torque.template as<double>(), d.bookScale);
-    addToBank(d.books, i / 32, books);
+    if constexpr (kMayHold) books.addForce(force, cross(x, force) + held.torque.template as<double>(), d.bookScale);
   }
 
   GROUSER_HD void addBoundaries(int i, const GrainSize<Real>& size, Sum& sum) const {

@@ -12,7 +12,7 @@
 namespace grouser::terrain {
 
 GrainStepper::GrainStepper(const base::Exec& exec)
-    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true), gathering_(exec), aside_(exec) {
+    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true), aside_(exec), uncoupled_(exec) {
   std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
 }
@@ -24,6 +24,16 @@ GrainKernelData GrainStepper::kernelData(const Launch& step) {
   d.former = step.former >= 0 ? flags_.device().data() + step.former : nullptr;
   return d;
 }
+
+namespace {
+void runStep(const base::Exec& exec, GrainSystem& s, const GrainKernelData& d, std::int64_t count) {
+  const GrainModel& model = s.constants.model;
+  if (model.precision == Precision::single)
+    runGrainStep(exec, d, s.forceData<float>(), count, model);
+  else
+    runGrainStep(exec, d, s.forceData<double>(), count, model);
+}
+} // namespace
 
 template <class Real>
 void GrainStepper::advanceGrains(const base::Exec& exec, const Launch& step, const base::Array<std::uint32_t>* active) {
@@ -84,36 +94,21 @@ GrainStepper::Launch GrainStepper::ahead(GrainSystem& system, const contact::Gra
   return {system, loads, place, 1 - place};
 }
 
-/// Large beds are not split: their contact kernel occupies the device while the vehicle's kernels wait. On one H100 the
-/// split shortens a step of 18,752 grains by 16 % and one of 284,715 grains by 5 %, but lengthens one of 747,873 grains
-/// by 20 %.
-void GrainStepper::beginLaunchingAhead(GrainSystem& system) {
-  constexpr std::size_t kMostLinear = 300000, kMostHertz = 150000; // a Hertz contact takes about twice as long
-  const std::size_t most = system.constants.has(contact::kHertz) ? kMostHertz : kMostLinear;
-  if (system.constants.model.precision == Precision::single && system.present() <= most) system.arrays.keepGathered();
-}
-
-void GrainStepper::launchUncoupled(GrainSystem& system) {
+void GrainStepper::launchUncoupled(GrainSystem& system, const contact::GrainLoadsView& loads) {
   const Launch step = ahead(system, nullptr);
   aside_.fork();
   computeBoundaryContacts(aside_.exec(), step);
-  if (!splits(system)) return;
-  gathering_.fork();
-  gatherGrainContacts(gathering_.exec(), kernelData(step), system.forceData<float>(), system.constants.model);
+  aside_.join();
+  uncoupled_.fork();
+  GrainKernelData d = kernelData(step);
+  d.role = loads.range; // 0: of a grain that no part is near
+  runStep(uncoupled_.exec(), system, d, d.count);
 }
 
 void GrainStepper::launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads) {
-  const Launch step = ahead(system, &loads);
-  if (splits(system)) gathering_.join();
-  aside_.fork();
-  if (splits(system))
-    return advanceGatheredGrains(aside_.exec(), kernelData(step), system.forceData<float>(), system.constants.model);
-  base::Exec exec = aside_.exec();
-  exec.leavesRoom = true;
-  if (system.constants.model.precision == Precision::single)
-    advanceGrains<float>(exec, step, nullptr);
-  else
-    advanceGrains<double>(exec, step, nullptr);
+  GrainKernelData d = kernelData(ahead(system, &loads));
+  d.active = loads.slot;
+  runStep(exec_, system, d, loads.count);
 }
 
 base::Parcel GrainStepper::flagsAfter(const GrainSystem& system) {

@@ -36,14 +36,12 @@ public:
   // A step that is launched ahead of its loads; see GrainsAhead. Each has flags of its own, by the buffer that holds
   // the state it begins with, and does nothing where the step before it has raised one.
   bool canLaunchAhead(const GrainSystem& system) const;
-  /// Call once before the first such step. Decides whether these steps are split.
-  void beginLaunchingAhead(GrainSystem& system);
   base::Watch flagsBefore(const GrainSystem& system) const;
-  /// Launches the work that does not depend on loads: contacts with walls and floor, and, if the step is split,
-  /// contacts between grains.
-  void launchUncoupled(GrainSystem& system);
+  /// Launches what no load can change: contacts with walls and floor, and the grains that no part is listed near.
+  void launchUncoupled(GrainSystem& system, const contact::GrainLoadsView& loads);
+  /// Launches all other grains.
   void launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads);
-  void joinGrains() { aside_.join(); }
+  void joinGrains() { uncoupled_.join(); }
   base::Parcel flagsAfter(const GrainSystem& system);
   /// What has been carried there. `further`: steps launched since. Where a flag is raised it waits for the device,
   /// which has called them off, and their exchange of buffers is taken back.
@@ -73,8 +71,6 @@ private:
   void advanceGrains(const base::Exec& exec, const Launch& step, const base::Array<std::uint32_t>* active);
   template <class Real> void advanceUniques(const Launch& step);
   Launch ahead(GrainSystem& system, const contact::GrainLoadsView* loads);
-  /// Whether steps launched ahead are split into two kernels.
-  static bool splits(const GrainSystem& system) { return system.arrays.fields().gathered.width > 0; }
   static int placeAhead(const GrainSystem& system);
   void clearFlags();
   StepOutcome readFlags(int steps);
@@ -86,8 +82,8 @@ private:
   base::Mirrored<StepFlags> flags_; ///< of each step of a batch
   base::DoubleBufferedGraph stepGraph_;
   base::SideStream side_;      ///< before all else: ghosts, and who reads them
-  base::SideStream gathering_; ///< lowest priority: contacts between grains of a split step
-  base::SideStream aside_;     ///< after all else: walls and floor, and grains launched ahead
+  base::SideStream aside_;     ///< after all else: walls and floor
+  base::SideStream uncoupled_; ///< after all else: grains launched ahead that no part is near
   bool boundariesBegun_{false};
 };
 

@@ -12,17 +12,19 @@ namespace grouser::terrain {
 class GrainsAhead {
 public:
   /// `grains` outlive it.
-  explicit GrainsAhead(Grains& grains) : grains_(grains) { grains_.stepper_.beginLaunchingAhead(grains_.system_); }
+  explicit GrainsAhead(Grains& grains) : grains_(grains) {}
   /// On one GPU, without moving surfaces.
   static bool canLaunch(const Grains& grains) { return grains.stepper_.canLaunchAhead(grains.system_); }
 
   contact::GrainsView view() const { return grains_.view(); }
   /// Raised by the step before: then this one does nothing.
   base::Watch flagsBefore() const { return grains_.stepper_.flagsBefore(grains_.system_); }
-  /// Launches the work that does not depend on loads. It runs concurrently with what is queued before launchGrains().
-  void launchUncoupled() { grains_.stepper_.launchUncoupled(grains_.system_); }
-  /// Launches the rest of the grains' step after all that is queued so far. It runs concurrently with what is queued
-  /// before joinGrains(). The queue waits for the work of launchUncoupled().
+  /// Launches walls, floor and the grains that `loads` list no part near. What is queued waits for walls and floor; the
+  /// grains run concurrently with what is queued before joinGrains().
+  void launchUncoupled(const contact::GrainLoadsView& loads) {
+    grains_.stepper_.launchUncoupled(grains_.system_, loads);
+  }
+  /// Queues the step of all other grains.
   void launchGrains(const contact::GrainLoadsView& loads) { grains_.stepper_.launchGrains(grains_.system_, loads); }
   void joinGrains() { grains_.stepper_.joinGrains(); }
   /// To be carried to the host behind it.

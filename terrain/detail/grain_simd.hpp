@@ -369,7 +369,7 @@ private:
   /// What acts on one grain.
   GROUSER_SIMD void sum(int g, int i) {
     if (hasFixed()) {
-      if (data_.motion[i].velocity.w < 0) return advance_.addDone(g, i), letStay(data_, forces_, i);
+      if (data_.motion[i].velocity.w < 0) return advance_.addDone(g, i), letStay(data_, forces_, i, books_);
       if (kWithLedger) bookHeldContacts(g, i);
     }
     Sum all;
@@ -425,7 +425,7 @@ private:
       }
     if (!any) return;
     if (!kWithFriction) torque = Float4{};
-    bookHeld(data_, forces_, i, {force[0], force[1], force[2]}, {torque[0], torque[1], torque[2]});
+    bookHeld(data_, forces_, i, {force[0], force[1], force[2]}, {torque[0], torque[1], torque[2]}, books_);
   }
 
   const GrainKernelData& data_;

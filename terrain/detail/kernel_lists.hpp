@@ -117,20 +117,6 @@ inline constexpr auto kStepKernels =
     joined(soilKernels(), kPlasticKernels, kCohesiveKernels, kBevameterKernels, kOtherKernels);
 static_assert(allDiffer(kStepKernels));
 
-/// Features on which the two kernels of a split step depend (grain_halves.cuh).
-inline constexpr unsigned kAtGather = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
-                                      kManyMaterials | kPeriodic | kFixed | kLedger,
-                          kAtAdvance = kHertz | kFriction | kRollingFriction | kManyRadii | kManyMaterials | kPeriodic |
-                                       kFixed | kLedger | kBoundaries | kLoads;
-/// One of these kernels for each bed under a vehicle. Vehicles exclude periodic boundaries. Entries may repeat.
-template <unsigned kOf> constexpr auto splitKernels() {
-  auto sets = kStepKernels;
-  for (unsigned& set : sets) set = set & kLoads && !(set & kPeriodic) ? set & kOf : contact::kGeneral;
-  return sets;
-}
-inline constexpr auto kGatherKernels = splitKernels<kAtGather>();
-inline constexpr auto kAdvanceKernels = splitKernels<kAtAdvance>();
-
 /// Of walls and floor, by the features that their kernel depends on. The search on a floor needs many registers.
 inline constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
                                           kManyMaterials | kSurfaces | kFloor | contact::kGeneral;

@@ -2,7 +2,9 @@
 // One grain against parts made of spheres: the plane under it, two patches in a corner, history, balance of loads.
 #include "contact/grain_part_contacts.hpp"
 
+#include "base/bits.hpp"
 #include "base/math.hpp"
+#include "base/random.hpp"
 #include "part_fixture.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -273,6 +275,52 @@ TEST(GrainOnPlate, KeepsItsFrictionSpringThroughARefresh) {
     EXPECT_NEAR(r.onGrain.x, -2e5 * 50 * speed * bench.model.timeStep, 1e-3);
   }
 }
+
+/// A cloud of grains that falls on a plate in large steps: loads, springs and sums of all steps.
+std::vector<std::uint64_t> fallOnPlate(std::size_t searchFrom) {
+  Bench bench(plate(0.1, 0.008, 0.008), 0.5);
+  const base::SphereSet set = plate(0.1, 0.008, 0.008);
+  bench.model.searchFrom = searchFrom;
+  GrainPartContacts contacts(bench.exec, bench.model, {&set}, {{0, {}, {}}});
+  const std::vector<PartMotion> still{atRest({})};
+  const base::Array<PartMotion> motion(bench.exec, still);
+  constexpr std::uint32_t kGrains = 300;
+  std::vector<std::uint64_t> result;
+  for (int step = 0; step < 6; ++step) {
+    std::vector<base::Position> position;
+    std::vector<Motion> moving;
+    std::vector<std::uint32_t> id;
+    for (std::uint32_t g = 0; g < kGrains; ++g) {
+      const auto die = [g](std::uint64_t k) { return base::uniform(1, 2, g, k); };
+      const double fall = 0.002 + 0.004 * die(3);
+      position.push_back(bench.model.scale.fromMetres(
+          {0.25 * (die(0) - 0.5), 0.25 * (die(1) - 0.5), 0.1 * die(2) - 0.04 - fall * step}));
+      moving.push_back({{0.3f, 0, static_cast<float>(-fall / 1e-4), 0}, {}});
+      id.push_back(g);
+    }
+    const base::Array<base::Position> places(bench.exec, position);
+    const base::Array<Motion> motions(bench.exec, moving);
+    const base::Array<std::uint32_t> ids(bench.exec, id);
+    const GrainsView grains{places.data(), motions.data(), ids.data(), kGrains};
+    if (step % 3 == 0) contacts.refresh(grains, motion);
+    bench.loads.zero();
+    contacts.compute(grains, motion, bench.loads.data());
+    const PartLoad onPart = bench.loads.at(0);
+    for (int a = 0; a < 3; ++a)
+      result.push_back(static_cast<std::uint64_t>(onPart.force[a])),
+          result.push_back(static_cast<std::uint64_t>(onPart.torque[a]));
+    for (const std::uint32_t word : contacts.save().words()) result.push_back(word);
+    for (const std::int64_t sum : contacts.save().sums) result.push_back(static_cast<std::uint64_t>(sum));
+    const GrainLoadsView view = contacts.grainLoads();
+    std::vector<GrainLoad> load(static_cast<std::size_t>(view.count));
+    base::copyToHost(bench.exec, load.data(), view.load, load.size() * sizeof(GrainLoad));
+    for (const GrainLoad& l : load)
+      result.push_back(static_cast<std::uint64_t>(l.force.z)), result.push_back(base::bitsAs<std::uint32_t>(l.deepest));
+  }
+  return result;
+}
+
+TEST(GrainsNearParts, HaveTheSameLoadsWhereTheyAreSearchedFirst) { EXPECT_EQ(fallOnPlate(0), fallOnPlate(1000000)); }
 
 } // namespace
 } // namespace grouser::contact::testing

@@ -80,28 +80,30 @@ std::vector<GrainSpec> heap(const LaneKind& kind) {
 /// Pushes every fifth grain, another fifth each step, by what depends on its id alone.
 struct Pushes {
   std::vector<std::uint32_t> range;
+  std::vector<std::uint32_t> slot;
   std::vector<contact::GrainLoad> load;
   std::int64_t received[3]{};
   contact::GrainLoadsView view(const Grains& grains, std::int64_t step) {
     const base::FixedPoint quantum = base::fixedPointFor(1e3);
-    range.assign(grains.view().count, 0), load.clear();
+    range.assign(grains.view().count, 0), load.clear(), slot.clear();
     for (std::size_t i = 0; i < grains.view().count; ++i) {
       const auto id = static_cast<int>(grains.view().id[i]);
       if ((id + step) % 5 != 0) continue;
       range[i] = static_cast<std::uint32_t>(load.size()) << 8 | 2u;
+      slot.insert(slot.end(), 2, static_cast<std::uint32_t>(i));
       for (int k = 0; k < 2; ++k)
         load.push_back({quantum.quantise(Vec3d{die(id, 8) - 0.5, die(id, 9) - 0.5, die(id, 10)} * (0.01 * (k + 1))),
                         {1e-5f, 0, -2e-5f},
                         1e-5f});
     }
-    return {range.data(), load.data(), quantum, received};
+    return {range.data(), load.data(), quantum, received, slot.data(), static_cast<std::int64_t>(slot.size())};
   }
 };
 
 /// As a step that is launched ahead.
 void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
   GrainsAhead ahead(grains);
-  ahead.launchUncoupled();
+  ahead.launchUncoupled(loads);
   ahead.launchGrains(loads);
   ahead.joinGrains();
   base::carry(base::cpuExec(1), std::array{ahead.flagsAfter()});
