@@ -218,8 +218,10 @@ void planCommand(const PlanCommand& command) {
   if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
   std::fflush(stdout);
   if (!misfit.empty()) throw base::InputError(misfit);
-  if (!command.probe) return;
-  const forecast::Forecast told = forecast::forecastOf(scene, counted, {folder, 1, command.cache});
+  if (!command.forecast) return;
+  const auto stage = [](const char* what) { support::tell("plan: {}\n", what); };
+  const forecast::Forecast told =
+      forecast::forecastOf(scene, counted, {folder, 1, command.cache, command.probe, stage});
   fmt::print("{}", forecast::forecastText(told));
   if (!command.json.empty()) support::writeTextFile(command.json, forecast::forecastJson(told), "--json");
 }

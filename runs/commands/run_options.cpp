@@ -96,8 +96,8 @@ void addPlan(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<PlanCommand>();
   PlanCommand& p = *command;
   CLI::App* plan = app.add_subcommand(
-      "plan", "What a scene switches on, its size, time step and memory, and by a second of its kind of work how long "
-              "it will take here");
+      "plan", "What a scene switches on, its size, time step and memory, and in some seconds how long it will take "
+              "here");
   plan->add_option("scene", p.scene, "scene file")->required();
   plan->add_option("--set", p.overrides, kSetHelp)->allow_extra_args(false);
   plan->add_option("--ranks", p.ranks, "also how so many ranks (mpirun -np) would share the grains")
@@ -105,7 +105,10 @@ void addPlan(CLI::App& app, const Invocation&) {
   plan->add_option("--device", p.device, "auto, cpu or cuda; default: as the scene says");
   plan->add_option("--threads", p.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
   support::addOut(*plan, p.folder, "folder that results would go to; default: out/NAME of the scene");
-  CLI::Option* without = plan->add_flag("!--no-probe", p.probe, "run nothing: no time to expect");
+  CLI::Option* without = plan->add_flag("!--no-probe", p.forecast, "run nothing: no time to expect");
+  plan->add_flag("--probe", p.probe,
+                 "measure all parts of the run, up to some minutes, and keep the figures for later plans")
+      ->excludes(without);
   plan->add_option("--json", p.json, "also write the time to expect to this file, by its parts")
       ->excludes(without)
       ->check(support::writableFile("--json"));

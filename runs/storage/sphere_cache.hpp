@@ -26,6 +26,10 @@ public:
   /// receives what that measures.
   base::SphereSet cut(const coupling::PartCut& part, spheredecomp::Protrusion* protrusion = nullptr) override;
 
+  /// Thrown by cut() after keptAlone(), in the place of cutting.
+  struct NotKept {};
+  void keptAlone() { keptAlone_ = true; }
+
   /// One line: where the sets of all ranks came from, and how long that took. Empty where there were none. All ranks
   /// call it.
   std::string summary(const base::Comm& comm = {}) const;
@@ -43,6 +47,7 @@ private:
   static Found parsed(const std::string& bytes, const std::string& origin);
 
   support::KeptFiles files_;
+  bool keptAlone_ = false;
   /// Of this rank, since the start.
   int taken_ = 0, cut_ = 0, kept_ = 0;
   double taking_ = 0, cutting_ = 0; ///< [s]

@@ -25,7 +25,8 @@ constexpr auto kAbandoned = std::chrono::hours(24); // a part of a file that no 
 struct KindName {
   const char *prefix, *suffix;
 };
-constexpr std::array<KindName, 3> kKindNames{{{"bed-", ".h5"}, {"spheres-", ".bin"}, {"check-", ".json"}}}; // by Kind
+constexpr std::array<KindName, 4> kKindNames{
+    {{"bed-", ".h5"}, {"spheres-", ".bin"}, {"check-", ".json"}, {"times-", ".json"}}}; // by Kind
 
 /// Empty where nothing is to be kept.
 std::string folderOfUser() {

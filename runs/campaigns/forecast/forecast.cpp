@@ -3,29 +3,37 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "coupling/vehicle_parts.hpp"
+#include "runs/campaigns/forecast/kept_ratios.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
+#include "runs/campaigns/forecast/typical_times.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/output_times.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
+#include "runs/setup/contact_pairs.hpp"
+#include "runs/setup/grain_memory.hpp"
 #include "runs/setup/ground_setup.hpp"
+#include "runs/setup/obstacles.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_setup.hpp"
 #include "runs/storage/bed_cache.hpp"
 #include "runs/storage/sphere_cache.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
-#include "runs/support/json_text.hpp"
 #include "runs/support/progress.hpp"
+#include "terrain/kernel_choice.hpp"
+#include "vehicle/assembly.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace grouser::forecast {
 
@@ -35,16 +43,14 @@ namespace {
 
 constexpr double kMostCopied =
     60'000; // grains of a piece on a CPU; a GPU, where few take as long as many, has kMostTaken
-constexpr double kMostTaken = 400'000; // grains of a kept bed that is taken as it is
-constexpr double kTrials = 4;          // small beds that a porosity is looked for with
-constexpr double kStride = 4;          // of soft steps
-constexpr double kFurtherPlot = 0.3;   // of the first one's time, with which Python begins [-]
-
-std::string time(double seconds) {
-  return seconds < 0.095  ? fmt::format("{:.2f} s", seconds)
-         : seconds < 9.95 ? fmt::format("{:.1f} s", seconds)
-                          : support::Progress::duration(seconds);
-}
+constexpr double kMostTaken = 400'000;                   // grains of a kept bed that is taken as it is
+constexpr double kTrials = 4;                            // small beds that a porosity is looked for with
+constexpr double kStride = 4;                            // of soft steps
+constexpr double kFurtherPlot = 0.3;                     // of the first one's time, with which Python begins [-]
+constexpr double kShort = 0.25;                          // for steps of the short probe [s]
+constexpr double kFewGrains = 50'000;                    // without a bed, that the short probe steps all of
+constexpr double kProbed = 1.5, kKept = 2, kTypical = 3; // factors within which parts lie: docs/plan.md [-]
+constexpr double kNoFigure = 1e-4;                       // parts of less are not kept [s]
 
 bool hasBed(const scene::Scene& scene) { return scene.terrain && scene.terrain->granular(); }
 
@@ -81,27 +87,48 @@ double speedOf(const scene::Scene& scene) {
 /// The scene's forecast while it is put together.
 class Forecaster {
 public:
-  Forecaster(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options)
-      : scene_(scene), probed_(scene), options_(options),
+  /// `ratios`: empty for typical values alone.
+  Forecaster(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options, Ratios ratios)
+      : scene_(scene), probed_(scene), options_(options), counted_(counted), ratios_(std::move(ratios)),
         exec_(support::chooseDevice(scene.run.device, scene.run.threads, nullptr)),
         timeStep_(setup::chooseTimeStep(scene)), grains_(static_cast<double>(counted.grains)), laying_(counted.laying),
         steps_(std::max(1.0, std::round(scene.run.duration / timeStep_))) {
     f_.onDevice = base::describe(exec_);
     spheres_ = options.cache ? storage::SphereCache::ofUser() : std::nullopt;
     if (options.cache && hasBed(scene) && scene.terrain->cache) beds_ = storage::BedCache::ofUser();
+    f_.probed = options.probe;
+    if (!options.probe) options_.seconds = kShort;
+    if (grains_ > 0) {
+      const setup::KernelTraits traits = setup::kernelTraits(scene, setup::ContactPairs(scene));
+      soil_ = terrain::stepKernelText(traits.features, traits.model) + (scene.terrain ? scene.terrain->material : "");
+    }
+    if (const auto& v = scene.vehicle) vehicle_ = fmt::format("{} {}", v->spec, v->sphereRadius.value_or(0));
   }
 
   Forecast made() {
     const Stopwatch all;
     findBed();
-    const bool sound = step();
-    f_.cuts = coupling::cutReports(*simulation_);
-    if (sound) output_ = timeOutput();
-    if (sound) output();
-    if (sound) prepare();
+    if (!options_.probe) findTypical();
+    modelled_ = !options_.probe && (hasBed(scene_) || grains_ > kFewGrains || uncut_ > 0);
+    const bool sound = modelled_ ? model() : step();
+    if (simulation_) f_.cuts = coupling::cutReports(*simulation_);
+    if (sound) {
+      if (options_.probe) options_.stage("timing rows, frames, checkpoint and plots");
+      output_ = options_.probe ? timeOutput() : typical_.output;
+      output();
+      prepare();
+      if (options_.probe) keep();
+    }
     memory();
     f_.spent = all.seconds();
     return f_;
+  }
+
+  /// Hardware, device, threads and build that kept ratios hold for.
+  static std::string machineOf(const scene::Scene& scene) {
+    return fmt::format("{}; {}; {}", support::machineText(),
+                       base::describe(support::chooseDevice(scene.run.device, scene.run.threads, nullptr)),
+                       support::buildInfo().commit);
   }
 
 private:
@@ -111,8 +138,86 @@ private:
     return session::timeOutput(*simulation_, record, exec_, scratch(), scene_.output.plots);
   }
 
+  void findTypical() {
+    double spheres = 0;
+    const double radius = scene_.vehicle ? scene_.vehicle->sphereRadius.value_or(scene::Vehicle::kSphereRadius) : 0;
+    if (scene_.vehicle && spheres_) spheres = keptSpheres();
+    typical_ = typicalTimes(grains_, frameBytesOfGrain(scene_), spheres, radius, exec_);
+    if (scene_.vehicle && spheres == 0) uncut_ = typical_.cutting;
+  }
+
+  /// Spheres of the vehicle's sets, each set once; 0 where some are still to be cut.
+  double keptSpheres() {
+    storage::SphereCache kept = *spheres_;
+    kept.keptAlone();
+    const coupling::VehicleSetup setup = setup::vehicleSetup(scene_);
+    const bool rigid = !hasBed(scene_) && grains_ == 0;
+    try {
+      const coupling::VehicleParts parts(vehicle::assemble(setup.spec, {}), setup, base::Comm(), &kept,
+                                         rigid ? base::kInfinity : setup::ContactPairs(scene_).kinds.smallest,
+                                         setup.shapes && rigid && setup::obstaclesOf(scene_).empty());
+      double spheres = 1; // none may be needed
+      for (const auto& set : parts.setFigures()) spheres += static_cast<double>(set.spheres);
+      f_.cuts = parts.cutReports();
+      return spheres;
+    } catch (const storage::SphereCache::NotKept&) {
+      return 0;
+    }
+  }
+
+  /// A small tile of the bed, and typical times.
+  bool model() {
+    double grain = typical_.grain, list = typical_.list;
+    if (hasBed(scene_)) {
+      options_.stage("short probe of a small bed");
+      tile_ = settleTile(setup::groundSetup(pieceOf(scene_, grains_, kMostCopied), timeStep_),
+                         scene_.terrain->porosity.has_value(), exec_.onCpu() ? base::cpuExec(1) : exec_, 2 * kShort);
+      if (exec_.onCpu())
+        grain = kLarge * tile_.resting / tile_.grains / std::max(1, exec_.threads),
+        list = kLarge * tile_.list / tile_.grains / std::max(1, exec_.threads);
+    }
+    const double parts = hasParts() ? typical_.vehicle : 0, each = grains_ * grain + parts;
+    times_.groups = {{1, each, 0, parts / each, grains_}};
+    lists_ = grains_ * list, scale_ = 1, pieceGrains_ = grains_;
+    own_ = typical_.placing + (kept_ ? grains_ * typical_.reading : 0);
+    return true;
+  }
+
+  bool hasParts() const { return scene_.vehicle || !scene_.meshes.empty() || !scene_.mechanism.empty(); }
+
+  /// Ratios of what was probed to what is modelled for the same scene.
+  void keep() {
+    options_.stage("keeping the figures for later plans");
+    ForecastOptions quick = options_;
+    quick.probe = false;
+    Forecaster other(scene_, counted_, quick, {});
+    const Forecast model = other.made();
+    Ratios ratios;
+    const auto compare = [&](const std::vector<ForecastPart>& probed, const std::vector<ForecastPart>& modelled) {
+      for (const ForecastPart& p : probed)
+        for (const ForecastPart& m : modelled)
+          if (p.name == m.name && p.seconds > kNoFigure && m.seconds > kNoFigure && other.isModelled(m.name))
+            ratios[workOf(p.name)] = p.seconds / m.seconds;
+    };
+    compare(f_.preparation, model.preparation), compare(f_.steps, model.steps), compare(f_.output, model.output);
+    keepRatios(machineOf(scene_), ratios);
+  }
+
+  bool isModelled(const std::string& part) const {
+    static const std::set<std::string> kSteps{"grains",    "neighbour lists", "vehicle", "meshes",
+                                              "mechanism", "sphere sets",     "placing", "parts, placing"};
+    return modelled_ || (!options_.probe && !kSteps.contains(part));
+  }
+
+  /// The kind of work that a part is, by which ratios are kept.
+  std::string workOf(const std::string& part) const {
+    static const std::set<std::string> kOfVehicle{"vehicle", "parts, placing", "sphere sets"},
+        kOfMachine{"picture", "plots", "files begun", "laying the bed", "bed, kept"};
+    return fmt::format("{}: {}", part, kOfMachine.contains(part) ? "" : kOfVehicle.contains(part) ? vehicle_ : soil_);
+  }
+
   void findBed() {
-    if (!beds_ || grains_ > kMostTaken) return;
+    if (!beds_ || (options_.probe && grains_ > kMostTaken)) return;
     const std::string origin = setup::originOfBed(scene_);
     kept_ = !origin.empty() && beds_->find(origin);
   }
@@ -121,8 +226,9 @@ private:
     const bool copied = hasBed(scene_) && !kept_;
     if (copied) {
       const scene::Scene piece = pieceOf(probed_, grains_, exec_.onCpu() ? kMostCopied : kMostTaken);
+      options_.stage("settling a tile of the bed");
       if (scene_.terrain->settleTimeLimit > 0)
-        tile_ = settleTile(setup::simulationSetup(piece), scene_.terrain->porosity.has_value(),
+        tile_ = settleTile(setup::simulationSetup(piece).ground, scene_.terrain->porosity.has_value(),
                            exec_.onCpu() ? base::cpuExec(1) : exec_, 1.5 * options_.seconds);
       coupling::SimulationSetup setup = copiedBed(piece);
       const Stopwatch building;
@@ -140,6 +246,8 @@ private:
   }
 
   void make(coupling::SimulationSetup setup) {
+    options_.stage(scene_.vehicle ? "building a piece of the scene: bed, sphere sets, vehicle"
+                                  : "building a piece of the scene");
     simulation_ = std::make_unique<coupling::Simulation>(
         std::move(setup), exec_, coupling::SettleProgress([](double, double) {}), base::Comm(),
         beds_ && kept_ ? &*beds_ : nullptr, spheres_ ? &*spheres_ : nullptr);
@@ -167,6 +275,7 @@ private:
     if (stepSoft()) return true;
     if (scene_.vehicle) probed_ = hurried(scene_);
     build();
+    options_.stage("timing steps");
     try {
       if (scene_.vehicle) {
         const Stopwatch hurrying;
@@ -191,15 +300,17 @@ private:
       add(f_.preparation, "laying the bed", laying_ + grains_ * kLaid, "");
     }
     if (!kept_ && (spheres || !hasBed(scene_))) {
-      const double settled = hasBed(scene_) ? tile_.fallen * tile_.seconds : 0; // of the tile again, to be copied
+      const double settled =
+          hasBed(scene_) && !modelled_ ? tile_.fallen * tile_.seconds : 0; // of the tile again, to be copied
       add(f_.preparation, spheres ? "parts, placing" : "placing", std::max(0.0, own_ - cut - settled),
-          "as the probe's");
+          modelled_ ? "" : "as the probe's");
     }
     if (spheres)
-      add(f_.preparation, "sphere sets", 0,
-          cut > 0    ? fmt::format("cut now in {}, kept for the run", time(cut))
-          : spheres_ ? "kept from a run before"
-                     : "cut with the parts, as nothing is kept");
+      add(f_.preparation, "sphere sets", uncut_,
+          cut > 0      ? fmt::format("cut now in {:.2g} s, kept for the run", cut)
+          : uncut_ > 0 ? "cut once, then kept"
+          : spheres_   ? "kept from a run before"
+                       : "cut with the parts, as nothing is kept");
   }
 
   void settling() {
@@ -248,7 +359,7 @@ private:
     add(f_.output, "files begun", o.begin, "");
     f_.disk = (frames * o.frameBytes + o.checkpointBytes) * std::max(1.0, scale_) + demand().rows;
     const double wrote = o.frame + o.checkpoint;
-    if (wrote > 0) f_.diskSpeed = (o.frameBytes + o.checkpointBytes) / wrote;
+    if (wrote > 0 && options_.probe) f_.diskSpeed = (o.frameBytes + o.checkpointBytes) / wrote;
   }
 
   /// One list of the piece made anew [s]; afterwards it takes no step.
@@ -269,7 +380,7 @@ private:
     std::string how = "as often as in the probe";
     // In a bed at rest no list ends: how often one does follows from how quickly its grains go.
     if (const double speed = speedOf(scene_); speed > 0) {
-      const double reach = 0.5 * scene_.run.skin * simulation_->ground().grains->model().radius;
+      const double reach = 0.5 * scene_.run.skin * setup::ContactPairs(scene_).kinds.largest;
       const double between = std::max(1.0, reach / (speed * timeStep_));
       const double told = lists() * scale_ / between;
       if (told > perStep) perStep = told, how = fmt::format("one in {:.0f} steps, at {:.2g} m/s", between, speed);
@@ -281,8 +392,7 @@ private:
     if (grains_ > 0)
       add(f_.steps, "grains", grains, fmt::format("{:.0f} steps of {:.4g} us", steps_, 1e6 * grains / steps_));
     if (grains_ > 0) add(f_.steps, "neighbour lists", lists, how);
-    const bool parted = scene_.vehicle || !scene_.meshes.empty() || !scene_.mechanism.empty();
-    if (parted || grains_ == 0)
+    if (hasParts() || grains_ == 0)
       add(f_.steps,
           scene_.vehicle             ? "vehicle"
           : scene_.mechanism.empty() ? "meshes"
@@ -295,7 +405,7 @@ private:
   /// Grains in the mean over the steps that the probe has not taken.
   double meanLater() const {
     double mean = pieceGrains_;
-    const double from = std::min(simulation_->time(), scene_.run.duration), to = scene_.run.duration;
+    const double from = simulation_ ? std::min(simulation_->time(), scene_.run.duration) : 0, to = scene_.run.duration;
     if (scene_.sources.empty() || to <= from) return mean;
     mean = grains_;
     for (const scene::Source& s : scene_.sources) {
@@ -323,16 +433,34 @@ private:
     return access(place.c_str(), W_OK) == 0 ? place / folder : fs::temp_directory_path() / folder;
   }
 
-  static void add(std::vector<ForecastPart>& parts, const char* name, double seconds, const std::string& how) {
-    parts.push_back({name, std::max(0.0, seconds), how});
+  void add(std::vector<ForecastPart>& parts, const char* name, double seconds, const std::string& how) const {
+    ForecastPart part{name, std::max(0.0, seconds), how};
+    if (isModelled(name)) {
+      const bool ofTile =
+          hasBed(scene_) && exec_.onCpu() &&
+          (&parts == &f_.steps || part.name.starts_with("settling") || part.name.starts_with("friction"));
+      part.source = ofTile && !(part.name == "vehicle" || part.name == "meshes" || part.name == "mechanism")
+                        ? Source::probed
+                        : Source::typical;
+      const auto kept = ratios_.find(workOf(name));
+      if (kept != ratios_.end()) part.seconds *= kept->second, part.source = Source::kept;
+    }
+    parts.push_back(part);
   }
 
   static constexpr double kLaid = 2e-6;      // of a grain, to put it on the device [s]
   static constexpr double kCopiesRest = 0.2; // simulated time that copies need to rest [s]
+  static constexpr double kLarge = 1.3;      // dearer a grain of a bed than one of a tile that lies in the cache [-]
 
   const scene::Scene& scene_;
   scene::Scene probed_; ///< with what makes it quicker to probe
-  const ForecastOptions& options_;
+  ForecastOptions options_;
+  const CountedGrains& counted_;
+  Ratios ratios_;
+  std::string soil_, vehicle_; ///< kernel of the grains and their material; file of the vehicle and its spheres
+  TypicalTimes typical_;
+  double uncut_ = 0;      ///< time of sphere sets still to be cut [s]
+  bool modelled_ = false; ///< steps follow from a tile and typical times
   base::Exec exec_;
   double timeStep_, grains_, laying_, steps_;
   Forecast f_;
@@ -349,19 +477,18 @@ private:
   StepTimes times_;
 };
 
-std::string partsText(const char* title, const std::vector<ForecastPart>& parts) {
-  if (parts.empty()) return "";
-  std::string text = fmt::format("  {:<24} {}\n", title, time(Forecast::sum(parts)));
-  for (const ForecastPart& p : parts)
-    text += fmt::format("    {:<22} {}{}\n", p.name, time(p.seconds), p.how.empty() ? "" : " (" + p.how + ")");
-  return text;
-}
-
-std::string bytes(double b) {
-  return b >= 1e9 ? fmt::format("{:.3g} GB", 1e-9 * b) : fmt::format("{:.3g} MB", 1e-6 * b);
-}
-
 } // namespace
+
+double Forecast::accuracy(Source source) const {
+  return source == Source::typical ? kTypical : probed ? kProbed : kKept;
+}
+
+double Forecast::bound(int sign) const {
+  double all = 0;
+  for (const auto* parts : {&preparation, &steps, &output})
+    for (const ForecastPart& p : *parts) all += p.seconds * (sign < 0 ? 1 / accuracy(p.source) : accuracy(p.source));
+  return all;
+}
 
 double Forecast::sum(const std::vector<ForecastPart>& parts) {
   double all = 0;
@@ -370,41 +497,8 @@ double Forecast::sum(const std::vector<ForecastPart>& parts) {
 }
 
 Forecast forecastOf(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options) {
-  return Forecaster(scene, counted, options).made();
-}
-
-std::string forecastText(const Forecast& f) {
-  std::string text = f.cuts.empty() ? "" : "\nmeshes as spheres\n";
-  for (const spheredecomp::CutReport& cut : f.cuts) text += fmt::format("  {}\n", spheredecomp::protrusionLine(cut));
-  for (const spheredecomp::CutReport& cut : f.cuts)
-    if (const std::string warning = spheredecomp::protrusionWarning(cut); !warning.empty())
-      text += fmt::format("\nWARNING: {}\n", warning);
-  text += fmt::format("\nto expect on {}, by a probe of {}\n", f.onDevice, time(f.spent));
-  text += partsText("preparation", f.preparation);
-  text += partsText("steps", f.steps);
-  text += partsText("output", f.output);
-  if (f.warning.empty()) text += fmt::format("  {:<24} {}\n", "in all", time(f.total()));
-  text += fmt::format("  {:<24} about {}\n", "memory of the process", bytes(f.process));
-  if (f.device > 0) text += fmt::format("  {:<24} about {}\n", "memory of the GPU", bytes(f.device));
-  text += fmt::format("  {:<24} about {}{}\n", "on the disk", bytes(f.disk),
-                      f.diskSpeed > 0 ? fmt::format(", written at {}/s", bytes(f.diskSpeed)) : "");
-  if (!f.warning.empty()) text += fmt::format("\nwarning: {}\n", f.warning);
-  return text;
-}
-
-std::string forecastJson(const Forecast& f) {
-  nlohmann::ordered_json json;
-  json["machine"] = support::machineText(), json["commit"] = support::buildInfo().commit;
-  json["device"] = f.onDevice;
-  json["total_s"] = f.total(), json["probe_s"] = f.spent;
-  const auto put = [&json](const char* name, const std::vector<ForecastPart>& parts) {
-    json[name]["total_s"] = Forecast::sum(parts);
-    for (const ForecastPart& p : parts) json[name][p.name] = p.seconds;
-  };
-  put("preparation", f.preparation), put("steps", f.steps), put("output", f.output);
-  json["process_bytes"] = f.process, json["device_bytes"] = f.device, json["disk_bytes"] = f.disk;
-  if (!f.warning.empty()) json["warning"] = f.warning;
-  return support::jsonText(json, 2) + "\n";
+  return Forecaster(scene, counted, options, options.probe ? Ratios() : keptRatios(Forecaster::machineOf(scene)))
+      .made();
 }
 
 } // namespace grouser::forecast

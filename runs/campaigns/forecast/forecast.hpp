@@ -9,23 +9,29 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 /// How long a run will take on this machine, told by a second of its kind of work.
 namespace grouser::forecast {
 
+/// Origin of a figure: measured for this scene now, in an earlier probe on this machine, or on other machines.
+enum class Source { probed, kept, typical };
+
 /// One part of a run's time.
 struct ForecastPart {
   std::string name;
   double seconds = 0; ///< wall time [s]
   std::string how;    ///< what it was reckoned from
+  Source source = Source::probed;
 };
 
 struct Forecast {
   std::vector<ForecastPart> preparation, steps, output;
   std::string warning;                       ///< problem with the bed; empty: none
   double spent = 0;                          ///< by the probe itself [s]
+  bool probed = true;                        ///< by the long probe
   double process = 0;                        ///< most memory of the process [B]
   double device = 0;                         ///< GPU memory [B]; 0 on a CPU
   double disk = 0;                           ///< disk space of the results [B]
@@ -35,18 +41,27 @@ struct Forecast {
 
   static double sum(const std::vector<ForecastPart>& parts);
   double total() const { return sum(preparation) + sum(steps) + sum(output); } ///< [s]
+
+  /// Parts are accurate within such a factor [-].
+  double accuracy(Source source) const;
+  /// The total if all parts were `sign` = -1 shorter or 1 longer by their factors [s].
+  double bound(int sign) const;
 };
 
 struct ForecastOptions {
   std::filesystem::path folder; ///< that results would go to: its disk is the one that is measured
-  double seconds = 1;           ///< for steps
+  double seconds = 1;           ///< for steps of the long probe
   bool cache = true;            ///< beds and sphere sets may be taken from earlier runs, as a run does
+  bool probe = true;            ///< the long probe; false: a second at most
+  std::function<void(const char*)> stage = [](const char*) {}; ///< receives what is done next, in words
 };
 
-/// Makes a piece of the scene's work and runs it: its bed, where one is kept, or copies of a small settled tile of the
-/// same grains, with the scene's vehicle, mechanism or surfaces on it; some rows, frames and a checkpoint in a folder
-/// of its own that is removed again. Sphere sets that are cut for it are kept for the run. Throws what a run throws
-/// before its first step; where the steps of the probe fail, `warning` says so.
+/// The long probe makes a piece of the scene's work and runs it: its bed, where one is kept, or copies of a small
+/// settled tile of the same grains, with the scene's vehicle, mechanism or surfaces on it; some rows, frames and a
+/// checkpoint in a folder of its own that is removed again. Sphere sets that are cut for it are kept for the run.
+/// Throws what a run throws before its first step; where the steps of the probe fail, `warning` says so. What it
+/// measures is kept for later plans. Without it a small tile of the bed, or a scene of few grains, is run for less than
+/// a second; all else follows from figures that long probes on this machine have kept, else from typical values.
 Forecast forecastOf(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options);
 
 /// The figures as `grouser plan` prints them.

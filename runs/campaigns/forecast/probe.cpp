@@ -32,9 +32,9 @@ constexpr int kGroups = 24;
 /// Ends the settling of a tile whose time is up.
 struct TimeIsUp {};
 
-/// The bed of a setup that settles: that of the ground, or of the ground alone on which more is put.
-const coupling::BedSetup& settlingBed(const coupling::SimulationSetup& setup) {
-  const coupling::BedSetup& bed = *setup.ground.grains->bed;
+/// The bed that settles: that of the ground, or of the ground alone on which more is put.
+const coupling::BedSetup& settlingBed(const coupling::GroundSetup& whole) {
+  const coupling::BedSetup& bed = *whole.grains->bed;
   return bed.alone ? *bed.alone->grains->bed : bed;
 }
 
@@ -131,7 +131,7 @@ double timeOfLists(coupling::Simulation& simulation, const base::Exec& exec) {
   return *std::min_element(times.begin(), times.end());
 }
 
-SettledTile settleTile(const coupling::SimulationSetup& piece, bool prepared, const base::Exec& exec, double seconds) {
+SettledTile settleTile(const coupling::GroundSetup& piece, bool prepared, const base::Exec& exec, double seconds) {
   const coupling::GroundSetup& ground = *settlingBed(piece).tile->ground;
   const coupling::BedSetup& bed = *ground.grains->bed;
   const coupling::LaidGround laid = coupling::layGround(ground, exec);
@@ -164,8 +164,8 @@ SettledTile settleTile(const coupling::SimulationSetup& piece, bool prepared, co
   const Stopwatch list;
   grains.refreshNeighbours();
   base::synchronize(exec);
-  tile.falling =
-      std::max(0.2 * tile.seconds, tile.seconds - tile.rebuilds * list.seconds()) / std::max(1.0, tile.steps);
+  tile.list = list.seconds();
+  tile.falling = std::max(0.2 * tile.seconds, tile.seconds - tile.rebuilds * tile.list) / std::max(1.0, tile.steps);
   const Stopwatch resting;
   std::int64_t steps = 0;
   while (resting.seconds() < 0.05 * seconds) steps += grains.advance(16);

@@ -55,11 +55,12 @@ struct SettledTile {
   double seconds = 0;   ///< all that took [s]
   double falling = 0;   ///< mean time a step until then, lists left out [s]
   double resting = 0;   ///< of a step at rest [s]
+  double list = 0;      ///< of a neighbour list [s]
   double fallen = 0;    ///< share of the steps until the last grain has fallen, and a tenth of a second [-]
   bool complete = true; ///< it came to rest within the time given
 };
 /// Settles the tile of a piece made by pieceOf(): prepared as a porosity asks, where the scene has one.
-SettledTile settleTile(const coupling::SimulationSetup& piece, bool prepared, const base::Exec& exec, double seconds);
+SettledTile settleTile(const coupling::GroundSetup& piece, bool prepared, const base::Exec& exec, double seconds);
 
 /// The scene on a level bed of at most `most` grains, copied from a small settled tile, as poured; a vehicle keeps the
 /// room that it stands on.

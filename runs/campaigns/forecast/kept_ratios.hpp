@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+
+/// Measured over modelled times of one machine, kept for later plans in the user's cache.
+namespace grouser::forecast {
+
+/// Ratio [-] by the kind of work.
+using Ratios = std::map<std::string, double>;
+
+/// The ratios kept of `machine` (hardware, device, threads and build in words); none where nothing is kept.
+Ratios keptRatios(const std::string& machine);
+
+/// Adds ratios to those kept of `machine`; a kind measured before is replaced. Failure to write is no error: a later
+/// plan then uses typical values.
+void keepRatios(const std::string& machine, const Ratios& ratios);
+
+} // namespace grouser::forecast
