@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
+#include "runs/setup/placement.hpp"
 #include "runs/support/tell.hpp"
 
 #include <fmt/format.h>
@@ -91,6 +92,15 @@ std::vector<std::string> bedNotes(const TrackOnBed& t) {
         "the floor is smooth: grains roll on it as on the balls of a bearing; terrain.floor_grains = true "
         "makes it rough");
   return notes;
+}
+
+std::vector<std::string> bedNotes(const scene::Scene& scene) {
+  if (!scene.vehicle || !scene.terrain || !scene.terrain->granular()) return {};
+  const scene::Terrain& t = *scene.terrain;
+  const vehicle::VehicleSpec spec = setup::vehicleSpec(scene);
+  const double diameter = 2 * setup::bedOptions(scene).meanRadius();
+  return bedNotes({2 * spec.shoe.padHalfWidth, 2 * spec.trackOffset, t.depth.value_or(diameter * t.layers.value_or(0)),
+                   t.size[1], diameter, !scene.run.periodic[1], t.floorGrains, diameter});
 }
 
 std::vector<std::string> bedNotes(const coupling::Simulation& simulation) {

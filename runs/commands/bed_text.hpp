@@ -32,6 +32,8 @@ struct TrackOnBed {
 /// 20 grains in the width of a plate make it sink less (docs/beds.md).
 std::vector<std::string> bedNotes(const TrackOnBed& track);
 
+/// The notes on the bed that a scene will lay; empty without a vehicle on a bed.
+std::vector<std::string> bedNotes(const scene::Scene& scene);
 /// The notes of a run with a vehicle on a bed; empty without.
 std::vector<std::string> bedNotes(const coupling::Simulation& simulation);
 

@@ -282,6 +282,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   for (const std::string& note : remarks.notes) text += fmt::format("\nnote: {}\n", note);
   for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nwarning: {}\n", warning);
   for (const std::string& note : setup::meshNotes(scene)) text += fmt::format("\nnote: {}\n", note);
+  for (const std::string& note : bedNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   for (const std::string& note : setup::freeSurfaceNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   if (!scene.mechanism.empty()) {
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())

@@ -27,6 +27,12 @@ double outerTrack(const scene::Driver& driver, const vehicle::VehicleSpec& spec)
   return 1 + spec.trackOffset / std::fabs(*driver.course->radius);
 }
 
+/// Time in which the drive comes on [s].
+double rampOf(const scene::Scene& scene) {
+  const auto& course = scene.driver.course;
+  return course ? std::fabs(course->speed) / course->acceleration : scene.driver.rampOfDrive();
+}
+
 } // namespace
 
 bool asksToDrive(const scene::Scene& scene) {
@@ -37,7 +43,7 @@ bool asksToDrive(const scene::Scene& scene) {
   return anyIsNot0(d.speeds().left) || anyIsNot0(d.speeds().right);
 }
 
-double teethAsked(const scene::Scene& scene) {
+double teethAsked(const scene::Scene& scene, bool steady) {
   const scene::Driver& d = scene.driver;
   const double time = scene.run.duration - d.driveBegins();
   if (!(time > 0)) return 0;
@@ -48,10 +54,12 @@ double teethAsked(const scene::Scene& scene) {
   options.speeds = {d.speeds().time, d.speeds().left, d.speeds().right};
   const vehicle::Driver driver(options);
   const double outer = outerTrack(d, spec);
+  const double from = steady ? rampOf(scene) : 0;
   constexpr int kParts = 2000;
   std::array<double, 2> turned{}; // [rad]
   for (int i = 0; i < kParts; ++i) {
     const double t = time * (i + 0.5) / kParts;
+    if (t < from) continue;
     std::array<double, 2> speed = driver.at(t).sprocketSpeed;
     if (d.course)
       speed.fill(std::min(std::fabs(d.course->speed), d.course->acceleration * t) * outer / spec.pitchRadius());
@@ -71,7 +79,13 @@ std::string longerDriveRemedy(const scene::Scene& scene) {
 std::string shortDriveWarning(const scene::Scene& scene) {
   if (!asksToDrive(scene)) return {};
   const double teeth = teethAsked(scene);
-  if (teeth >= kFewestTeeth) return {};
+  if (teeth >= kFewestTeeth) {
+    if (teethAsked(scene, true) >= 1) return {};
+    return fmt::format("the vehicle drives less than a tooth in steady motion (its drive is up to speed at {:.4g} s{}, "
+                       "the run ends at {:g} s), and means over steady motion are inconclusive; {}",
+                       scene.driver.driveBegins() + rampOf(scene), scene.driver.driveStart ? "" : " at the earliest",
+                       scene.run.duration, longerDriveRemedy(scene));
+  }
   return fmt::format("the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; {}",
                      teeth >= kLeastTeeth ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
                      scene.driver.driveBegins(), scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,

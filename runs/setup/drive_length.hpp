@@ -17,13 +17,14 @@ inline constexpr double kLeastTeeth = 0.01;
 bool asksToDrive(const scene::Scene& scene);
 
 /// Teeth that pass the faster sprocket by the end of the run [-] if it starts as early as it can; infinite where
-/// torques decide.
-double teethAsked(const scene::Scene& scene);
+/// torques decide. `steady`: those behind the ramp of the drive alone.
+double teethAsked(const scene::Scene& scene, bool steady = false);
 
 /// The setting that lets a vehicle drive farther, as the end of a message.
 std::string longerDriveRemedy(const scene::Scene& scene);
 
-/// Warns before a run whose vehicle cannot pass kFewestTeeth in its duration; empty where it can.
+/// Warns before a run whose vehicle cannot pass kFewestTeeth in its duration, or none in steady motion; empty where it
+/// can.
 std::string shortDriveWarning(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -58,7 +58,8 @@ bool hasBed(const scene::Scene& scene) { return scene.terrain && scene.terrain->
 double sampleGrains(const scene::Scene& scene, double timeStep) {
   const scene::Scene bed = setup::isPutOnBed(scene) ? setup::sceneOfBed(scene) : scene;
   const coupling::GroundSetup ground = setup::groundSetup(bed, timeStep);
-  const auto& preparation = ground.grains->bed->preparation;
+  const coupling::BedSetup& laid = *ground.grains->bed;
+  const auto& preparation = (laid.tile ? *laid.tile->ground->grains->bed : laid).preparation;
   if (!preparation) return 0;
   const terrain::BedOptions& options = preparation->sample->grains->bed->options;
   const terrain::BedPlan plan = terrain::planBed(*preparation->sample->surface, options);
@@ -139,10 +140,8 @@ private:
   }
 
   void findTypical() {
-    double spheres = 0;
-    const double radius = scene_.vehicle ? scene_.vehicle->sphereRadius.value_or(scene::Vehicle::kSphereRadius) : 0;
-    if (scene_.vehicle && spheres_) spheres = keptSpheres();
-    typical_ = typicalTimes(grains_, frameBytesOfGrain(scene_), spheres, radius, exec_);
+    const double spheres = scene_.vehicle && spheres_ ? keptSpheres() : 0;
+    typical_ = typicalTimes(scene_, grains_, spheres, exec_);
     if (scene_.vehicle && spheres == 0) uncut_ = typical_.cutting;
   }
 
@@ -172,11 +171,13 @@ private:
       options_.stage("short probe of a small bed");
       tile_ = settleTile(setup::groundSetup(pieceOf(scene_, grains_, kMostCopied), timeStep_),
                          scene_.terrain->porosity.has_value(), exec_.onCpu() ? base::cpuExec(1) : exec_, 2 * kShort);
-      if (exec_.onCpu())
-        grain = kLarge * tile_.resting / tile_.grains / std::max(1, exec_.threads),
-        list = kLarge * tile_.list / tile_.grains / std::max(1, exec_.threads);
+      const double each = kLarge / std::max(1.0, tile_.grains) / std::max(1, exec_.threads);
+      if (exec_.onCpu()) {
+        grain = each * std::max(0.3 * tile_.resting, tile_.resting - kStepAlone);
+        list = each * tile_.list;
+      }
     }
-    const double parts = hasParts() ? typical_.vehicle : 0, each = grains_ * grain + parts;
+    const double parts = hasParts() ? typical_.parts : 0, each = grains_ * grain + parts;
     times_.groups = {{1, each, 0, parts / each, grains_}};
     lists_ = grains_ * list, scale_ = 1, pieceGrains_ = grains_;
     own_ = typical_.placing + (kept_ ? grains_ * typical_.reading : 0);
@@ -322,17 +323,17 @@ private:
                                    lists() * tile_.rebuilds / std::max(1.0, tile_.steps));
     std::string how = fmt::format("{:.0f} steps to rest of a tile of {:.0f} grains", tile_.steps, tile_.grains);
     if (!tile_.complete) how += ", whose time was up: rest guessed half a second after the fall";
+    if (scene_.terrain->porosity) {
+      const double sample = sampleGrains(scene_, timeStep_);
+      add(f_.preparation, "friction for the porosity", kTrials * tile_.seconds * sample / tile_.grains,
+          fmt::format("{:g} small beds of {:.0f} grains", kTrials, sample));
+    }
     if (scene_.terrain->tile) {
       const double cells = std::min(1.0, (*scene_.terrain->tile)[0] * (*scene_.terrain->tile)[1] /
                                              (scene_.terrain->size[0] * scene_.terrain->size[1]));
       add(f_.preparation, "settling a tile", tile_.steps * whole * cells, how);
       add(f_.preparation, "settling its copies", kCopiesRest / timeStep_ * whole, "");
       return;
-    }
-    if (scene_.terrain->porosity) {
-      const double sample = sampleGrains(scene_, timeStep_);
-      add(f_.preparation, "friction for the porosity", kTrials * tile_.seconds * sample / tile_.grains,
-          fmt::format("{:g} small beds of {:.0f} grains", kTrials, sample));
     }
     add(f_.preparation, "settling the bed", tile_.steps * whole, how);
   }
@@ -450,7 +451,9 @@ private:
 
   static constexpr double kLaid = 2e-6;      // of a grain, to put it on the device [s]
   static constexpr double kCopiesRest = 0.2; // simulated time that copies need to rest [s]
-  static constexpr double kLarge = 1.3;      // dearer a grain of a bed than one of a tile that lies in the cache [-]
+  /// Of the step of a small tile on one thread: what it takes whatever the number of grains [s]; and how much dearer a
+  /// grain of a large bed is, which lies in no cache [-].
+  static constexpr double kStepAlone = 25e-6, kLarge = 1.3;
 
   const scene::Scene& scene_;
   scene::Scene probed_; ///< with what makes it quicker to probe

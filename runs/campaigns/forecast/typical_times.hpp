@@ -2,24 +2,24 @@
 #pragma once
 
 #include "base/exec.hpp"
+#include "runs/scene/scene.hpp"
 #include "runs/session/output_times.hpp"
 
 /// Times of the parts of a run where nothing of the kind was measured on this machine.
 namespace grouser::forecast {
 
-/// Typical of a CPU of about 2020 and of an H100.
+/// Typical of a CPU with SIMD of about 2020, and of an H100.
 struct TypicalTimes {
   double grain = 0;   ///< of a grain in a step [s]
   double list = 0;    ///< of a grain in a new neighbour list [s]
-  double vehicle = 0; ///< of a vehicle, a mechanism or meshes in a step [s]
+  double parts = 0;   ///< of a vehicle, a mechanism or meshes in a step [s]
   double placing = 0; ///< parts with their tables, placed on the ground [s]
   double cutting = 0; ///< sphere sets of a vehicle [s]
   double reading = 0; ///< of a grain of a kept bed [s]
   session::OutputTimes output;
 };
 
-/// `grains` in all; `spheres` of the sets of a vehicle, each set once, of radius `sphere` [m]; 0 spheres: not known, or
-/// no vehicle.
-TypicalTimes typicalTimes(double grains, double frameBytes, double spheres, double sphere, const base::Exec& exec);
+/// Of a scene with so many grains. `spheres` of the vehicle's sets, each set once; 0: not known, or no vehicle.
+TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec);
 
 } // namespace grouser::forecast
