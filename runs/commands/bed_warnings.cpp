@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/bed_warnings.hpp"
 
+#include "base/math.hpp"
 #include "runs/commands/bed_text.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "terrain/packing_limits.hpp"
 
@@ -11,6 +13,8 @@
 namespace grouser::commands {
 
 namespace {
+
+constexpr double kLeastCover = 0.5; // of the floor, by loose grains [-]
 
 /// With what the soil of the scene's bed says of packings.
 BedQuality qualityOf(const scene::Scene& scene) {
@@ -33,6 +37,11 @@ std::vector<std::string> bedWarnings(const BedQuality& bed) {
                                    "of soil can move; raise terrain.depth, use smaller grains, or set "
                                    "terrain.floor_grains = false",
                                    100 * share, bed.fixed, bed.grains));
+  else if (bed.cover < kLeastCover)
+    warnings.push_back(
+        fmt::format("the bed has {} loose grains, which cover {:.0f} % of its floor: less than a layer is "
+                    "no soil; raise terrain.depth or terrain.layers, or use smaller grains",
+                    bed.grains - bed.fixed, 100 * bed.cover));
   const double loosest = terrain::loosestPacking(bed.rollingFriction, bed.cohesion);
   if (bed.measured > 0 && bed.porosity - 3 * bed.porosityError > loosest)
     warnings.push_back(fmt::format("the bed has a porosity of {:.2f}; random packings of {} are no looser than {:.2f}: "
@@ -63,6 +72,9 @@ std::vector<std::string> plannedBedWarnings(const scene::Scene& scene) {
   BedQuality bed = qualityOf(scene);
   const setup::BedGrains planned = setup::bedGrains(scene);
   bed.grains = planned.loose + planned.fixed, bed.fixed = planned.fixed;
+  const scene::Terrain& t = *scene.terrain;
+  const double radius = setup::bedOptions(scene).meanRadius();
+  bed.cover = static_cast<double>(planned.loose) * base::kPi * radius * radius / (t.size[0] * t.size[1]);
   if (scene.terrain->porosity) bed.measured = bed.grains, bed.porosity = *scene.terrain->porosity;
   return bedWarnings(bed);
 }

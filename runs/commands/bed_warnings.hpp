@@ -16,6 +16,7 @@ struct BedQuality {
   std::int64_t measured = 0;          ///< grains that tell the porosity; 0: it is not known
   double porosity = 0, porosityError = 0;
   bool rollingFriction = false, cohesion = false;
+  double cover = 1; ///< share of the floor that the loose grains cover side by side [-]
 };
 
 /// A line for each of terrain/packing_limits.hpp that a bed is beyond.

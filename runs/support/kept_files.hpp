@@ -10,10 +10,10 @@
 
 namespace grouser::support {
 
-/// A folder of files that spare later runs their work: settled beds, parts cut into spheres, results of checks, times of probes. A
-/// file's name is a hash of its origin, the text of all that makes its contents; it holds the origin too, so that one
-/// of another is not taken. What is missing is simply made again; so any file may be deleted at any time. All kinds
-/// share one limit of size.
+/// A folder of files that spare later runs their work: settled beds, parts cut into spheres, results of checks, times
+/// of probes. A file's name is a hash of its origin, the text of all that makes its contents; it holds the origin too,
+/// so that one of another is not taken. What is missing is simply made again; so any file may be deleted at any time.
+/// All kinds share one limit of size.
 class KeptFiles {
 public:
   enum class Kind { bed, spheres, check, times };

@@ -3,30 +3,24 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
-#include "coupling/vehicle_parts.hpp"
 #include "runs/campaigns/forecast/kept_ratios.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
+#include "runs/campaigns/forecast/scene_figures.hpp"
 #include "runs/campaigns/forecast/typical_times.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/output_times.hpp"
 #include "runs/setup/bed_alone.hpp"
-#include "runs/setup/bed_options.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/ground_setup.hpp"
-#include "runs/setup/obstacles.hpp"
-#include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
-#include "runs/setup/vehicle_setup.hpp"
 #include "runs/storage/bed_cache.hpp"
 #include "runs/storage/sphere_cache.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 #include "terrain/kernel_choice.hpp"
-#include "vehicle/assembly.hpp"
-#include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -43,47 +37,15 @@ namespace {
 
 constexpr double kMostCopied =
     60'000; // grains of a piece on a CPU; a GPU, where few take as long as many, has kMostTaken
-constexpr double kMostTaken = 400'000;                   // grains of a kept bed that is taken as it is
-constexpr double kTrials = 4;                            // small beds that a porosity is looked for with
-constexpr double kStride = 4;                            // of soft steps
-constexpr double kFurtherPlot = 0.3;                     // of the first one's time, with which Python begins [-]
-constexpr double kShort = 0.25;                          // for steps of the short probe [s]
-constexpr double kFewGrains = 50'000;                    // without a bed, that the short probe steps all of
-constexpr double kProbed = 1.5, kKept = 2, kTypical = 3; // factors within which parts lie: docs/plan.md [-]
-constexpr double kNoFigure = 1e-4;                       // parts of less are not kept [s]
+constexpr double kMostTaken = 400'000; // grains of a kept bed that is taken as it is
+constexpr double kTrials = 4;          // small beds that a porosity is looked for with
+constexpr double kStride = 4;          // of soft steps
+constexpr double kFurtherPlot = 0.3;   // of the first one's time, with which Python begins [-]
+constexpr double kShort = 0.25;        // for steps of the short probe [s]
+constexpr double kFewGrains = 50'000;  // without a bed, that the short probe steps all of
+constexpr double kNoFigure = 1e-4;     // parts of less are not kept [s]
 
 bool hasBed(const scene::Scene& scene) { return scene.terrain && scene.terrain->granular(); }
-
-/// Of the small bed that frictions are tried on, with its floor.
-double sampleGrains(const scene::Scene& scene, double timeStep) {
-  const scene::Scene bed = setup::isPutOnBed(scene) ? setup::sceneOfBed(scene) : scene;
-  const coupling::GroundSetup ground = setup::groundSetup(bed, timeStep);
-  const coupling::BedSetup& laid = *ground.grains->bed;
-  const auto& preparation = (laid.tile ? *laid.tile->ground->grains->bed : laid).preparation;
-  if (!preparation) return 0;
-  const terrain::BedOptions& options = preparation->sample->grains->bed->options;
-  const terrain::BedPlan plan = terrain::planBed(*preparation->sample->surface, options);
-  return static_cast<double>(plan.grains + terrain::fixedGrains(plan, options));
-}
-
-/// The quickest that grains will go [m/s]: with the track of a vehicle, or with a surface that is moved.
-double speedOf(const scene::Scene& scene) {
-  double speed = 0;
-  if (scene.vehicle) {
-    const scene::SpeedTable table = scene.driver.speeds();
-    const double pitch = vehicle::readVehicleSpec(scene.vehicle->source()).pitchRadius();
-    if (scene.driver.course) speed = std::fabs(scene.driver.course->speed);
-    for (const std::vector<double>* side : {&table.left, &table.right})
-      for (const double w : *side) speed = std::max(speed, std::fabs(w) * pitch);
-  }
-  for (const setup::SceneSurface& s : setup::surfacesOf(scene)) {
-    double own = s.section.velocity ? norm(*s.section.velocity) : 0;
-    if (s.section.spin) own += norm(*s.section.spin) * norm(s.geometry.half);
-    if (s.section.amplitude) own += 2 * base::kPi * s.section.frequency.value_or(0) * norm(*s.section.amplitude);
-    speed = std::max(speed, own);
-  }
-  return speed;
-}
 
 /// The scene's forecast while it is put together.
 class Forecaster {
@@ -140,28 +102,9 @@ private:
   }
 
   void findTypical() {
-    const double spheres = scene_.vehicle && spheres_ ? keptSpheres() : 0;
+    const double spheres = scene_.vehicle && spheres_ ? keptSpheres(scene_, grains_, *spheres_, f_.cuts) : 0;
     typical_ = typicalTimes(scene_, grains_, spheres, exec_);
     if (scene_.vehicle && spheres == 0) uncut_ = typical_.cutting;
-  }
-
-  /// Spheres of the vehicle's sets, each set once; 0 where some are still to be cut.
-  double keptSpheres() {
-    storage::SphereCache kept = *spheres_;
-    kept.keptAlone();
-    const coupling::VehicleSetup setup = setup::vehicleSetup(scene_);
-    const bool rigid = !hasBed(scene_) && grains_ == 0;
-    try {
-      const coupling::VehicleParts parts(vehicle::assemble(setup.spec, {}), setup, base::Comm(), &kept,
-                                         rigid ? base::kInfinity : setup::ContactPairs(scene_).kinds.smallest,
-                                         setup.shapes && rigid && setup::obstaclesOf(scene_).empty());
-      double spheres = 1; // none may be needed
-      for (const auto& set : parts.setFigures()) spheres += static_cast<double>(set.spheres);
-      f_.cuts = parts.cutReports();
-      return spheres;
-    } catch (const storage::SphereCache::NotKept&) {
-      return 0;
-    }
   }
 
   /// A small tile of the bed, and typical times.
@@ -175,6 +118,9 @@ private:
       if (exec_.onCpu()) {
         grain = each * std::max(0.3 * tile_.resting, tile_.resting - kStepAlone);
         list = each * tile_.list;
+      } else { // where few grains take as long as many
+        grain = std::max(grain, tile_.resting / grains_);
+        list = std::max(list, tile_.list / grains_);
       }
     }
     const double parts = hasParts() ? typical_.parts : 0, each = grains_ * grain + parts;
@@ -481,23 +427,6 @@ private:
 };
 
 } // namespace
-
-double Forecast::accuracy(Source source) const {
-  return source == Source::typical ? kTypical : probed ? kProbed : kKept;
-}
-
-double Forecast::bound(int sign) const {
-  double all = 0;
-  for (const auto* parts : {&preparation, &steps, &output})
-    for (const ForecastPart& p : *parts) all += p.seconds * (sign < 0 ? 1 / accuracy(p.source) : accuracy(p.source));
-  return all;
-}
-
-double Forecast::sum(const std::vector<ForecastPart>& parts) {
-  double all = 0;
-  for (const ForecastPart& p : parts) all += p.seconds;
-  return all;
-}
 
 Forecast forecastOf(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options) {
   return Forecaster(scene, counted, options, options.probe ? Ratios() : keptRatios(Forecaster::machineOf(scene)))

@@ -11,6 +11,8 @@ namespace grouser::forecast {
 
 namespace {
 
+constexpr double kProbed = 1.5, kKept = 2, kTypical = 3; // factors within which parts lie: docs/plan.md [-]
+
 std::string time(double seconds) {
   return seconds < 0.095  ? fmt::format("{:.2f} s", seconds)
          : seconds < 9.95 ? fmt::format("{:.1f} s", seconds)
@@ -35,6 +37,23 @@ std::string bytes(double b) {
 }
 
 } // namespace
+
+double Forecast::accuracy(Source source) const {
+  return source == Source::typical ? kTypical : probed ? kProbed : kKept;
+}
+
+double Forecast::bound(int sign) const {
+  double all = 0;
+  for (const auto* parts : {&preparation, &steps, &output})
+    for (const ForecastPart& p : *parts) all += p.seconds * (sign < 0 ? 1 / accuracy(p.source) : accuracy(p.source));
+  return all;
+}
+
+double Forecast::sum(const std::vector<ForecastPart>& parts) {
+  double all = 0;
+  for (const ForecastPart& p : parts) all += p.seconds;
+  return all;
+}
 
 std::string forecastText(const Forecast& f) {
   std::string text = f.cuts.empty() ? "" : "\nmeshes as spheres\n";

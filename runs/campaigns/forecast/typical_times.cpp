@@ -23,7 +23,7 @@ TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spher
   t.parts = cpu ? (rigid ? 60e-6 : 250e-6) : 150e-6;
   t.placing = vehicle ? 0.3 + (rigid ? 0 : 8e-6 * spheres) : 0.1, t.cutting = 300e-6 * spheres / cores,
   t.reading = 2e-6;
-  t.output.begin = 0.02, t.output.picture = 0.5, t.output.plot = 0.4;
+  t.output.begin = 0.02, t.output.picture = 0.5, t.output.plot = scene.output.plots ? 0.4 : 0;
   t.output.row = 1e-3 + (cpu ? 100e-9 : 10e-9) * grains;
   t.output.frameBytes = grains * frameBytesOfGrain(scene) + (vehicle ? kVehicleFrame : 0);
   t.output.frame = 1e-3 + t.output.frameBytes / kDisk;

@@ -51,6 +51,22 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
   EXPECT_TRUE(bedNotes(periodic).empty());
 }
 
+TEST(BedNotes, ArePlannedBeforeTheBedIsLaid) {
+  const auto notes = [](const std::string& keys) {
+    return bedNotes(setup::parseScene("version = 1\n[run]\nduration = 0.01\n[material.soil]\nstiffness = 2e5\n"
+                                      "[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\n"
+                                      "size = [6, 4.6]\nmaterial = \"soil\"\n" +
+                                          keys,
+                                      "scene.toml"));
+  };
+  const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\n";
+  const std::vector<std::string> coarse = notes("grain_radius = 0.027\ndepth = 0.46\n" + vehicle);
+  ASSERT_EQ(coarse.size(), 1u);
+  EXPECT_EQ(coarse.front().find("a pad is 5.2 mean grains wide"), 0u) << coarse.front();
+  EXPECT_TRUE(notes("grain_radius = 0.007\ndepth = 0.46\n" + vehicle).empty());
+  EXPECT_TRUE(notes("grain_radius = 0.027\ndepth = 0.46\n").empty()) << "no vehicle";
+}
+
 TEST(BedNotes, CountTheGrainsAtTheSurfaceOfABedThatIsCoarserBelow) {
   const std::string text = "version = 1\n[run]\nduration = 0.01\n[material.soil]\nstiffness = 2e5\nfriction = 0.5\n"
                            "[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\nsize = [3.6, 2.6]\n"
@@ -155,6 +171,10 @@ TEST(BedWarnings, TellOfAThinBedBeforeItIsLaid) {
   EXPECT_TRUE(warnings("0.2").empty());
   ASSERT_EQ(warnings("0.04").size(), 1u);
   EXPECT_NE(warnings("0.04").front().find("are fixed on its floor"), std::string::npos);
+  const std::string smooth = "\narrangement = \"lattice\"\nspacing = 9\nfloor_grains = false";
+  ASSERT_EQ(warnings("0.04" + smooth).size(), 1u);
+  EXPECT_NE(warnings("0.04" + smooth).front().find("less than a layer is no soil"), std::string::npos);
+  EXPECT_TRUE(warnings("0.9" + smooth).empty());
 }
 
 } // namespace grouser::commands

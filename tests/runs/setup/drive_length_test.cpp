@@ -62,6 +62,20 @@ TEST(DriveLength, AShortDriveIsSaidBefore) {
             std::string("the vehicle ").size());
 }
 
+/// A ramp of 3 s to 2 rad/s passes 4.8 teeth, and the run ends as it does.
+TEST(DriveLength, ADriveThatIsNeverSteadyIsSaidBefore) {
+  const std::string slow = "[driver]\nsprocket_speed = 2\ndrive_start = 0.5\ndrive_ramp = 3\n";
+  EXPECT_EQ(teethAsked(driven(slow, 3.5), true), 0);
+  EXPECT_NEAR(teethAsked(driven(slow, 4.5), true), teeth(2), 0.01) << "to one of 2000 parts of the time";
+  EXPECT_EQ(shortDriveWarning(driven(slow, 3.6)),
+            "the vehicle drives less than a tooth in steady motion (its drive is up to speed at 3.5 s, the run ends at "
+            "3.6 s), and means over steady motion are inconclusive; raise run.duration");
+  EXPECT_EQ(shortDriveWarning(driven(slow, 4.5)), "");
+  const std::string course = "[driver.course]\nspeed = 1\nacceleration = 0.25\n";
+  EXPECT_NE(shortDriveWarning(driven(course, 4.5)).find("up to speed at 4.45 s at the earliest"), std::string::npos);
+  EXPECT_EQ(shortDriveWarning(driven(course, 5)), "");
+}
+
 TEST(DriveLength, TheRemedyOfATableThatStopsIsTheTable) {
   const std::string stops = "[driver.table]\ntime = [0, 0.2, 0.4]\nleft = [0, 5, 0]\nright = [0, 5, 0]\n";
   const auto endsWith = [](const std::string& text, const std::string& end) { return text.ends_with(end); };

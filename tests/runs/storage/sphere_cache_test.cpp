@@ -85,6 +85,15 @@ TEST_F(KeptSpheres, AreThoseThatWouldBeCut) {
   EXPECT_EQ(files().size(), 1u);
 }
 
+TEST_F(KeptSpheres, AreAskedForWithoutCutting) {
+  storage::SphereCache kept{support::KeptFiles(folder_)};
+  kept.keptAlone();
+  EXPECT_THROW(kept.cut(part()), storage::SphereCache::NotKept);
+  EXPECT_FALSE(std::filesystem::exists(folder_)) << "nothing is written";
+  cut(part());
+  expectSame(kept.cut(part()), cutAlone(part()));
+}
+
 TEST_F(KeptSpheres, HaveTheNameOfThePartThatAsks) {
   cut(part());
   const coupling::PartCut other = part(0.012, "roller");

@@ -3,6 +3,7 @@
 // take decides no test.
 #include "coupling/simulation.hpp"
 #include "runs/campaigns/forecast/forecast.hpp"
+#include "runs/campaigns/forecast/kept_ratios.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
 #include "runs/campaigns/forecast/probe.hpp"
 #include "runs/scene/scene.hpp"
@@ -129,8 +130,29 @@ TEST(ForecastFigures, PartsAddUp) {
     EXPECT_DOUBLE_EQ(sum, json[group]["total_s"].get<double>()) << group;
   }
   const std::string text = forecastText(f);
-  for (const char* part : {"settling the bed", "3.0 s (how)", "in all", "15 s", "2 GB", "3 MB, written at 100 MB/s"})
+  for (const char* part :
+       {"settling the bed", "3.0 s       probed (how)", "in all", "15 s", "2 GB", "3 MB, written at 100 MB/s"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(ForecastFigures, AccuracyFollowsFromTheSourceOfEachPart) {
+  Forecast f;
+  f.probed = false;
+  f.preparation = {{"settling the bed", 3, "", Source::probed}};
+  f.steps = {{"grains", 10, "", Source::kept}};
+  f.output = {{"rows", 6, "", Source::typical}};
+  EXPECT_DOUBLE_EQ(f.bound(-1), 3 / 2.0 + 10 / 2.0 + 6 / 3.0);
+  EXPECT_DOUBLE_EQ(f.bound(1), 3 * 2.0 + 10 * 2.0 + 6 * 3.0);
+  const std::string text = forecastText(f);
+  for (const char* part : {"a short probe of", "3.0 s       probed", "10 s        kept", "6.0 s       typical",
+                           "19 s, between 8.5 s and 44 s", "factor 2 ", "3 where typical"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  const auto json = nlohmann::json::parse(forecastJson(f));
+  EXPECT_EQ(json["sources"], nlohmann::json({{"settling the bed", "probed"}, {"grains", "kept"}, {"rows", "typical"}}));
+  EXPECT_DOUBLE_EQ(json["least_s"].get<double>(), f.bound(-1));
+  EXPECT_DOUBLE_EQ(json["most_s"].get<double>(), f.bound(1));
+  f.probed = true;
+  EXPECT_DOUBLE_EQ(f.accuracy(Source::probed), 1.5) << "the long probe is closer";
 }
 
 TEST(ForecastFigures, ProbeThatFailedTellsNoTotal) {
@@ -176,6 +198,28 @@ TEST(MachineFit, DemandGrowsWithGrainsAndFrames) {
   EXPECT_GT(demandOf(told, 1'000'000, 1e-5, false).disk(), demandOf(bare, 1'000'000, 1e-5, false).disk() + 3e8);
 }
 
+class KeptTimes : public FolderTest {
+protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    setenv("GROUSER_CACHE", folder_.c_str(), 1);
+  }
+  void TearDown() override {
+    unsetenv("GROUSER_CACHE");
+    FolderTest::TearDown();
+  }
+};
+
+TEST_F(KeptTimes, AreOfOneMachineAndTheLastOfEachKindOfWork) {
+  EXPECT_TRUE(keptRatios("here").empty());
+  keepRatios("here", {{"grains", 0.5}, {"rows", 2}});
+  keepRatios("here", {{"grains", 0.7}});
+  EXPECT_EQ(keptRatios("here"), (Ratios{{"grains", 0.7}, {"rows", 2}}));
+  EXPECT_TRUE(keptRatios("elsewhere").empty());
+  for (const auto& file : fs::directory_iterator(folder_)) std::ofstream(file.path()) << "{\"of\": \"here\", \"rat";
+  EXPECT_TRUE(keptRatios("here").empty()) << "damaged";
+}
+
 /// The program itself.
 class PlanProgram : public ProgramTest {
 protected:
@@ -215,6 +259,29 @@ TEST_F(PlanProgram, KeptBedIsFoundAndNotSettledAgain) {
   EXPECT_NE(anew.out.find("settling the bed"), std::string::npos) << anew.out;
 }
 
+TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
+  write(bedScene());
+  const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
+  const auto sources = [&](const std::string& words, const std::string& stage) {
+    const Outcome o = call("plan bed.toml --threads 1 --json plan.json" + words, keep);
+    EXPECT_EQ(o.code, 0) << o.errors;
+    EXPECT_NE(o.errors.find("plan: " + stage), std::string::npos) << "progress:\n" << o.errors;
+    return nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
+  };
+  const auto first = sources("", "short probe of a small bed");
+  EXPECT_EQ(first["sources"]["grains"], "probed");
+  EXPECT_EQ(first["sources"]["picture"], "typical");
+  EXPECT_FALSE(first["long_probe"].get<bool>());
+  EXPECT_LT(first["probe_s"].get<double>(), 5);
+  const auto probed = sources(" --probe", "timing steps");
+  for (const auto& [part, source] : probed["sources"].items()) EXPECT_EQ(source, "probed") << part;
+  const auto again = sources("", "short probe of a small bed");
+  EXPECT_EQ(again["sources"]["picture"], "kept");
+  EXPECT_EQ(again["sources"]["grains"], "kept");
+  // Typical time times kept ratio: the probed time itself.
+  EXPECT_NEAR(again["output"]["picture"].get<double>() / probed["output"]["picture"].get<double>(), 1, 1e-6);
+}
+
 TEST_F(PlanProgram, WithoutProbeRunsNothing) {
   write(bedScene());
   const Outcome o = call("plan bed.toml --no-probe");
@@ -223,6 +290,7 @@ TEST_F(PlanProgram, WithoutProbeRunsNothing) {
   EXPECT_NE(o.out.find("grain steps"), std::string::npos);
   const Outcome both = call("plan bed.toml --no-probe --json plan.json");
   EXPECT_EQ(both.code, 2);
+  EXPECT_EQ(call("plan bed.toml --no-probe --probe").code, 2);
   EXPECT_EQ(call("plan bed.toml --threads some").code, 2);
 }
 
