@@ -52,17 +52,20 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
 }
 
 TEST(BedNotes, ArePlannedBeforeTheBedIsLaid) {
-  const auto notes = [](const std::string& keys) {
-    return bedNotes(setup::parseScene("version = 1\n[run]\nduration = 0.01\n[material.soil]\nstiffness = 2e5\n"
-                                      "[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\n"
-                                      "size = [6, 4.6]\nmaterial = \"soil\"\n" +
-                                          keys,
-                                      "scene.toml"));
+  const auto sceneOf = [](const std::string& keys) {
+    return setup::parseScene("version = 1\n[run]\nduration = 0.01\n[material.soil]\nstiffness = 2e5\n"
+                             "[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\n"
+                             "size = [6, 4.6]\nmaterial = \"soil\"\n" +
+                                 keys,
+                             "scene.toml");
   };
+  const auto notes = [&](const std::string& keys) { return bedNotes(sceneOf(keys)); };
   const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\n";
   const std::vector<std::string> coarse = notes("grain_radius = 0.027\ndepth = 0.46\n" + vehicle);
   ASSERT_EQ(coarse.size(), 1u);
   EXPECT_EQ(coarse.front().find("a pad is 5.2 mean grains wide"), 0u) << coarse.front();
+  EXPECT_NE(planText(sceneOf("grain_radius = 0.027\ndepth = 0.46\n" + vehicle)).find("note: " + coarse.front()),
+            std::string::npos);
   EXPECT_TRUE(notes("grain_radius = 0.007\ndepth = 0.46\n" + vehicle).empty());
   EXPECT_TRUE(notes("grain_radius = 0.027\ndepth = 0.46\n").empty()) << "no vehicle";
 }
@@ -171,10 +174,15 @@ TEST(BedWarnings, TellOfAThinBedBeforeItIsLaid) {
   EXPECT_TRUE(warnings("0.2").empty());
   ASSERT_EQ(warnings("0.04").size(), 1u);
   EXPECT_NE(warnings("0.04").front().find("are fixed on its floor"), std::string::npos);
-  const std::string smooth = "\narrangement = \"lattice\"\nspacing = 9\nfloor_grains = false";
-  ASSERT_EQ(warnings("0.04" + smooth).size(), 1u);
-  EXPECT_NE(warnings("0.04" + smooth).front().find("less than a layer is no soil"), std::string::npos);
-  EXPECT_TRUE(warnings("0.9" + smooth).empty());
+  // On a smooth floor: 2.5 diameters apart, one layer covers an eighth of it.
+  const auto sparse = [&](const std::string& layers) {
+    return plannedBedWarnings(setup::parseScene(text.substr(0, text.find("depth")) + "layers = " + layers +
+                                                    "\narrangement = \"lattice\"\nspacing = 5\nfloor_grains = false\n",
+                                                "scene.toml"));
+  };
+  ASSERT_EQ(sparse("1").size(), 1u);
+  EXPECT_NE(sparse("1").front().find("less than a layer is no soil"), std::string::npos);
+  EXPECT_TRUE(sparse("5").empty());
 }
 
 } // namespace grouser::commands

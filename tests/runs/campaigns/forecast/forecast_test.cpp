@@ -282,6 +282,14 @@ TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
   EXPECT_NEAR(again["output"]["picture"].get<double>() / probed["output"]["picture"].get<double>(), 1, 1e-6);
 }
 
+TEST_F(PlanProgram, BedOfTilesIsPreparedBeforeItIsCopied) {
+  write(bedScene("tile = [0.12, 0.12]\nporosity = 0.42\n"));
+  const Outcome o = call("plan bed.toml --set terrain.depth=0.08");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  for (const char* part : {"friction for the porosity", "settling a tile", "settling its copies"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+}
+
 TEST_F(PlanProgram, WithoutProbeRunsNothing) {
   write(bedScene());
   const Outcome o = call("plan bed.toml --no-probe");
