@@ -39,8 +39,8 @@ std::vector<std::string> bedWarnings(const BedQuality& bed) {
                                    100 * share, bed.fixed, bed.grains));
   else if (bed.cover < kLeastCover)
     warnings.push_back(
-        fmt::format("the bed has {} loose grains, which cover {:.0f} % of its floor: less than a layer is "
-                    "no soil; raise terrain.depth or terrain.layers, or use smaller grains",
+        fmt::format("the bed has {} loose grains, which cover {:.0f} % of its floor, less than one layer; "
+                    "raise terrain.depth or terrain.layers, or use smaller grains",
                     bed.grains - bed.fixed, 100 * bed.cover));
   const double loosest = terrain::loosestPacking(bed.rollingFriction, bed.cohesion);
   if (bed.measured > 0 && bed.porosity - 3 * bed.porosityError > loosest)

@@ -68,11 +68,13 @@ std::string forecastText(const Forecast& f) {
   if (f.warning.empty())
     text +=
         fmt::format("  {:<24} {}, between {} and {}\n", "in all", time(f.total()), time(f.bound(-1)), time(f.bound(1)));
-  text += fmt::format("  {:<24} factor {:g} where probed{}\n", "accuracy", f.accuracy(Source::probed),
-                      f.probed ? ""
-                               : fmt::format(" now or kept of an earlier probe, {:g} where typical; plan --probe "
-                                             "measures all, and keeps it for later plans",
-                                             f.accuracy(Source::typical)));
+  if (f.probed)
+    text += fmt::format("  {:<24} within a factor of {:g}\n", "accuracy", f.accuracy(Source::probed));
+  else
+    text +=
+        fmt::format("  {:<24} within a factor of {:g} (probed, kept) or {:g} (typical); grouser plan --probe measures "
+                    "every part and keeps the figures\n",
+                    "accuracy", f.accuracy(Source::kept), f.accuracy(Source::typical));
   text += fmt::format("  {:<24} about {}\n", "memory of the process", bytes(f.process));
   if (f.device > 0) text += fmt::format("  {:<24} about {}\n", "memory of the GPU", bytes(f.device));
   text += fmt::format("  {:<24} about {}{}\n", "on the disk", bytes(f.disk),

@@ -9,6 +9,7 @@ namespace grouser::forecast {
 
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec) {
   constexpr double kSetArea = 7;        // spheres of a light vehicle's sets times the square of their radius [m2]
+  constexpr double kHull = 27e3;        // spheres of a hull, all that is cut for rigid ground
   constexpr double kDisk = 400e6;       // [bytes/s]
   constexpr double kVehicleFrame = 8e5; // [bytes]
   constexpr double kCheckpointed = 250; // of a grain [bytes]
@@ -16,7 +17,7 @@ TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spher
   const double cores = cpu ? std::max(1, exec.threads) : 1;
   if (vehicle && spheres == 0) {
     const double radius = scene.vehicle->sphereRadius.value_or(scene::Vehicle::kSphereRadius);
-    spheres = kSetArea / (radius * radius);
+    spheres = rigid ? kHull : kSetArea / (radius * radius);
   }
   TypicalTimes t;
   t.grain = cpu ? 120e-9 / cores : 0.6e-9, t.list = cpu ? 1e-6 / cores : 6e-9;

@@ -181,7 +181,7 @@ TEST(BedWarnings, TellOfAThinBedBeforeItIsLaid) {
                                                 "scene.toml"));
   };
   ASSERT_EQ(sparse("1").size(), 1u);
-  EXPECT_NE(sparse("1").front().find("less than a layer is no soil"), std::string::npos);
+  EXPECT_NE(sparse("1").front().find("% of its floor, less than one layer"), std::string::npos);
   EXPECT_TRUE(sparse("5").empty());
 }
 
