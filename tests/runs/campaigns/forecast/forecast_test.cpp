@@ -284,10 +284,11 @@ TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
 
 TEST_F(PlanProgram, BedOfTilesIsPreparedBeforeItIsCopied) {
   write(bedScene("tile = [0.12, 0.12]\nporosity = 0.42\n"));
-  const Outcome o = call("plan bed.toml --set terrain.depth=0.08");
+  const Outcome o = call("plan bed.toml --set terrain.depth=0.08 --json plan.json");
   ASSERT_EQ(o.code, 0) << o.errors;
+  const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
   for (const char* part : {"friction for the porosity", "settling a tile", "settling its copies"})
-    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+    EXPECT_GT(json["preparation"].value(part, 0.0), 0) << part << "\n" << o.out;
 }
 
 TEST_F(PlanProgram, WithoutProbeRunsNothing) {
