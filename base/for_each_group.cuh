@@ -40,7 +40,8 @@ template <class Body> void runGroups(const Body& body, std::int64_t first, std::
 
 #if defined(__CUDACC__)
 namespace detail {
-template <int kWidth, class Body> __global__ void __launch_bounds__(64)
+inline constexpr int kGroupBlock = 64; // threads; small blocks fit beside large kernels
+template <int kWidth, class Body> __global__ void __launch_bounds__(kGroupBlock)
     forEachGroupKernel(Body body, std::int64_t count) {
   const std::int64_t thread = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
   const std::int64_t i = thread / kWidth;
@@ -62,7 +63,7 @@ void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const 
     return;
   }
 #if defined(__CUDACC__)
-  constexpr int kBlock = 64; // finds room beside large kernels
+  constexpr int kBlock = detail::kGroupBlock;
   const auto blocks = static_cast<unsigned>((count * kWidth + kBlock - 1) / kBlock);
   detail::forEachGroupKernel<kWidth><<<blocks, kBlock, 0, static_cast<cudaStream_t>(exec.stream)>>>(body, count);
   checkCuda(cudaGetLastError(), std::string("launch of ") + name);

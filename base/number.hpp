@@ -33,7 +33,7 @@ template <class T> GROUSER_HD Vec3<T> broadcast(const Vec3<ScalarOf<T>>& v) {
 /// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
 template <class T> GROUSER_HD T squareRoot(const T& x) { return NumberTraits<T>::squareRoot(x); }
 
-/// part / whole, for whole > 0. A GPU takes a division of zero for a special case, which is slow.
+/// part / whole, for whole > 0. On a GPU a zero dividend would take the slow path of division.
 template <class T> GROUSER_HD T shareOf(const T& part, const T& whole) {
   if constexpr (std::is_floating_point_v<T>) {
     const T share = (part == 0 ? T(1) : part) / whole;

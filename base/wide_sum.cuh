@@ -45,8 +45,8 @@ GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
 
 #if defined(__CUDACC__)
 namespace detail {
-/// Leaves in `values[0]` the sum over all lanes of the value that bits 1 to log2(kCount) of the lane select, highest
-/// bit first: each exchange halves the number of values that a lane sums.
+/// Stores in values[0] the warp's sum of the value with index lane / (32 / kCount): each exchange halves the number of
+/// values that a lane sums.
 template <int kCount> __device__ inline void reduceScatter(std::int64_t* values, unsigned lane, unsigned apart = 16) {
   if constexpr (kCount > 1) {
     constexpr int kHalf = kCount / 2;
@@ -62,11 +62,13 @@ template <int kCount> __device__ inline void reduceScatter(std::int64_t* values,
 }
 } // namespace detail
 
-/// atomicAddWide() of `kCount` values to as many sums, at most 32, by each thread. A complete warp adds its total once.
+/// atomicAddWide() of `kCount` values to as many sums by each thread. A complete warp adds its total once: values are
+/// below 2^58, so that 32 of them do not overflow.
 template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
+  static_assert(kCount <= 32);
   if (__activemask() == ~0u) {
     constexpr int kPadded = kCount > 16 ? 32 : kCount > 8 ? 16 : kCount > 4 ? 8 : kCount > 2 ? 4 : kCount;
-    constexpr unsigned kLanes = 32 / kPadded; // that end with the same total
+    constexpr unsigned kLanes = 32 / kPadded; // per total
     const unsigned lane = threadIdx.x % 32;
     std::int64_t all[kPadded] = {};
     for (int k = 0; k < kCount; ++k) all[k] = values[k];
@@ -74,7 +76,7 @@ template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, co
     if (lane % kLanes == 0 && lane / kLanes < kCount && all[0] != 0) atomicAddWide(sums + lane / kLanes, all[0]);
     return;
   }
-  std::int64_t own[kCount]; // apart from `values`, which stay in registers
+  std::int64_t own[kCount]; // local copy, so that `values` stays in registers
   for (int k = 0; k < kCount; ++k) own[k] = values[k];
 #pragma unroll 1
   for (int k = 0; k < kCount; ++k)

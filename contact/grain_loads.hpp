@@ -25,8 +25,8 @@ struct GrainLoadsView {
   const GrainLoad* load{nullptr};
   base::FixedPoint force;          ///< quantum of the forces [N]
   std::int64_t* received{nullptr}; ///< sums of the forces that the grains have taken, x y z, since the start [quanta]
-  const std::uint32_t* slot{nullptr}; ///< of each load, ascending
-  std::int64_t count{0};              ///< of loads
+  const std::uint32_t* slot{nullptr}; ///< of each load's grain, ascending
+  std::int64_t count{0};              ///< number of loads
 };
 
 } // namespace grouser::contact

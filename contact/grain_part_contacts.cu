@@ -128,6 +128,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   if (laws.empty()) laws.push_back(scaledFor(model.law, model.radius).as<float>());
   for (const BasicLaw<float>& law : laws) features_ |= law.features(), allHertz_ = allHertz_ && law.hertz;
   rolling_ = (features_ & kRollingFriction) != 0;
+  searchFrom_ = model.searchFrom > 0 ? model.searchFrom : exec.onCpu() ? ~std::size_t{0} : 8192;
   laws_ = base::Array<BasicLaw<float>>(exec, laws);
   massPerCube_ = base::Array<double>(exec, materials.massPerCube);
   angle_ = base::Array<Vec3f>(exec), oldAngle_ = base::Array<Vec3f>(exec);
@@ -262,7 +263,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   if (rolling_) angle_.resize(pairs_ * kPatches);
   if (crushes_) dent_.resize(pairs_ * kPatches), energyHeld_.resize(pairs_);
   load_.resize(pairs_);
-  near_.resize(pairs_ < model_.searchFrom ? 0 : kNearCount + pairs_);
+  near_.resize(pairs_ >= searchFrom_ ? kNearCount + pairs_ : 0);
   list.key = key_.data(), list.slot = slot_.data();
   base::forEach(exec_, "list parts near grains", n, list);
   base::forEach(exec_, "restore patch history", static_cast<std::int64_t>(pairs_),
@@ -315,7 +316,7 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
                                             deepest_.data(),
                                             off};
     const auto pairs = static_cast<std::int64_t>(pairs_);
-    if (pairs_ < model_.searchFrom) return base::forEachGroup<16>(exec, "grain-part contacts", pairs, forces);
+    if (near_.empty()) return base::forEachGroup<16>(exec, "grain-part contacts", pairs, forces);
     constexpr std::int64_t kGroups = 8192;
     std::uint32_t *const count = near_.data(), *const near = count + kNearCount;
     base::forEach(exec, "find grains near parts", pairs, FindNearPairs<kFeatures>{forces, near, count});

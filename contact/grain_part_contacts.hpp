@@ -48,10 +48,11 @@ public:
   /// The same on a side stream.
   void computeOn(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                  PartLoad* loads);
-  /// The same in work that is launched ahead, where both have been cleared. `off`: as base::Gate has it.
+  /// The same in work that is launched ahead, where clearedSums() and clearedCount() have been cleared. `off`: as
+  /// base::Gate has it.
   void computeOnCleared(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                         PartLoad* loads, const std::uint32_t* off);
-  /// On the device, of the last compute: to be cleared before the next one.
+  /// Device memory to clear before each step.
   base::Parcel clearedSums();
   base::Parcel clearedCount();
 
@@ -127,8 +128,9 @@ private:
   Held held_{Held::everywhere};
   std::unique_ptr<Exchange> exchange_;
   base::Array<std::uint32_t> range_, count_, slot_, oldIndex_;
-  static constexpr std::size_t kNearCount = 2; ///< words before the list: how many pairs are near
-  base::Array<std::uint32_t> near_;            ///< empty below model_.searchFrom pairs
+  static constexpr std::size_t kNearCount = 2; ///< words before the list; the first counts near pairs
+  base::Array<std::uint32_t> near_;            ///< empty below searchFrom_ pairs
+  std::size_t searchFrom_{0};                  ///< pairs
   base::Array<std::uint64_t> key_, oldKey_;
   base::Array<PatchMemory> memory_, oldMemory_;
   bool rolling_, crushes_;

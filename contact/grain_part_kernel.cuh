@@ -85,7 +85,7 @@ template <unsigned kFeatures> struct GrainPartForces {
       if (!outOfReach(grid.disc[grid.entry[k]], c, ball.radius)) return true;
     return false;
   }
-  /// The result of a pair that is not near.
+  /// Clears history and load of a pair out of reach.
   GROUSER_HD void release(int e) const {
     for (int k = 0; k < kPatches; ++k) {
       const std::int64_t patch = static_cast<std::int64_t>(e) * kPatches + k;
@@ -333,9 +333,8 @@ private:
   }
 };
 
-/// Lists the pairs that are near, and releases all others. One thread a pair with few registers: most listed pairs of a
-/// fine soil are not near, and a group of threads with the registers of GrainPartForces takes five times as long to
-/// find that.
+/// Lists the pairs that are near, and releases all others, with one thread a pair and few registers: most listed pairs
+/// of a fine soil are not near, which a group of threads with the registers of GrainPartForces finds more slowly.
 template <unsigned kFeatures> struct FindNearPairs {
   static constexpr double kNanoseconds = 100;
   GrainPartForces<kFeatures> forces;

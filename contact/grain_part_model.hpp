@@ -55,7 +55,7 @@ struct GrainPartModel {
   base::PositionScale scale;
   base::FixedPoint force, torque, energy; ///< quanta of the sums
   bool manyRadii{false};                  ///< each grain has its own radius in velocity.w and material in spin.w
-  std::size_t searchFrom{8192};           ///< pairs from which a kernel of its own finds those that are near
+  std::size_t searchFrom{0}; ///< least number of pairs for a search of near pairs; 0: 8192 on a GPU, never on a CPU
 };
 
 /// Where grains differ: by material, their law against the parts (instead of the model's) and mass over radius^3.

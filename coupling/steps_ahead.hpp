@@ -10,8 +10,8 @@
 namespace grouser::coupling {
 
 /// Steps of a vehicle on grains whose work is launched before it is known where the vehicle will be. Walls, floor and
-/// the contacts between grains start at once; all else waits at a gate for the poses that the host is about to solve.
-/// So neither waits for a launch, and the same is computed as by Simulation::step().
+/// the grains without a listed part advance at once; part contacts and all other grains wait at a gate for the poses
+/// that the host solves. So neither waits for a launch, and the same is computed as by Simulation::step().
 ///
 /// On one GPU. Where a list of grains ends, or a grain is at fault, the device calls the next step off by itself; where
 /// a list of parts is about to end, the next step is not launched ahead. A part that is thrown out of its list within
@@ -38,8 +38,8 @@ public:
   /// Whether the next step is under way: until it is over no list may be made, and nobody may wait for the device.
   bool nextIsLaunched() const { return launched_ > 0; }
   /// After an exception: waits for what is under way, and calls off what is not. Then the positions and velocities are
-  /// those of the step that has begun last, but contact springs may be those of the next one: inspect this state, but
-  /// do not step it further.
+  /// those of the step that has begun last, but contact springs, remainders and energy sums may be those of the next
+  /// one: inspect this state, but do not step it further.
   void callOff();
 
 private:

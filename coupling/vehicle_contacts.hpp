@@ -52,8 +52,8 @@ public:
   void trackTravel(const multibody::State& state);
 
   // A step on grains that is launched ahead of its poses; see StepsAhead.
-  /// Queues walls and floor, behind the gate the contacts, behind those with grains their step; tells of the loads and
-  /// then of the flags of the grains.
+  /// Queues walls, floor and the grains without a listed part; behind the gate the part contacts, then the other
+  /// grains; tells the loads, then the flags of the grains.
   void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnVehicle& onGrains);
   /// Before the gate opens: what the device reads beside the poses.
   void noteTravel();

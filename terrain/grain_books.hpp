@@ -16,8 +16,8 @@
 /// that the two check each other. All sums are of integers: order-free, the same for any device, threads and ranks.
 namespace grouser::terrain {
 
-/// The sums. Kernels of grains add to the first kGrainBooks, and to forces where some never move; those of walls, floor
-/// and surfaces to all from kFirstOfWalls on.
+/// The sums. Kernels of grains add to the first kGrainBooks and, with fixed grains, to the wall forces; those of walls,
+/// floor and surfaces to all from kFirstOfWalls on.
 enum Book : int {
   kWork,     ///< by all forces on the grains
   kTurnover, ///< the same without signs, a grain and a step each

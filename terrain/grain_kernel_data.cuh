@@ -37,8 +37,8 @@ struct GrainKernelData {
   int materials;                                ///< at least 1
   const double* massPerCube;                    ///< [materials] mass over radius^3 [kg/m3], where masses differ
   std::int64_t count;                           ///< slots
-  const std::uint32_t* active; ///< slots that this launch is for, ascending where any is named twice; null: all
-  const std::uint32_t* role;   ///< by slot: this launch is for those of role 0; null: all
+  const std::uint32_t* active;                  ///< slots of this launch, equal ones side by side; null: all
+  const std::uint32_t* role;                    ///< by slot: this launch is for those of role 0; null: all
 
   // State. Positions and motions are read from `now` and written to `next`: neighbours still read `now`.
   const base::Position* position;

@@ -210,7 +210,7 @@ private:
     return energyHeld;
   }
   GROUSER_HD void add(int i, const std::int64_t (&share)[kSums]) const {
-    constexpr std::int64_t kEnd = std::int64_t{1} << 62; // quantise() stops there
+    constexpr std::int64_t kEnd = std::int64_t{1} << 57; // a warp sums 32 of them
     base::WideSum* const bank = sums + (i / 256 % kBanks) * kSums;
     for (int k = 0; k < kSums; ++k)
       if (share[k] >= kEnd || share[k] <= -kEnd) base::atomicMin64(extremes + 2, static_cast<std::uint64_t>(k));

@@ -101,7 +101,7 @@ void GrainStepper::launchUncoupled(GrainSystem& system, const contact::GrainLoad
   aside_.join();
   uncoupled_.fork();
   GrainKernelData d = kernelData(step);
-  d.role = loads.range; // 0: of a grain that no part is near
+  d.role = loads.range; // 0: no part is listed near this grain
   runStep(uncoupled_.exec(), system, d, d.count);
 }
 

@@ -37,7 +37,7 @@ public:
   // the state it begins with, and does nothing where the step before it has raised one.
   bool canLaunchAhead(const GrainSystem& system) const;
   base::Watch flagsBefore(const GrainSystem& system) const;
-  /// Launches what no load can change: contacts with walls and floor, and the grains that no part is listed near.
+  /// Launches walls, floor and the grains without a listed part.
   void launchUncoupled(GrainSystem& system, const contact::GrainLoadsView& loads);
   /// Launches all other grains.
   void launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads);
@@ -83,7 +83,7 @@ private:
   base::DoubleBufferedGraph stepGraph_;
   base::SideStream side_;      ///< before all else: ghosts, and who reads them
   base::SideStream aside_;     ///< after all else: walls and floor
-  base::SideStream uncoupled_; ///< after all else: grains launched ahead that no part is near
+  base::SideStream uncoupled_; ///< lowest priority: grains without a listed part
   bool boundariesBegun_{false};
 };
 

@@ -19,8 +19,8 @@ public:
   contact::GrainsView view() const { return grains_.view(); }
   /// Raised by the step before: then this one does nothing.
   base::Watch flagsBefore() const { return grains_.stepper_.flagsBefore(grains_.system_); }
-  /// Launches walls, floor and the grains that `loads` list no part near. What is queued waits for walls and floor; the
-  /// grains run concurrently with what is queued before joinGrains().
+  /// Launches walls, floor and the grains without a listed part. Later queued work waits for walls and floor; the
+  /// grains run concurrently with all that is queued before joinGrains().
   void launchUncoupled(const contact::GrainLoadsView& loads) {
     grains_.stepper_.launchUncoupled(grains_.system_, loads);
   }

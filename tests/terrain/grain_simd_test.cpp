@@ -149,7 +149,7 @@ std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threa
 }
 
 TEST(GrainsLaunchedAhead, StepToTheSameBits) {
-  std::vector<LaneKind> kinds = {{.loads = true}};
+  std::vector<LaneKind> kinds = {{}, {.loads = true}, {.friction = false, .loads = true, .wallFriction = 0}};
   for (const bool soil : {false, true}) {
     LaneKind kind{.loads = true};
     kind.fixed = true;
