@@ -85,14 +85,9 @@ template <unsigned kFeatures> struct GrainPartForces {
       if (!outOfReach(grid.disc[grid.entry[k]], c, ball.radius)) return true;
     return false;
   }
-  /// Clears history and load of a pair out of reach.
+  /// Clears history and load of a pair out of reach. Angles and dents of free places are never read.
   GROUSER_HD void release(int e) const {
-    for (int k = 0; k < kPatches; ++k) {
-      const std::int64_t patch = static_cast<std::int64_t>(e) * kPatches + k;
-      memory[patch] = {};
-      if (rolls()) angle[patch] = {};
-      if (crushes()) dent[patch] = 0;
-    }
+    for (int k = 0; k < kPatches; ++k) memory[static_cast<std::int64_t>(e) * kPatches + k] = {};
     if (crushes()) energyHeld[e] = 0;
     load[e] = {};
   }
