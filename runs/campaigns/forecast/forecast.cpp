@@ -45,6 +45,14 @@ constexpr double kShort = 0.25;        // for steps of the short probe [s]
 constexpr double kFewGrains = 50'000;  // without a bed, that the short probe steps all of
 constexpr double kNoFigure = 1e-4;     // parts of less are not kept [s]
 
+constexpr const char* kStepText = "steps"; // add() prints number and time of the steps
+
+std::string stepTime(double seconds) {
+  return seconds < 1e-3 ? fmt::format("{:.3g} us", 1e6 * seconds)
+         : seconds < 1  ? fmt::format("{:.3g} ms", 1e3 * seconds)
+                        : fmt::format("{:.3g} s", seconds);
+}
+
 bool hasBed(const scene::Scene& scene) { return scene.terrain && scene.terrain->granular(); }
 
 /// The scene's forecast while it is put together.
@@ -80,9 +88,12 @@ public:
       output_ = options_.probe ? timeOutput() : typical_.output;
       output();
       prepare();
-      if (options_.probe) keep();
     }
     memory();
+    if (sound && options_.probe && options_.cache) {
+      simulation_.reset(); // its memory is free for the model
+      keep();
+    }
     f_.spent = all.seconds();
     return f_;
   }
@@ -110,10 +121,15 @@ private:
   /// A small tile of the bed, and typical times.
   bool model() {
     double grain = typical_.grain, list = typical_.list;
-    if (hasBed(scene_)) {
+    if (settles()) {
       options_.stage("short probe of a small bed");
-      tile_ = settleTile(setup::groundSetup(pieceOf(scene_, grains_, kMostCopied), timeStep_),
-                         scene_.terrain->porosity.has_value(), exec_.onCpu() ? base::cpuExec(1) : exec_, 2 * kShort);
+      try {
+        settle(setup::groundSetup(pieceOf(scene_, grains_, kMostCopied), timeStep_), 2 * kShort);
+      } catch (const base::InputError&) { // too small a bed for a periodic tile
+        tile_ = typicalTile();
+      }
+    }
+    if (tiled_) {
       const double each = kLarge / std::max(1.0, tile_.grains) / std::max(1, exec_.threads);
       if (exec_.onCpu()) {
         grain = each * std::max(0.3 * tile_.resting, tile_.resting - kStepAlone);
@@ -130,11 +146,36 @@ private:
     return true;
   }
 
+  bool settles() const { return hasBed(scene_) && scene_.terrain->settleTimeLimit > 0; }
+
+  void settle(const coupling::GroundSetup& piece, double seconds) {
+    tile_ = settleTile(piece, scene_.terrain->porosity.has_value(), exec_.onCpu() ? base::cpuExec(1) : exec_, seconds);
+    tiled_ = true;
+  }
+
+  SettledTile typicalTile() const {
+    constexpr double kGrains = 300, kRest = 0.7, kList = 0.005; // grains, simulated times of rest and of a list [s]
+    SettledTile tile;
+    tile.grains = kGrains, tile.steps = kRest / timeStep_, tile.rebuilds = kRest / kList;
+    tile.falling = tile.resting = kGrains * typical_.grain, tile.list = kGrains * typical_.list;
+    tile.seconds = tile.steps * tile.falling + tile.rebuilds * tile.list;
+    tile.complete = false;
+    return tile;
+  }
+
   bool hasParts() const { return scene_.vehicle || !scene_.meshes.empty() || !scene_.mechanism.empty(); }
 
-  /// Ratios of what was probed to what is modelled for the same scene.
+  /// Ratios of what was probed to what is modelled for the same scene. A failure leaves the forecast as it is.
   void keep() {
-    options_.stage("keeping the figures for later plans");
+    options_.stage("saving the results for later plans");
+    try {
+      keepRatios(machineOf(scene_), measuredOverModelled());
+    } catch (const std::exception&) {
+      return;
+    }
+  }
+
+  Ratios measuredOverModelled() const {
     ForecastOptions quick = options_;
     quick.probe = false;
     Forecaster other(scene_, counted_, quick, {});
@@ -143,11 +184,11 @@ private:
     const auto compare = [&](const std::vector<ForecastPart>& probed, const std::vector<ForecastPart>& modelled) {
       for (const ForecastPart& p : probed)
         for (const ForecastPart& m : modelled)
-          if (p.name == m.name && p.seconds > kNoFigure && m.seconds > kNoFigure && other.isModelled(m.name))
+          if (p.name == m.name && p.source == Source::probed && p.seconds > kNoFigure && m.seconds > kNoFigure && other.isModelled(m.name))
             ratios[workOf(p.name)] = p.seconds / m.seconds;
     };
     compare(f_.preparation, model.preparation), compare(f_.steps, model.steps), compare(f_.output, model.output);
-    keepRatios(machineOf(scene_), ratios);
+    return ratios;
   }
 
   bool isModelled(const std::string& part) const {
@@ -170,18 +211,21 @@ private:
   }
 
   void build() {
-    const bool copied = hasBed(scene_) && !kept_;
+    bool copied = hasBed(scene_) && !kept_;
     if (copied) {
-      const scene::Scene piece = pieceOf(probed_, grains_, exec_.onCpu() ? kMostCopied : kMostTaken);
-      options_.stage("settling a tile of the bed");
-      if (scene_.terrain->settleTimeLimit > 0)
-        tile_ = settleTile(setup::simulationSetup(piece).ground, scene_.terrain->porosity.has_value(),
-                           exec_.onCpu() ? base::cpuExec(1) : exec_, 1.5 * options_.seconds);
-      coupling::SimulationSetup setup = copiedBed(piece);
-      const Stopwatch building;
-      make(std::move(setup));
-      own_ = building.seconds();
-    } else {
+      try {
+        const scene::Scene piece = pieceOf(probed_, grains_, exec_.onCpu() ? kMostCopied : kMostTaken);
+        options_.stage("settling a tile of the bed");
+        if (settles()) settle(setup::simulationSetup(piece).ground, 1.5 * options_.seconds);
+        coupling::SimulationSetup setup = copiedBed(piece);
+        const Stopwatch building;
+        make(std::move(setup));
+        own_ = building.seconds();
+      } catch (const base::InputError&) { // too small a bed for a periodic tile
+        copied = false, whole_ = true;
+      }
+    }
+    if (!copied) {
       const Stopwatch building;
       make(setup::simulationSetup(probed_));
       own_ = building.seconds();
@@ -231,7 +275,7 @@ private:
       times_ =
           timeSteps(*simulation_, exec_, options_.seconds, simulation_->steps() + static_cast<std::int64_t>(steps_));
     } catch (const base::SimulationError& error) {
-      f_.warning = fmt::format("the probe's steps failed, so nothing is told of the run's: {}", error.what());
+      f_.warning = fmt::format("the probe's steps failed, no run-time estimate: {}", error.what());
       return false;
     }
     return true;
@@ -241,12 +285,14 @@ private:
     const bool spheres = scene_.vehicle || !scene_.meshes.empty();
     const double cut = spheres_ ? spheres_->cutting() : 0;
     if (kept_) {
-      add(f_.preparation, "bed, kept", own_ - cut, "taken from a run before");
+      add(f_.preparation, "bed, kept", own_ - cut, "in the cache");
+    } else if (whole_) {
+      add(f_.preparation, "settling the bed", own_ - cut, "the whole bed settled, with sphere sets placed");
     } else if (hasBed(scene_)) {
       settling();
       add(f_.preparation, "laying the bed", laying_ + grains_ * kLaid, "");
     }
-    if (!kept_ && (spheres || !hasBed(scene_))) {
+    if (!kept_ && !whole_ && (spheres || !hasBed(scene_))) {
       const double settled =
           hasBed(scene_) && !modelled_ ? tile_.fallen * tile_.seconds : 0; // of the tile again, to be copied
       add(f_.preparation, spheres ? "parts, placing" : "placing", std::max(0.0, own_ - cut - settled),
@@ -268,7 +314,7 @@ private:
     const double whole = scale_ * (each * tile_.falling / std::max(1e-300, tile_.resting) +
                                    lists() * tile_.rebuilds / std::max(1.0, tile_.steps));
     std::string how = fmt::format("{:.0f} steps to rest of a tile of {:.0f} grains", tile_.steps, tile_.grains);
-    if (!tile_.complete) how += ", whose time was up: rest guessed half a second after the fall";
+    if (!tile_.complete) how = "not settled in the probe; estimated";
     if (scene_.terrain->porosity) {
       const double sample = sampleGrains(scene_, timeStep_);
       add(f_.preparation, "friction for the porosity", kTrials * tile_.seconds * sample / tile_.grains,
@@ -336,17 +382,15 @@ private:
   }
 
   void addSteps(double grains, double lists, double parts, const std::string& how) {
-    if (grains_ > 0)
-      add(f_.steps, "grains", grains, fmt::format("{:.0f} steps of {:.4g} us", steps_, 1e6 * grains / steps_));
+    const bool apart = hasParts() || grains_ == 0;
+    if (grains_ > 0) add(f_.steps, "grains", apart ? grains : grains + parts, kStepText);
     if (grains_ > 0) add(f_.steps, "neighbour lists", lists, how);
-    if (hasParts() || grains_ == 0)
+    if (apart)
       add(f_.steps,
           scene_.vehicle             ? "vehicle"
           : scene_.mechanism.empty() ? "meshes"
                                      : "mechanism",
-          parts, fmt::format("{:.0f} steps of {:.4g} us", steps_, 1e6 * parts / steps_));
-    else
-      f_.steps.front().seconds += parts;
+          parts, kStepText);
   }
 
   /// Grains in the mean over the steps that the probe has not taken.
@@ -382,16 +426,18 @@ private:
 
   void add(std::vector<ForecastPart>& parts, const char* name, double seconds, const std::string& how) const {
     ForecastPart part{name, std::max(0.0, seconds), how};
+    const bool ofSettling = part.name.starts_with("settling") || part.name.starts_with("friction");
+    const bool estimated = ofSettling && !whole_ && !tile_.complete;
     if (isModelled(name)) {
-      const bool ofTile =
-          hasBed(scene_) && exec_.onCpu() &&
-          (&parts == &f_.steps || part.name.starts_with("settling") || part.name.starts_with("friction"));
+      const bool ofTile = tiled_ && exec_.onCpu() && (&parts == &f_.steps || ofSettling);
       part.source = ofTile && !(part.name == "vehicle" || part.name == "meshes" || part.name == "mechanism")
                         ? Source::probed
                         : Source::typical;
       const auto kept = ratios_.find(workOf(name));
       if (kept != ratios_.end()) part.seconds *= kept->second, part.source = Source::kept;
     }
+    if (how == kStepText) part.how = fmt::format("{:.0f} steps of {}", steps_, stepTime(part.seconds / steps_));
+    if (estimated) part.source = Source::typical;
     parts.push_back(part);
   }
 
@@ -416,6 +462,8 @@ private:
   std::optional<storage::SphereCache> spheres_;
   std::optional<storage::BedCache> beds_;
   bool kept_ = false;
+  bool tiled_ = false; ///< a tile of the bed was settled
+  bool whole_ = false; ///< the long probe settled the bed itself
   SettledTile tile_;
   std::unique_ptr<coupling::Simulation> simulation_;
   double own_ = 0;    ///< to build the piece [s]
@@ -429,8 +477,8 @@ private:
 } // namespace
 
 Forecast forecastOf(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options) {
-  return Forecaster(scene, counted, options, options.probe ? Ratios() : keptRatios(Forecaster::machineOf(scene)))
-      .made();
+  const bool kept = !options.probe && options.cache;
+  return Forecaster(scene, counted, options, kept ? keptRatios(Forecaster::machineOf(scene)) : Ratios()).made();
 }
 
 } // namespace grouser::forecast

@@ -291,6 +291,37 @@ TEST_F(PlanProgram, BedOfTilesIsPreparedBeforeItIsCopied) {
     EXPECT_GT(json["preparation"].value(part, 0.0), 0) << part << "\n" << o.out;
 }
 
+TEST_F(PlanProgram, BedThatIsNotSettledIsPlannedByTypicalValues) {
+  write(bedScene());
+  const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
+  for (const std::string probe : {"", " --probe"}) {
+    const Outcome o =
+        call("plan bed.toml --threads 1 --json plan.json --set terrain.settle_time_limit=0" + probe, keep);
+    ASSERT_EQ(o.code, 0) << probe << o.errors;
+    const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
+    EXPECT_EQ(json["sources"]["grains"], probe.empty() ? "typical" : "probed");
+    EXPECT_FALSE(json["preparation"].contains("settling the bed"));
+  }
+}
+
+TEST_F(PlanProgram, BedTooSmallForAPeriodicTileIsPlanned) {
+  write(bedScene());
+  for (const std::string probe : {"", " --probe"}) {
+    const Outcome o = call("plan bed.toml --threads 1 --json plan.json --set 'terrain.size=[0.045, 0.045]'" + probe);
+    ASSERT_EQ(o.code, 0) << probe << o.errors;
+    const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
+    EXPECT_EQ(json["sources"]["settling the bed"], probe.empty() ? "typical" : "probed") << o.out;
+    EXPECT_GT(json["preparation"]["settling the bed"].get<double>(), 0);
+  }
+}
+
+TEST_F(PlanProgram, LongProbeWithoutACacheSavesNothing) {
+  write(bedScene());
+  const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
+  ASSERT_EQ(call("plan bed.toml --threads 1 --probe --no-cache", keep).code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "kept"));
+}
+
 TEST_F(PlanProgram, WithoutProbeRunsNothing) {
   write(bedScene());
   const Outcome o = call("plan bed.toml --no-probe");
