@@ -69,7 +69,7 @@ struct PlanCommand {
   std::string device;         ///< empty: as the scene says
   std::optional<int> threads; ///< empty: as the scene says
   std::string folder;         ///< that results would go to; empty: as the scene says
-  bool forecast = true;       ///< time to expect, by a probe of a second at most
+  bool forecast = true;       ///< predict the run time, by a short probe
   bool probe = false;         ///< by the long probe
   bool cache = true;          ///< as that of a run
   std::string json;           ///< file for the forecast; empty: none

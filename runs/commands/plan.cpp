@@ -130,7 +130,7 @@ std::string bedHeightText(const scene::Scene& scene) {
     if (const auto beds = storage::BedCache::ofUser()) settled = beds->find(origin);
   return fmt::format("  {:<24} {}\n", "settled bed",
                      settled
-                         ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (kept from a run before)",
+                         ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (in the cache)",
                                        settled->meanHeight, settled->highest)
                          : "height not known before a run has settled it");
 }

@@ -96,8 +96,7 @@ void addPlan(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<PlanCommand>();
   PlanCommand& p = *command;
   CLI::App* plan = app.add_subcommand(
-      "plan", "What a scene switches on, its size, time step and memory, and in some seconds how long it will take "
-              "here");
+      "plan", "Prints active features, size, time step and memory of a scene, and predicts its run time");
   plan->add_option("scene", p.scene, "scene file")->required();
   plan->add_option("--set", p.overrides, kSetHelp)->allow_extra_args(false);
   plan->add_option("--ranks", p.ranks, "also how so many ranks (mpirun -np) would share the grains")
@@ -105,11 +104,11 @@ void addPlan(CLI::App& app, const Invocation&) {
   plan->add_option("--device", p.device, "auto, cpu or cuda; default: as the scene says");
   plan->add_option("--threads", p.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
   support::addOut(*plan, p.folder, "folder that results would go to; default: out/NAME of the scene");
-  CLI::Option* without = plan->add_flag("!--no-probe", p.forecast, "run nothing: no time to expect");
+  CLI::Option* without = plan->add_flag("!--no-probe", p.forecast, "skip the run-time prediction");
   plan->add_flag("--probe", p.probe,
-                 "measure all parts of the run, up to some minutes, and keep the figures for later plans")
+                 "measure every part (up to minutes); later plans reuse the results")
       ->excludes(without);
-  plan->add_option("--json", p.json, "also write the time to expect to this file, by its parts")
+  plan->add_option("--json", p.json, "also write the predicted time of each part to this file")
       ->excludes(without)
       ->check(support::writableFile("--json"));
   plan->add_flag("!--no-cache", p.cache, "for a run that settles the bed and cuts the parts anew");

@@ -27,7 +27,7 @@ double outerTrack(const scene::Driver& driver, const vehicle::VehicleSpec& spec)
   return 1 + spec.trackOffset / std::fabs(*driver.course->radius);
 }
 
-/// Time in which the drive comes on [s].
+/// Duration of the drive ramp [s].
 double rampOf(const scene::Scene& scene) {
   const auto& course = scene.driver.course;
   return course ? std::fabs(course->speed) / course->acceleration : scene.driver.rampOfDrive();
@@ -81,8 +81,8 @@ std::string shortDriveWarning(const scene::Scene& scene) {
   const double teeth = teethAsked(scene);
   if (teeth >= kFewestTeeth) {
     if (teethAsked(scene, true) >= 1) return {};
-    return fmt::format("the vehicle drives less than a tooth in steady motion (its drive is up to speed at {:.4g} s{}, "
-                       "the run ends at {:g} s), and means over steady motion are inconclusive; {}",
+    return fmt::format("steady driving covers less than one sprocket tooth (the ramp ends at {:.4g} s{}, "
+                       "the run ends at {:g} s), so means over steady motion are inconclusive; {}",
                        scene.driver.driveBegins() + rampOf(scene), scene.driver.driveStart ? "" : " at the earliest",
                        scene.run.duration, longerDriveRemedy(scene));
   }

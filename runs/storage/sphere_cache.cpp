@@ -98,7 +98,7 @@ base::SphereSet SphereCache::cut(const coupling::PartCut& part, spheredecomp::Pr
       spheredecomp::cutOrigin(*part.mesh, part.options) + (part.limit ? spheredecomp::limitOrigin(*part.limit) : "");
   const fs::path file = files_.fileOf(kSpheres, origin);
   std::optional<Found> found = find(file, origin);
-  if (!found && keptAlone_) throw NotKept();
+  if (!found && lookUpOnly_) throw NotKept();
   support::FileLock lock;
   const bool usable = found || files_.writable();
   if (!found && usable) {

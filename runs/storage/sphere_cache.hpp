@@ -26,15 +26,19 @@ public:
   /// receives what that measures.
   base::SphereSet cut(const coupling::PartCut& part, spheredecomp::Protrusion* protrusion = nullptr) override;
 
-  /// Thrown by cut() after keptAlone(), in the place of cutting.
+  /// Thrown by cut() after lookUpOnly(), instead of cutting.
   struct NotKept {};
-  void keptAlone() { keptAlone_ = true; }
+  void lookUpOnly() { lookUpOnly_ = true; }
 
   /// One line: where the sets of all ranks came from, and how long that took. Empty where there were none. All ranks
   /// call it.
   std::string summary(const base::Comm& comm = {}) const;
   /// How long this rank has cut what was not kept [s].
   double cutting() const { return cutting_; }
+  /// Sets that this rank has found in the cache.
+  int found() const { return taken_; }
+  /// Sets that this rank has cut and written to the cache.
+  int saved() const { return kept_; }
 
 private:
   struct Found {
@@ -47,7 +51,7 @@ private:
   static Found parsed(const std::string& bytes, const std::string& origin);
 
   support::KeptFiles files_;
-  bool keptAlone_ = false;
+  bool lookUpOnly_ = false;
   /// Of this rank, since the start.
   int taken_ = 0, cut_ = 0, kept_ = 0;
   double taking_ = 0, cutting_ = 0; ///< [s]

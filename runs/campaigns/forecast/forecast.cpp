@@ -10,6 +10,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/session/output_times.hpp"
 #include "runs/setup/bed_alone.hpp"
+#include "runs/setup/bed_options.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/grain_memory.hpp"
 #include "runs/setup/ground_setup.hpp"
@@ -43,6 +44,8 @@ constexpr double kStride = 4;          // of soft steps
 constexpr double kFurtherPlot = 0.3;   // of the first one's time, with which Python begins [-]
 constexpr double kShort = 0.25;        // for steps of the short probe [s]
 constexpr double kFewGrains = 50'000;  // without a bed, that the short probe steps all of
+constexpr double kCutMeshes = 2;       // typical time for sphere sets of meshes [s]
+constexpr int kTestedThreads = 4;      // of the scaling from one thread, at most
 constexpr double kNoFigure = 1e-4;     // parts of less are not kept [s]
 
 constexpr const char* kStepText = "steps"; // add() prints number and time of the steps
@@ -73,14 +76,18 @@ public:
       const setup::KernelTraits traits = setup::kernelTraits(scene, setup::ContactPairs(scene));
       soil_ = terrain::stepKernelText(traits.features, traits.model) + (scene.terrain ? scene.terrain->material : "");
     }
-    if (const auto& v = scene.vehicle) vehicle_ = fmt::format("{} {}", v->spec, v->sphereRadius.value_or(0));
+    if (const auto& v = scene.vehicle)
+      vehicle_ = fmt::format("{} {} on {}", v->spec, v->sphereRadius.value_or(0),
+                             hasBed(scene) ? fmt::format("{} {}", scene.terrain->material,
+                                                         setup::bedOptions(scene).meanRadius())
+                             : grains_ > 0 ? "grains"
+                                           : "rigid");
   }
 
   Forecast made() {
     const Stopwatch all;
     findBed();
     if (!options_.probe) findTypical();
-    modelled_ = !options_.probe && (hasBed(scene_) || grains_ > kFewGrains || uncut_ > 0);
     const bool sound = modelled_ ? model() : step();
     if (simulation_) f_.cuts = coupling::cutReports(*simulation_);
     if (sound) {
@@ -112,10 +119,18 @@ private:
     return session::timeOutput(*simulation_, record, exec_, scratch(), scene_.output.plots);
   }
 
+  /// Typical times, the sphere sets in the cache, and whether steps are modelled.
   void findTypical() {
-    const double spheres = scene_.vehicle && spheres_ ? keptSpheres(scene_, grains_, *spheres_, f_.cuts) : 0;
+    // A lookup in a folder that cannot exist shows whether any set is needed.
+    const storage::SphereCache cache = spheres_ ? *spheres_ : storage::SphereCache(support::KeptFiles("/dev/null/none"));
+    const double spheres = scene_.vehicle ? keptSpheres(scene_, grains_, cache, f_.cuts) : 0;
     typical_ = typicalTimes(scene_, grains_, spheres, exec_);
     if (scene_.vehicle && spheres == 0) uncut_ = typical_.cutting;
+    modelled_ = hasBed(scene_) || grains_ > kFewGrains || uncut_ > 0;
+    if (!modelled_ || scene_.meshes.empty()) return; // the steps of the probe cut meshes
+    std::vector<spheredecomp::CutReport> cuts;
+    if (!keptMeshes(scene_, grains_, timeStep_, cache, cuts)) uncut_ += kCutMeshes;
+    f_.cuts.insert(f_.cuts.end(), cuts.begin(), cuts.end());
   }
 
   /// A small tile of the bed, and typical times.
@@ -130,7 +145,7 @@ private:
       }
     }
     if (tiled_) {
-      const double each = kLarge / std::max(1.0, tile_.grains) / std::max(1, exec_.threads);
+      const double each = kLarge / std::max(1.0, tile_.grains) / usefulThreads(exec_);
       if (exec_.onCpu()) {
         grain = each * std::max(0.3 * tile_.resting, tile_.resting - kStepAlone);
         list = each * tile_.list;
@@ -139,6 +154,7 @@ private:
         list = std::max(list, tile_.list / grains_);
       }
     }
+    if (exec_.onCpu() && !tiled_) grain += kStepAlone / std::max(1.0, grains_);
     const double parts = hasParts() ? typical_.parts : 0, each = grains_ * grain + parts;
     times_.groups = {{1, each, 0, parts / each, grains_}};
     lists_ = grains_ * list, scale_ = 1, pieceGrains_ = grains_;
@@ -287,7 +303,7 @@ private:
     if (kept_) {
       add(f_.preparation, "bed, kept", own_ - cut, "in the cache");
     } else if (whole_) {
-      add(f_.preparation, "settling the bed", own_ - cut, "the whole bed settled, with sphere sets placed");
+      add(f_.preparation, "settling the bed", own_ - cut, "the whole bed");
     } else if (hasBed(scene_)) {
       settling();
       add(f_.preparation, "laying the bed", laying_ + grains_ * kLaid, "");
@@ -299,11 +315,15 @@ private:
           modelled_ ? "" : "as the probe's");
     }
     if (spheres)
-      add(f_.preparation, "sphere sets", uncut_,
-          cut > 0      ? fmt::format("cut now in {:.2g} s, kept for the run", cut)
-          : uncut_ > 0 ? "cut once, then kept"
-          : spheres_   ? "kept from a run before"
-                       : "cut with the parts, as nothing is kept");
+      add(f_.preparation, "sphere sets", uncut_, spheresText(cut));
+  }
+
+  /// Origin of the sphere sets; `cut`: the time that they took in the probe [s].
+  std::string spheresText(double cut) const {
+    if (cut > 0) return fmt::format("cut in {:.2g} s{}", cut, spheres_->saved() > 0 ? "; cached for the run" : "");
+    if (uncut_ > 0) return spheres_ ? "cut once; cached by the first run" : "cut by the run; no cache";
+    if (simulation_ && !spheres_) return f_.cuts.empty() ? "none needed" : "cut with the parts; no cache";
+    return !f_.cuts.empty() || (spheres_ && spheres_->found() > 0) ? "in the cache" : "none needed";
   }
 
   void settling() {
@@ -429,7 +449,7 @@ private:
     const bool ofSettling = part.name.starts_with("settling") || part.name.starts_with("friction");
     const bool estimated = ofSettling && !whole_ && !tile_.complete;
     if (isModelled(name)) {
-      const bool ofTile = tiled_ && exec_.onCpu() && (&parts == &f_.steps || ofSettling);
+      const bool ofTile = tiled_ && exec_.onCpu() && usefulThreads(exec_) <= kTestedThreads && (&parts == &f_.steps || ofSettling);
       part.source = ofTile && !(part.name == "vehicle" || part.name == "meshes" || part.name == "mechanism")
                         ? Source::probed
                         : Source::typical;
@@ -452,7 +472,7 @@ private:
   ForecastOptions options_;
   const CountedGrains& counted_;
   Ratios ratios_;
-  std::string soil_, vehicle_; ///< kernel of the grains and their material; file of the vehicle and its spheres
+  std::string soil_, vehicle_; ///< keys of kept ratios: kernel and material; file, spheres and ground of the vehicle
   TypicalTimes typical_;
   double uncut_ = 0;      ///< time of sphere sets still to be cut [s]
   bool modelled_ = false; ///< steps follow from a tile and typical times

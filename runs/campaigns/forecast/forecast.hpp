@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// How long a run will take on this machine, told by a second of its kind of work.
+/// A short or long probe of a scene predicts the run time on this machine.
 namespace grouser::forecast {
 
 /// Origin of a figure: measured for this scene now, in an earlier probe on this machine, or on other machines.
@@ -23,13 +23,13 @@ enum class Source { probed, kept, typical };
 struct ForecastPart {
   std::string name;
   double seconds = 0; ///< wall time [s]
-  std::string how;    ///< what it was reckoned from
+  std::string how;    ///< basis of the estimate
   Source source = Source::probed;
 };
 
 struct Forecast {
   std::vector<ForecastPart> preparation, steps, output;
-  std::string warning;                       ///< problem with the bed; empty: none
+  std::string warning;                       ///< why there is no run-time estimate; empty: none
   double spent = 0;                          ///< by the probe itself [s]
   bool probed = true;                        ///< by the long probe
   double process = 0;                        ///< most memory of the process [B]
@@ -53,14 +53,14 @@ struct ForecastOptions {
   double seconds = 1;           ///< for steps of the long probe
   bool cache = true;            ///< beds and sphere sets may be taken from earlier runs, as a run does
   bool probe = true;            ///< the long probe; false: a second at most
-  std::function<void(const char*)> stage = [](const char*) {}; ///< receives what is done next, in words
+  std::function<void(const char*)> stage = [](const char*) {}; ///< called with the name of each stage
 };
 
 /// The long probe makes a piece of the scene's work and runs it: its bed, where one is kept, or copies of a small
 /// settled tile of the same grains, with the scene's vehicle, mechanism or surfaces on it; some rows, frames and a
-/// checkpoint in a folder of its own that is removed again. Sphere sets that are cut for it are kept for the run.
+/// checkpoint in a folder of its own that is removed again. Sphere sets that are cut for it are cached for the run.
 /// Throws what a run throws before its first step; where the steps of the probe fail, `warning` says so. What it
-/// measures is kept for later plans. Without it a small tile of the bed, or a scene of few grains, is run for less than
+/// measures is saved for later plans (with `cache`). Without it a small tile of the bed, or a scene of few grains, is run for less than
 /// a second; all else follows from figures that long probes on this machine have kept, else from typical values.
 Forecast forecastOf(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options);
 

@@ -61,19 +61,19 @@ std::string forecastText(const Forecast& f) {
   for (const spheredecomp::CutReport& cut : f.cuts)
     if (const std::string warning = spheredecomp::protrusionWarning(cut); !warning.empty())
       text += fmt::format("\nWARNING: {}\n", warning);
-  text += fmt::format("\nto expect on {}, by a {}probe of {}\n", f.onDevice, f.probed ? "" : "short ", time(f.spent));
+  text += fmt::format("\nprediction on {} ({} probe, {})\n", f.onDevice, f.probed ? "long" : "short", time(f.spent));
   text += partsText("preparation", f.preparation);
   text += partsText("steps", f.steps);
   text += partsText("output", f.output);
   if (f.warning.empty())
     text +=
-        fmt::format("  {:<24} {}, between {} and {}\n", "in all", time(f.total()), time(f.bound(-1)), time(f.bound(1)));
+        fmt::format("  {:<24} {}, between {} and {}\n", "total", time(f.total()), time(f.bound(-1)), time(f.bound(1)));
   if (f.probed)
     text += fmt::format("  {:<24} within a factor of {:g}\n", "accuracy", f.accuracy(Source::probed));
   else
     text +=
         fmt::format("  {:<24} within a factor of {:g} (probed, kept) or {:g} (typical); grouser plan --probe measures "
-                    "every part and keeps the figures\n",
+                    "every part; later plans reuse the results\n",
                     "accuracy", f.accuracy(Source::kept), f.accuracy(Source::typical));
   text += fmt::format("  {:<24} about {}\n", "memory of the process", bytes(f.process));
   if (f.device > 0) text += fmt::format("  {:<24} about {}\n", "memory of the GPU", bytes(f.device));

@@ -2,11 +2,13 @@
 #include "runs/campaigns/forecast/scene_figures.hpp"
 
 #include "base/math.hpp"
+#include "coupling/mesh_contacts.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/obstacles.hpp"
+#include "runs/setup/placement.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/vehicle_setup.hpp"
 #include "vehicle/assembly.hpp"
@@ -48,7 +50,7 @@ double speedOf(const scene::Scene& scene) {
 
 double keptSpheres(const scene::Scene& scene, double grains, storage::SphereCache kept,
                    std::vector<spheredecomp::CutReport>& cuts) {
-  kept.keptAlone();
+  kept.lookUpOnly();
   const coupling::VehicleSetup setup = setup::vehicleSetup(scene);
   const bool rigid = grains == 0;
   try {
@@ -61,6 +63,31 @@ double keptSpheres(const scene::Scene& scene, double grains, storage::SphereCach
     return spheres;
   } catch (const storage::SphereCache::NotKept&) {
     return 0;
+  }
+}
+
+bool keptMeshes(const scene::Scene& scene, double grains, double timeStep, storage::SphereCache kept,
+                std::vector<spheredecomp::CutReport>& cuts) {
+  kept.lookUpOnly();
+  std::vector<coupling::SurfaceSetup> obstacles, met;
+  std::vector<coupling::PartCut> parts;
+  if (grains > 0) {
+    met = setup::groundSetup(scene, timeStep).surfaces;
+    const double smallest = setup::ContactPairs(scene).kinds.smallest;
+    for (const coupling::SurfaceSetup& s : met)
+      if (s.mesh) parts.push_back(coupling::meshCut(s, smallest));
+  }
+  if (scene.vehicle) {
+    const double size = coupling::VehicleParts::contactSize(setup::vehicleSpec(scene));
+    for (coupling::Obstacle& o : setup::obstaclesOf(scene)) obstacles.push_back(std::move(o.surface));
+    for (const coupling::SurfaceSetup& s : obstacles)
+      if (s.mesh) parts.push_back(coupling::meshCut(s, size));
+  }
+  try {
+    coupling::cutParts(parts, &kept, base::Comm(), &cuts);
+    return true;
+  } catch (const storage::SphereCache::NotKept&) {
+    return false;
   }
 }
 

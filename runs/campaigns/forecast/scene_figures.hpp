@@ -13,12 +13,17 @@ namespace grouser::forecast {
 /// Grains of the small bed that frictions are tried on, with its floor; 0 without a requested porosity.
 double sampleGrains(const scene::Scene& scene, double timeStep);
 
-/// The quickest that grains will go [m/s]: with the track of a vehicle, or with a surface that is moved.
+/// Largest expected grain speed [m/s]: with the track of a vehicle, or with a surface that is moved.
 double speedOf(const scene::Scene& scene);
 
 /// Spheres of the vehicle's sets of a scene with so many grains, each set once; 0 where some are still to be cut.
 /// `cuts` receives their reports.
 double keptSpheres(const scene::Scene& scene, double grains, storage::SphereCache kept,
                    std::vector<spheredecomp::CutReport>& cuts);
+
+/// Whether the sphere sets of all meshes of the scene that grains or the vehicle touch are in the cache. `cuts` receives
+/// their reports.
+bool keptMeshes(const scene::Scene& scene, double grains, double timeStep, storage::SphereCache kept,
+                std::vector<spheredecomp::CutReport>& cuts);
 
 } // namespace grouser::forecast

@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/campaigns/forecast/typical_times.hpp"
 
+#include "base/math.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
+#include "runs/setup/bed_options.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <algorithm>
 
 namespace grouser::forecast {
+
+int usefulThreads(const base::Exec& exec) {
+  return exec.onCpu() ? std::max(1, std::min(exec.threads, base::cpuExec().threads)) : 1;
+}
+
+double pairsBelowTracks(const scene::Scene& scene) {
+  if (!scene.vehicle || !scene.terrain || !scene.terrain->granular()) return 0;
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+  const double tracks = scene.vehicle->tracks == scene::Tracks::single ? 1 : 2;
+  const double length = std::max(spec.groundRun(), 2 * spec.shoe.halfLength);
+  const double radius = setup::bedOptions(scene).meanRadius();
+  return tracks * length * 2 * spec.shoe.padHalfWidth / (base::kPi * radius * radius);
+}
 
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec) {
   constexpr double kSetArea = 7;        // spheres of a light vehicle's sets times the square of their radius [m2]
@@ -13,15 +29,16 @@ TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spher
   constexpr double kDisk = 400e6;       // [bytes/s]
   constexpr double kVehicleFrame = 8e5; // [bytes]
   constexpr double kCheckpointed = 250; // of a grain [bytes]
+  constexpr double kPair = 170e-9;      // of a grain and a part in a step, on a core [s]
   const bool cpu = exec.onCpu(), vehicle = scene.vehicle.has_value(), rigid = vehicle && grains == 0;
-  const double cores = cpu ? std::max(1, exec.threads) : 1;
+  const double cores = cpu ? usefulThreads(exec) : 1;
   if (vehicle && spheres == 0) {
     const double radius = scene.vehicle->sphereRadius.value_or(scene::Vehicle::kSphereRadius);
     spheres = rigid ? kHull : kSetArea / (radius * radius);
   }
   TypicalTimes t;
   t.grain = cpu ? 120e-9 / cores : 0.6e-9, t.list = cpu ? 1e-6 / cores : 6e-9;
-  t.parts = cpu ? (rigid ? 60e-6 : 250e-6) : 150e-6;
+  t.parts = cpu ? (rigid ? 60e-6 : 250e-6 + kPair * pairsBelowTracks(scene) / cores) : 150e-6;
   t.placing = vehicle ? 0.3 + (rigid ? 0 : 8e-6 * spheres) : 0.1, t.cutting = 300e-6 * spheres / cores,
   t.reading = 2e-6;
   t.output.begin = 0.02, t.output.picture = 0.5, t.output.plot = scene.output.plots ? 0.4 : 0;

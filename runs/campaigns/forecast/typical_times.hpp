@@ -8,7 +8,7 @@
 /// Times of the parts of a run where nothing of the kind was measured on this machine.
 namespace grouser::forecast {
 
-/// Typical of a CPU with SIMD of about 2020, and of an H100.
+/// Typical times on a CPU with SIMD of about 2020, and on an H100.
 struct TypicalTimes {
   double grain = 0;   ///< of a grain in a step [s]
   double list = 0;    ///< of a grain in a new neighbour list [s]
@@ -18,6 +18,12 @@ struct TypicalTimes {
   double reading = 0; ///< of a grain of a kept bed [s]
   session::OutputTimes output;
 };
+
+/// CPU threads that have a core of their own; 1 on a GPU.
+int usefulThreads(const base::Exec& exec);
+
+/// Contacts of the grains below the tracks of a vehicle on soil: one layer of grains over the ground contact.
+double pairsBelowTracks(const scene::Scene& scene);
 
 /// Of a scene with so many grains. `spheres` of the vehicle's sets, each set once; 0: not known, or no vehicle.
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec);

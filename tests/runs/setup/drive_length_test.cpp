@@ -68,11 +68,11 @@ TEST(DriveLength, ADriveThatIsNeverSteadyIsSaidBefore) {
   EXPECT_EQ(teethAsked(driven(slow, 3.5), true), 0);
   EXPECT_NEAR(teethAsked(driven(slow, 4.5), true), teeth(2), 0.01) << "to one of 2000 parts of the time";
   EXPECT_EQ(shortDriveWarning(driven(slow, 3.6)),
-            "the vehicle drives less than a tooth in steady motion (its drive is up to speed at 3.5 s, the run ends at "
-            "3.6 s), and means over steady motion are inconclusive; raise run.duration");
+            "steady driving covers less than one sprocket tooth (the ramp ends at 3.5 s, the run ends at "
+            "3.6 s), so means over steady motion are inconclusive; raise run.duration");
   EXPECT_EQ(shortDriveWarning(driven(slow, 4.5)), "");
   const std::string course = "[driver.course]\nspeed = 1\nacceleration = 0.25\n";
-  EXPECT_NE(shortDriveWarning(driven(course, 4.5)).find("up to speed at 4.45 s at the earliest"), std::string::npos);
+  EXPECT_NE(shortDriveWarning(driven(course, 4.5)).find("ramp ends at 4.45 s at the earliest"), std::string::npos);
   EXPECT_EQ(shortDriveWarning(driven(course, 5)), "");
 }
 

@@ -87,7 +87,7 @@ TEST_F(KeptSpheres, AreThoseThatWouldBeCut) {
 
 TEST_F(KeptSpheres, AreAskedForWithoutCutting) {
   storage::SphereCache kept{support::KeptFiles(folder_)};
-  kept.keptAlone();
+  kept.lookUpOnly();
   EXPECT_THROW(kept.cut(part()), storage::SphereCache::NotKept);
   EXPECT_FALSE(std::filesystem::exists(folder_)) << "nothing is written";
   cut(part());

@@ -6,6 +6,7 @@
 #include "runs/campaigns/forecast/kept_ratios.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
 #include "runs/campaigns/forecast/probe.hpp"
+#include "runs/campaigns/forecast/typical_times.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -131,7 +132,7 @@ TEST(ForecastFigures, PartsAddUp) {
   }
   const std::string text = forecastText(f);
   for (const char* part :
-       {"settling the bed", "3.0 s       probed (how)", "in all", "15 s", "2 GB", "3 MB, written at 100 MB/s"})
+       {"settling the bed", "3.0 s       probed (how)", "total", "15 s", "2 GB", "3 MB, written at 100 MB/s"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
@@ -144,7 +145,7 @@ TEST(ForecastFigures, AccuracyFollowsFromTheSourceOfEachPart) {
   EXPECT_DOUBLE_EQ(f.bound(-1), 3 / 2.0 + 10 / 2.0 + 6 / 3.0);
   EXPECT_DOUBLE_EQ(f.bound(1), 3 * 2.0 + 10 * 2.0 + 6 * 3.0);
   const std::string text = forecastText(f);
-  for (const char* part : {"a short probe of", "3.0 s       probed", "10 s        kept", "6.0 s       typical",
+  for (const char* part : {"(short probe, ", "3.0 s       probed", "10 s        kept", "6.0 s       typical",
                            "19 s, between 8.5 s and 44 s", "within a factor of 2 (probed, kept) or 3 (typical)"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   const auto json = nlohmann::json::parse(forecastJson(f));
@@ -158,7 +159,7 @@ TEST(ForecastFigures, AccuracyFollowsFromTheSourceOfEachPart) {
 TEST(ForecastFigures, ProbeThatFailedTellsNoTotal) {
   Forecast f = someForecast();
   f.warning = "the probe's steps failed";
-  EXPECT_EQ(forecastText(f).find("  in all"), std::string::npos);
+  EXPECT_EQ(forecastText(f).find("  total"), std::string::npos);
   EXPECT_NE(forecastText(f).find("warning: the probe's steps failed"), std::string::npos);
 }
 
@@ -220,6 +221,43 @@ TEST_F(KeptTimes, AreOfOneMachineAndTheLastOfEachKindOfWork) {
   EXPECT_TRUE(keptRatios("here").empty()) << "damaged";
 }
 
+TEST_F(KeptTimes, OfDamagedFilesAreNone) {
+  keepRatios("here", {{"grains", 0.5}, {"rows", 1e4}, {"frames", 1e-3}});
+  EXPECT_EQ(keptRatios("here"), (Ratios{{"grains", 0.5}})) << "beyond a factor of 100";
+  fs::path path;
+  for (const auto& file : fs::directory_iterator(folder_))
+    if (file.path().extension() == ".json") path = file.path();
+  for (const char* text : {"[]", "{\"of\": \"here\", \"ratios\": [1, 2]}", "{\"of\": \"here\"}"}) {
+    std::ofstream(path) << text;
+    EXPECT_TRUE(keptRatios("here").empty()) << text;
+  }
+  std::ofstream(path) << "{\"of\": \"here\", \"ratios\": {\"grains\": 1e300, \"rows\": 3, \"frames\": \"4\"}}";
+  EXPECT_EQ(keptRatios("here"), (Ratios{{"rows", 3}}));
+  fs::remove(path);
+  fs::create_directory(path);
+  EXPECT_TRUE(keptRatios("here").empty()) << "a folder";
+  keepRatios("here", {{"grains", 0.5}});
+  for (const auto& file : fs::directory_iterator(folder_))
+    EXPECT_TRUE(file.path() == path || file.path().extension() == ".lock") << file.path();
+}
+
+TEST(TypicalTimes, ThreadsAreAtMostTheLogicalCores) {
+  const int cores = base::cpuExec().threads;
+  EXPECT_EQ(usefulThreads(base::cpuExec(1)), 1);
+  EXPECT_EQ(usefulThreads(base::cpuExec(cores)), cores);
+  EXPECT_EQ(usefulThreads(base::cpuExec(10 * cores)), cores);
+}
+
+TEST(TypicalTimes, SmallerGrainsBelowTracksMakeTheVehicleDearer) {
+  scene::Scene scene = parsed(bedScene("", "[vehicle]\nspec = \"" + std::string(GROUSER_SOURCE_DIR) +
+                                               "/assets/vehicles/light_tracked.toml\"\n"));
+  const double pairs = pairsBelowTracks(scene), parts = typicalTimes(scene, 90, 1e5, base::cpuExec(1)).parts;
+  EXPECT_GT(pairs, 100);
+  scene.terrain->grainRadius = 0.005;
+  EXPECT_NEAR(pairsBelowTracks(scene) / pairs, 4, 1e-9);
+  EXPECT_NEAR(typicalTimes(scene, 90, 1e5, base::cpuExec(1)).parts - parts, 3 * 170e-9 * pairs, 1e-9);
+}
+
 /// The program itself.
 class PlanProgram : public ProgramTest {
 protected:
@@ -230,8 +268,8 @@ TEST_F(PlanProgram, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
   write(bedScene());
   const Outcome o = call("plan bed.toml --json plan.json --threads 1");
   ASSERT_EQ(o.code, 0) << o.errors;
-  for (const char* part : {"settling the bed", "neighbour lists", "rows", "frames", "picture", "\n  in all  ",
-                           "to expect on", "memory of the process", "on the disk", "steps to rest of a tile of"})
+  for (const char* part : {"settling the bed", "neighbour lists", "rows", "frames", "picture", "\n  total  ",
+                           "prediction on", "memory of the process", "on the disk", "steps to rest of a tile of"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
   double sum = 0;
@@ -278,6 +316,9 @@ TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
   const auto again = sources("", "short probe of a small bed");
   EXPECT_EQ(again["sources"]["picture"], "kept");
   EXPECT_EQ(again["sources"]["grains"], "kept");
+  EXPECT_EQ(call("plan bed.toml --threads 1 --no-cache --json plan.json", keep).code, 0);
+  const auto uncached = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
+  EXPECT_EQ(uncached["sources"]["picture"], "typical") << "no kept ratios without the cache";
   // Typical time times kept ratio: the probed time itself.
   EXPECT_NEAR(again["output"]["picture"].get<double>() / probed["output"]["picture"].get<double>(), 1, 1e-6);
 }
@@ -326,7 +367,7 @@ TEST_F(PlanProgram, WithoutProbeRunsNothing) {
   write(bedScene());
   const Outcome o = call("plan bed.toml --no-probe");
   EXPECT_EQ(o.code, 0);
-  EXPECT_EQ(o.out.find("to expect on"), std::string::npos);
+  EXPECT_EQ(o.out.find("prediction on"), std::string::npos);
   EXPECT_NE(o.out.find("grain steps"), std::string::npos);
   const Outcome both = call("plan bed.toml --no-probe --json plan.json");
   EXPECT_EQ(both.code, 2);
