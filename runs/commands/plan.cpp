@@ -129,10 +129,9 @@ std::string bedHeightText(const scene::Scene& scene) {
   if (const std::string origin = setup::originOfBed(scene); !origin.empty())
     if (const auto beds = storage::BedCache::ofUser()) settled = beds->find(origin);
   return fmt::format("  {:<24} {}\n", "settled bed",
-                     settled
-                         ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (in the cache)",
-                                       settled->meanHeight, settled->highest)
-                         : "height not known before a run has settled it");
+                     settled ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (in the cache)",
+                                           settled->meanHeight, settled->highest)
+                             : "height not known before a run has settled it");
 }
 
 /// What of a bed's settlement under the ground run of a vehicle happens above its floor, were it an elastic solid.

@@ -105,8 +105,7 @@ void addPlan(CLI::App& app, const Invocation&) {
   plan->add_option("--threads", p.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
   support::addOut(*plan, p.folder, "folder that results would go to; default: out/NAME of the scene");
   CLI::Option* without = plan->add_flag("!--no-probe", p.forecast, "skip the run-time prediction");
-  plan->add_flag("--probe", p.probe,
-                 "measure every part (up to minutes); later plans reuse the results")
+  plan->add_flag("--probe", p.probe, "measure every part (up to minutes); later plans reuse the results")
       ->excludes(without);
   plan->add_option("--json", p.json, "also write the predicted time of each part to this file")
       ->excludes(without)

@@ -78,8 +78,8 @@ public:
     }
     if (const auto& v = scene.vehicle)
       vehicle_ = fmt::format("{} {} on {}", v->spec, v->sphereRadius.value_or(0),
-                             hasBed(scene) ? fmt::format("{} {}", scene.terrain->material,
-                                                         setup::bedOptions(scene).meanRadius())
+                             hasBed(scene)
+                                 ? fmt::format("{} {}", scene.terrain->material, setup::bedOptions(scene).meanRadius())
                              : grains_ > 0 ? "grains"
                                            : "rigid");
   }
@@ -122,7 +122,8 @@ private:
   /// Typical times, the sphere sets in the cache, and whether steps are modelled.
   void findTypical() {
     // A lookup in a folder that cannot exist shows whether any set is needed.
-    const storage::SphereCache cache = spheres_ ? *spheres_ : storage::SphereCache(support::KeptFiles("/dev/null/none"));
+    const storage::SphereCache cache =
+        spheres_ ? *spheres_ : storage::SphereCache(support::KeptFiles("/dev/null/none"));
     const double spheres = scene_.vehicle ? keptSpheres(scene_, grains_, cache, f_.cuts) : 0;
     typical_ = typicalTimes(scene_, grains_, spheres, exec_);
     if (scene_.vehicle && spheres == 0) uncut_ = typical_.cutting;
@@ -141,7 +142,7 @@ private:
       try {
         settle(setup::groundSetup(pieceOf(scene_, grains_, kMostCopied), timeStep_), 2 * kShort);
       } catch (const base::InputError&) { // too small a bed for a periodic tile
-        tile_ = typicalTile();
+        tile_ = typicalTile(typical_, timeStep_);
       }
     }
     if (tiled_) {
@@ -169,16 +170,6 @@ private:
     tiled_ = true;
   }
 
-  SettledTile typicalTile() const {
-    constexpr double kGrains = 300, kRest = 0.7, kList = 0.005; // grains, simulated times of rest and of a list [s]
-    SettledTile tile;
-    tile.grains = kGrains, tile.steps = kRest / timeStep_, tile.rebuilds = kRest / kList;
-    tile.falling = tile.resting = kGrains * typical_.grain, tile.list = kGrains * typical_.list;
-    tile.seconds = tile.steps * tile.falling + tile.rebuilds * tile.list;
-    tile.complete = false;
-    return tile;
-  }
-
   bool hasParts() const { return scene_.vehicle || !scene_.meshes.empty() || !scene_.mechanism.empty(); }
 
   /// Ratios of what was probed to what is modelled for the same scene. A failure leaves the forecast as it is.
@@ -200,7 +191,8 @@ private:
     const auto compare = [&](const std::vector<ForecastPart>& probed, const std::vector<ForecastPart>& modelled) {
       for (const ForecastPart& p : probed)
         for (const ForecastPart& m : modelled)
-          if (p.name == m.name && p.source == Source::probed && p.seconds > kNoFigure && m.seconds > kNoFigure && other.isModelled(m.name))
+          if (p.name == m.name && p.source == Source::probed && p.seconds > kNoFigure && m.seconds > kNoFigure &&
+              other.isModelled(m.name))
             ratios[workOf(p.name)] = p.seconds / m.seconds;
     };
     compare(f_.preparation, model.preparation), compare(f_.steps, model.steps), compare(f_.output, model.output);
@@ -314,8 +306,7 @@ private:
       add(f_.preparation, spheres ? "parts, placing" : "placing", std::max(0.0, own_ - cut - settled),
           modelled_ ? "" : "as the probe's");
     }
-    if (spheres)
-      add(f_.preparation, "sphere sets", uncut_, spheresText(cut));
+    if (spheres) add(f_.preparation, "sphere sets", uncut_, spheresText(cut));
   }
 
   /// Origin of the sphere sets; `cut`: the time that they took in the probe [s].
@@ -406,11 +397,7 @@ private:
     if (grains_ > 0) add(f_.steps, "grains", apart ? grains : grains + parts, kStepText);
     if (grains_ > 0) add(f_.steps, "neighbour lists", lists, how);
     if (apart)
-      add(f_.steps,
-          scene_.vehicle             ? "vehicle"
-          : scene_.mechanism.empty() ? "meshes"
-                                     : "mechanism",
-          parts, kStepText);
+      add(f_.steps, scene_.vehicle ? "vehicle" : scene_.mechanism.empty() ? "meshes" : "mechanism", parts, kStepText);
   }
 
   /// Grains in the mean over the steps that the probe has not taken.
@@ -449,7 +436,8 @@ private:
     const bool ofSettling = part.name.starts_with("settling") || part.name.starts_with("friction");
     const bool estimated = ofSettling && !whole_ && !tile_.complete;
     if (isModelled(name)) {
-      const bool ofTile = tiled_ && exec_.onCpu() && usefulThreads(exec_) <= kTestedThreads && (&parts == &f_.steps || ofSettling);
+      const bool ofTile =
+          tiled_ && exec_.onCpu() && usefulThreads(exec_) <= kTestedThreads && (&parts == &f_.steps || ofSettling);
       part.source = ofTile && !(part.name == "vehicle" || part.name == "meshes" || part.name == "mechanism")
                         ? Source::probed
                         : Source::typical;

@@ -60,8 +60,9 @@ struct ForecastOptions {
 /// settled tile of the same grains, with the scene's vehicle, mechanism or surfaces on it; some rows, frames and a
 /// checkpoint in a folder of its own that is removed again. Sphere sets that are cut for it are cached for the run.
 /// Throws what a run throws before its first step; where the steps of the probe fail, `warning` says so. What it
-/// measures is saved for later plans (with `cache`). Without it a small tile of the bed, or a scene of few grains, is run for less than
-/// a second; all else follows from figures that long probes on this machine have kept, else from typical values.
+/// measures is saved for later plans (with `cache`). Without it a small tile of the bed, or a scene of few grains, is
+/// run for less than a second; all else follows from figures that long probes on this machine have kept, else from
+/// typical values.
 Forecast forecastOf(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options);
 
 /// The figures as `grouser plan` prints them.

@@ -21,7 +21,7 @@ constexpr auto kTimes = support::KeptFiles::Kind::times;
 
 namespace {
 
-constexpr double kMostRatio = 100;  // measured over modelled, either way [-]: beyond it the file is wrong
+constexpr double kMostRatio = 100; // measured over modelled, either way [-]: beyond it the file is wrong
 constexpr auto kLook = std::chrono::milliseconds(20); // between two attempts to lock
 constexpr int kLooks = 100;
 

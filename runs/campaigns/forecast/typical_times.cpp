@@ -50,4 +50,14 @@ TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spher
   return t;
 }
 
+SettledTile typicalTile(const TypicalTimes& times, double timeStep) {
+  constexpr double kGrains = 300, kRest = 0.7, kList = 0.005; // grains, simulated times of rest and of a list [s]
+  SettledTile tile;
+  tile.grains = kGrains, tile.steps = kRest / timeStep, tile.rebuilds = kRest / kList;
+  tile.falling = tile.resting = kGrains * times.grain, tile.list = kGrains * times.list;
+  tile.seconds = tile.steps * tile.falling + tile.rebuilds * tile.list;
+  tile.complete = false;
+  return tile;
+}
+
 } // namespace grouser::forecast

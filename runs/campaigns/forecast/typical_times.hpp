@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/exec.hpp"
+#include "runs/campaigns/forecast/probe.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/session/output_times.hpp"
 
@@ -27,5 +28,8 @@ double pairsBelowTracks(const scene::Scene& scene);
 
 /// Of a scene with so many grains. `spheres` of the vehicle's sets, each set once; 0: not known, or no vehicle.
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec);
+
+/// A tile that no probe has settled: it rests after 0.7 s, each step and list at its typical time.
+SettledTile typicalTile(const TypicalTimes& times, double timeStep);
 
 } // namespace grouser::forecast
