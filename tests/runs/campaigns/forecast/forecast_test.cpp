@@ -269,9 +269,13 @@ TEST_F(PlanProgram, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
   const Outcome o = call("plan bed.toml --json plan.json --threads 1");
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* part : {"settling the bed", "neighbour lists", "rows", "frames", "picture", "\n  total  ",
-                           "prediction on", "memory of the process", "on the disk", "steps to rest of a tile of"})
+                           "prediction on", "memory of the process", "on the disk"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
+  const bool rested = json["sources"]["settling the bed"] == "probed"; // not on a busy machine
+  EXPECT_NE(o.out.find(rested ? "steps to rest of a tile of" : "not settled in the probe; estimated"),
+            std::string::npos)
+      << o.out;
   double sum = 0;
   for (const char* group : {"preparation", "steps", "output"}) sum += json[group]["total_s"].get<double>();
   EXPECT_NEAR(json["total_s"].get<double>(), sum, 1e-9 * sum);
@@ -312,7 +316,8 @@ TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
   EXPECT_FALSE(first["long_probe"].get<bool>());
   EXPECT_LT(first["probe_s"].get<double>(), 5);
   const auto probed = sources(" --probe", "timing steps");
-  for (const auto& [part, source] : probed["sources"].items()) EXPECT_EQ(source, "probed") << part;
+  for (const auto& [part, source] : probed["sources"].items())
+    if (part != "settling the bed") EXPECT_EQ(source, "probed") << part; // a busy machine may leave it estimated
   const auto again = sources("", "short probe of a small bed");
   EXPECT_EQ(again["sources"]["picture"], "kept");
   EXPECT_EQ(again["sources"]["grains"], "kept");
