@@ -317,7 +317,7 @@ TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
   EXPECT_LT(first["probe_s"].get<double>(), 5);
   const auto probed = sources(" --probe", "timing steps");
   for (const auto& [part, source] : probed["sources"].items())
-    if (part != "settling the bed") EXPECT_EQ(source, "probed") << part; // a busy machine may leave it estimated
+    EXPECT_TRUE(source == "probed" || part == "settling the bed") << part; // which may not rest on a busy machine
   const auto again = sources("", "short probe of a small bed");
   EXPECT_EQ(again["sources"]["picture"], "kept");
   EXPECT_EQ(again["sources"]["grains"], "kept");
