@@ -18,8 +18,8 @@ Vec3d column(const base::Mat3d& m, int i) { return {m.m[0][i], m.m[1][i], m.m[2]
 /// Smallest cosine of the angle between the y axis of a shoe and a wheel axis for contact.
 constexpr double kLeastTurn = 0.5;
 
-/// Upper bound of the reduction in distance to a wheel axis due to misalignment, at the offset `across` from the middle
-/// of a shoe [m]. `turn`: cosine of the angle between the axes.
+/// Upper bound by which misalignment shortens the distance to a wheel axis, at the lateral offset `across` [m] from the
+/// shoe's middle. `turn`: cosine of the angle between the axes.
 double slackOf(double turn, double across, double radius) {
   return across * std::sqrt(std::max(1 - turn * turn, 0.0)) / turn + radius * (1 / turn - 1);
 }

@@ -70,7 +70,7 @@ bool HeightFieldCells::contains(double x0, double x1, double y0, double y1) cons
   return x0 >= area_.xMin && y0 >= area_.yMin && x1 <= area_.xMax && y1 <= area_.yMax;
 }
 
-/// Of a rectangle within the border.
+/// Range of cells that a rectangle within the border covers.
 HeightFieldCells::Range HeightFieldCells::rangeOf(double x0, double x1, double y0, double y1) const {
   const auto cell = [](double x, double from, double inverse, int cells) {
     return std::min(static_cast<int>((x - from) * inverse), cells - 1);

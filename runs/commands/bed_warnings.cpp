@@ -14,7 +14,7 @@ namespace grouser::commands {
 
 namespace {
 
-constexpr double kLeastCover = 0.5; // of the floor, by loose grains [-]
+constexpr double kLeastCover = 0.5; // smallest share of the floor that loose grains cover without a warning [-]
 
 /// With what the soil of the scene's bed says of packings.
 BedQuality qualityOf(const scene::Scene& scene) {

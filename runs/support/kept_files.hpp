@@ -10,10 +10,9 @@
 
 namespace grouser::support {
 
-/// A folder of files that spare later runs their work: settled beds, parts cut into spheres, results of checks, times
-/// of probes. A file's name is a hash of its origin, the text of all that makes its contents; it holds the origin too,
-/// so that one of another is not taken. What is missing is simply made again; so any file may be deleted at any time.
-/// All kinds share one limit of size.
+/// A cache folder: settled beds, parts cut into spheres, check results, probe times. A file's name is a hash of its
+/// origin, the text of all inputs of its contents. The file stores the origin too, which guards against hash
+/// collisions. Missing files are made again, so any file may be deleted at any time. All kinds share one size limit.
 class KeptFiles {
 public:
   enum class Kind { bed, spheres, check, times };

@@ -39,13 +39,13 @@ namespace {
 constexpr double kMostCopied =
     60'000; // grains of a piece on a CPU; a GPU, where few take as long as many, has kMostTaken
 constexpr double kMostTaken = 400'000; // grains of a kept bed that is taken as it is
-constexpr double kTrials = 4;          // small beds that a porosity is looked for with
-constexpr double kStride = 4;          // of soft steps
-constexpr double kFurtherPlot = 0.3;   // of the first one's time, with which Python begins [-]
-constexpr double kShort = 0.25;        // for steps of the short probe [s]
-constexpr double kFewGrains = 50'000;  // without a bed, that the short probe steps all of
+constexpr double kTrials = 4;          // small beds settled to find the friction for a porosity
+constexpr double kStride = 4;          // ratio of softened to real time step [-]
+constexpr double kFurtherPlot = 0.3;   // time of a further plot over that of the first, which starts Python [-]
+constexpr double kShort = 0.25;        // duration of the short probe's steps [s]
+constexpr double kFewGrains = 50'000;  // largest scene without a bed that the short probe runs whole
 constexpr double kCutMeshes = 2;       // typical time for sphere sets of meshes [s]
-constexpr int kTestedThreads = 4;      // of the scaling from one thread, at most
+constexpr int kTestedThreads = 4;      // maximum thread count with a probed (not typical) forecast
 constexpr double kNoFigure = 1e-4;     // parts of less are not kept [s]
 
 constexpr const char* kStepText = "steps"; // add() prints number and time of the steps
@@ -302,7 +302,7 @@ private:
     }
     if (!kept_ && !whole_ && (spheres || !hasBed(scene_))) {
       const double settled =
-          hasBed(scene_) && !modelled_ ? tile_.fallen * tile_.seconds : 0; // of the tile again, to be copied
+          hasBed(scene_) && !modelled_ ? tile_.fallen * tile_.seconds : 0; // time to settle the copied tile again
       add(f_.preparation, spheres ? "parts, placing" : "placing", std::max(0.0, own_ - cut - settled),
           modelled_ ? "" : "as the probe's");
     }
@@ -449,10 +449,10 @@ private:
     parts.push_back(part);
   }
 
-  static constexpr double kLaid = 2e-6;      // of a grain, to put it on the device [s]
+  static constexpr double kLaid = 2e-6;      // time to place a grain on the device [s]
   static constexpr double kCopiesRest = 0.2; // simulated time that copies need to rest [s]
-  /// Of the step of a small tile on one thread: what it takes whatever the number of grains [s]; and how much dearer a
-  /// grain of a large bed is, which lies in no cache [-].
+  /// Fixed cost of a tile's step on one thread [s], and the cost of a grain in a bed larger than the CPU cache over
+  /// that of a grain in the tile [-].
   static constexpr double kStepAlone = 25e-6, kLarge = 1.3;
 
   const scene::Scene& scene_;

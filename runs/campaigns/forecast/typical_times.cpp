@@ -28,8 +28,8 @@ TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spher
   constexpr double kHull = 27e3;        // spheres of a hull, all that is cut for rigid ground
   constexpr double kDisk = 400e6;       // [bytes/s]
   constexpr double kVehicleFrame = 8e5; // [bytes]
-  constexpr double kCheckpointed = 250; // of a grain [bytes]
-  constexpr double kPair = 170e-9;      // of a grain and a part in a step, on a core [s]
+  constexpr double kCheckpointed = 250; // checkpoint size a grain [bytes]
+  constexpr double kPair = 170e-9;      // core time a step of a grain-part pair [s]
   const bool cpu = exec.onCpu(), vehicle = scene.vehicle.has_value(), rigid = vehicle && grains == 0;
   const double cores = cpu ? usefulThreads(exec) : 1;
   if (vehicle && spheres == 0) {

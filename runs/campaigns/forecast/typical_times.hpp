@@ -11,12 +11,12 @@ namespace grouser::forecast {
 
 /// Typical times on a CPU with SIMD of about 2020, and on an H100.
 struct TypicalTimes {
-  double grain = 0;   ///< of a grain in a step [s]
-  double list = 0;    ///< of a grain in a new neighbour list [s]
-  double parts = 0;   ///< of a vehicle, a mechanism or meshes in a step [s]
+  double grain = 0;   ///< step of a grain [s]
+  double list = 0;    ///< neighbour list rebuild, a grain [s]
+  double parts = 0;   ///< step of a vehicle, mechanism or meshes [s]
   double placing = 0; ///< parts with their tables, placed on the ground [s]
   double cutting = 0; ///< sphere sets of a vehicle [s]
-  double reading = 0; ///< of a grain of a kept bed [s]
+  double reading = 0; ///< reading a grain of a cached bed [s]
   session::OutputTimes output;
 };
 
@@ -26,7 +26,8 @@ int usefulThreads(const base::Exec& exec);
 /// Contacts of the grains below the tracks of a vehicle on soil: one layer of grains over the ground contact.
 double pairsBelowTracks(const scene::Scene& scene);
 
-/// Of a scene with so many grains. `spheres` of the vehicle's sets, each set once; 0: not known, or no vehicle.
+/// Typical times for a scene of `grains` grains. `spheres`: total of the vehicle's unique sphere sets; 0: unknown, or
+/// no vehicle.
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec);
 
 /// A tile that no probe has settled: it rests after 0.7 s, each step and list at its typical time.
