@@ -38,7 +38,7 @@ struct GrainKernelData {
   const double* massPerCube;                    ///< [materials] mass over radius^3 [kg/m3], where masses differ
   std::int64_t count;                           ///< slots
   const std::uint32_t* active;                  ///< slots of this launch, equal ones side by side; null: all
-  const std::uint32_t* role;                    ///< by slot: this launch is for those of role 0; null: all
+  const std::uint32_t* excluded;                ///< by slot: not 0 leaves this grain to another launch; null: none
 
   // State. Positions and motions are read from `now` and written to `next`: neighbours still read `now`.
   const base::Position* position;

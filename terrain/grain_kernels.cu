@@ -56,7 +56,7 @@ void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                               std::int64_t count, const GrainModel& model) {
   const KernelChoice choice = stepKernel(d.features, model);
-  if (exec.onCpu() && choice.lanes > 1 && !d.role) return runGrainSimd(exec, d, f, count, choice.lanes);
+  if (exec.onCpu() && choice.lanes > 1 && !d.excluded) return runGrainSimd(exec, d, f, count, choice.lanes);
   runChosen(KernelsOf<detail::kStepKernels>{}, choice.compiledFor,
             [&]<unsigned kSet>() { runBody<GrainStep, kSet>(exec, "grain step", d, f, count); });
 }

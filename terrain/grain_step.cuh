@@ -72,7 +72,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const base::Position p = d.position[i];
     const Motion m = d.motion[i];
     const Vec4f v = m.velocity, w = m.spin;
-    if (d.role && d.role[i] != 0) return;
+    if (d.excluded && d.excluded[i] != 0) return;
     if (has(kFixed) && isFixed(v)) return stay(i, p, m, books);
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);

@@ -12,7 +12,7 @@
 namespace grouser::terrain {
 
 GrainStepper::GrainStepper(const base::Exec& exec)
-    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true), aside_(exec), uncoupled_(exec) {
+    : exec_(exec), flags_(exec, kStepsPerGraph), stepGraph_(exec), side_(exec, true), aside_(exec) {
   std::fill_n(flags_.host(), flags_.size(), kNoFlags);
   flags_.upload();
 }
@@ -25,32 +25,24 @@ GrainKernelData GrainStepper::kernelData(const Launch& step) {
   return d;
 }
 
-namespace {
-void runStep(const base::Exec& exec, GrainSystem& s, const GrainKernelData& d, std::int64_t count) {
+void GrainStepper::advance(const base::Exec& exec, GrainSystem& s, const GrainKernelData& d, std::int64_t count) {
   const GrainModel& model = s.constants.model;
   if (model.precision == Precision::single)
     runGrainStep(exec, d, s.forceData<float>(), count, model);
   else
     runGrainStep(exec, d, s.forceData<double>(), count, model);
 }
-} // namespace
 
-template <class Real>
-void GrainStepper::advanceGrains(const base::Exec& exec, const Launch& step, const base::Array<std::uint32_t>* active) {
+void GrainStepper::advanceListed(const base::Exec& exec, const Launch& step, std::span<const std::uint32_t> slots) {
   GrainKernelData d = kernelData(step);
-  const std::int64_t count = active ? static_cast<std::int64_t>(active->size()) : d.count;
-  if (active) d.active = active->data();
-  runGrainStep(exec, d, step.system.forceData<Real>(), count, step.system.constants.model);
+  d.active = slots.data();
+  advance(exec, step.system, d, static_cast<std::int64_t>(slots.size()));
 }
 
-/// On a CPU over the list of uniques, in SIMD. On a GPU over all slots, where threads of masters and slaves return
-/// early: a slot read from the list first would put one more wait for memory before every other load.
-template <class Real> void GrainStepper::advanceUniques(const Launch& step) {
-  const Subdomain& subdomain = step.system.distribution->subdomain();
-  if (exec_.onCpu()) return advanceGrains<Real>(exec_, step, &subdomain.uniques());
+void GrainStepper::advanceUnless(const base::Exec& exec, const Launch& step, const std::uint32_t* excluded) {
   GrainKernelData d = kernelData(step);
-  d.role = subdomain.roles();
-  runGrainStep(exec_, d, step.system.forceData<Real>(), d.count, step.system.constants.model);
+  d.excluded = excluded;
+  advance(exec, step.system, d, d.count);
 }
 
 void GrainStepper::computeBoundaryContacts(const base::Exec& exec, const Launch& step) {
@@ -98,17 +90,12 @@ void GrainStepper::launchUncoupled(GrainSystem& system, const contact::GrainLoad
   const Launch step = ahead(system, nullptr);
   aside_.fork();
   computeBoundaryContacts(aside_.exec(), step);
-  aside_.join();
-  uncoupled_.fork();
-  GrainKernelData d = kernelData(step);
-  d.role = loads.range; // 0: no part is listed near this grain
-  runStep(uncoupled_.exec(), system, d, d.count);
+  aside_.join(); // the queue waits for the boundaries, not for the grains behind them
+  advanceUnless(aside_.exec(), step, loads.range);
 }
 
 void GrainStepper::launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads) {
-  GrainKernelData d = kernelData(ahead(system, &loads));
-  d.active = loads.slot;
-  runStep(exec_, system, d, loads.count);
+  advanceListed(exec_, ahead(system, &loads), {loads.slot, static_cast<std::size_t>(loads.count)});
 }
 
 base::Parcel GrainStepper::flagsAfter(const GrainSystem& system) {
@@ -127,30 +114,36 @@ StepOutcome GrainStepper::endAhead(GrainSystem& system, int further) {
   return {1, flags.stale != 0, flags.fault};
 }
 
-template <class Real> void GrainStepper::launchIn(const Launch& step) {
+void GrainStepper::launch(const Launch& step) {
   GrainSystem& s = step.system;
   if (std::exchange(boundariesBegun_, false))
     aside_.join();
   else
     computeBoundaryContacts(exec_, step);
-  if (!s.distribution) return advanceGrains<Real>(exec_, step, nullptr);
-  // Main stream: the uniques, which have no ghost among their neighbours. Side stream, of higher priority: wait for the
-  // ghosts' states and unpack them into their slots, advance the masters, which read them, and pack the masters' new
-  // states for other ranks. The two streams write different slots.
-  side_.fork();
-  advanceUniques<Real>(step);
-  s.distribution->finishGhostUpdate(side_.exec(), s.arrays);
-  advanceGrains<Real>(side_.exec(), step, &s.distribution->subdomain().masters());
-  s.distribution->packGhosts(side_.exec(), s.arrays);
-  side_.join();
+  if (s.distribution)
+    launchSubdomain(step);
+  else
+    advanceUnless(exec_, step, nullptr);
+  s.arrays.swapBuffers();
 }
 
-void GrainStepper::launch(const Launch& step) {
-  if (step.system.constants.model.precision == Precision::single)
-    launchIn<float>(step);
+/// Main stream: the uniques, which have no ghost among their neighbours. Side stream, of higher priority: wait for the
+/// ghosts' states and unpack them into their slots, advance the masters, which read them, and pack the masters' new
+/// states for other ranks. The two streams write different slots.
+void GrainStepper::launchSubdomain(const Launch& step) {
+  GrainSystem& s = step.system;
+  const Subdomain& subdomain = s.distribution->subdomain();
+  side_.fork();
+  // On a CPU over the list of uniques, in SIMD. On a GPU over all slots, where threads of masters and slaves return
+  // early: a slot read from the list first would put one more wait for memory before every other load.
+  if (exec_.onCpu())
+    advanceListed(exec_, step, {subdomain.uniques().data(), subdomain.uniques().size()});
   else
-    launchIn<double>(step);
-  step.system.arrays.swapBuffers();
+    advanceUnless(exec_, step, subdomain.roles());
+  s.distribution->finishGhostUpdate(side_.exec(), s.arrays);
+  advanceListed(side_.exec(), step, {subdomain.masters().data(), subdomain.masters().size()});
+  s.distribution->packGhosts(side_.exec(), s.arrays);
+  side_.join();
 }
 
 void GrainStepper::begin(GrainSystem& system, const contact::GrainLoadsView* loads) {

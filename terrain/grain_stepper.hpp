@@ -6,6 +6,8 @@
 #include "contact/grain_loads.hpp"
 #include "terrain/grain_system.hpp"
 
+#include <span>
+
 namespace grouser::terrain {
 
 /// Outcome of the steps launched, the same on all ranks.
@@ -41,7 +43,7 @@ public:
   void launchUncoupled(GrainSystem& system, const contact::GrainLoadsView& loads);
   /// Launches all other grains.
   void launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads);
-  void joinGrains() { uncoupled_.join(); }
+  void joinGrains() { aside_.join(); }
   base::Parcel flagsAfter(const GrainSystem& system);
   /// What has been carried there. `further`: steps launched since. Where a flag is raised it waits for the device,
   /// which has called them off, and their exchange of buffers is taken back.
@@ -65,11 +67,13 @@ private:
 
   GrainKernelData kernelData(const Launch& step);
   void launch(const Launch& step);
-  template <class Real> void launchIn(const Launch& step);
+  void launchSubdomain(const Launch& step);
   void computeBoundaryContacts(const base::Exec& exec, const Launch& step);
-  template <class Real>
-  void advanceGrains(const base::Exec& exec, const Launch& step, const base::Array<std::uint32_t>* active);
-  template <class Real> void advanceUniques(const Launch& step);
+  /// Advances the grains of `slots`; equal slots are side by side and count once.
+  void advanceListed(const base::Exec& exec, const Launch& step, std::span<const std::uint32_t> slots);
+  /// Advances all grains but those with a nonzero entry in `excluded`, by slot; null excludes none.
+  void advanceUnless(const base::Exec& exec, const Launch& step, const std::uint32_t* excluded);
+  static void advance(const base::Exec& exec, GrainSystem& s, const GrainKernelData& d, std::int64_t count);
   Launch ahead(GrainSystem& system, const contact::GrainLoadsView* loads);
   static int placeAhead(const GrainSystem& system);
   void clearFlags();
@@ -81,9 +85,8 @@ private:
   base::Exec exec_;
   base::Mirrored<StepFlags> flags_; ///< of each step of a batch
   base::DoubleBufferedGraph stepGraph_;
-  base::SideStream side_;      ///< before all else: ghosts, and who reads them
-  base::SideStream aside_;     ///< after all else: walls and floor
-  base::SideStream uncoupled_; ///< lowest priority: grains without a listed part
+  base::SideStream side_;  ///< before all else: ghosts, and who reads them
+  base::SideStream aside_; ///< lowest priority: walls and floor, and grains without a listed part
   bool boundariesBegun_{false};
 };
 

@@ -95,7 +95,7 @@ TEST_F(StoppedCall, OfASweepThatWasKilledGoesOnByTheSameCommand) {
   EXPECT_NE(on.out.find("goes on from its checkpoint"), std::string::npos) << on.out;
 }
 
-TEST_F(StoppedCall, OfASweepWaitsForTheCheckpointOfARunThatIsStillEnding) {
+TEST_F(StoppedCall, SweepWaitsForTheCheckpointOfARunThatIsStillEnding) {
   const std::string words = "sweep fall.toml --set run.seed=1 --out s";
   ASSERT_EQ(stop(words, "TERM", "[ -s s/seed=1/timeseries.csv ]").code, 143);
   const fs::path run = folder_ / "s/seed=1", checkpoint = run / "checkpoint.h5", aside = folder_ / "aside.h5";

@@ -63,7 +63,7 @@ TEST(DriveLength, AShortDriveIsSaidBefore) {
 }
 
 /// A ramp of 3 s to 2 rad/s passes 4.8 teeth, and the run ends as it does.
-TEST(DriveLength, ADriveThatIsNeverSteadyIsSaidBefore) {
+TEST(DriveLength, WarnsOfADriveWithoutSteadyMotion) {
   const std::string slow = "[driver]\nsprocket_speed = 2\ndrive_start = 0.5\ndrive_ramp = 3\n";
   EXPECT_EQ(teethAsked(driven(slow, 3.5), true), 0);
   EXPECT_NEAR(teethAsked(driven(slow, 4.5), true), teeth(2), 0.01) << "to one of 2000 parts of the time";

@@ -85,7 +85,7 @@ TEST_F(KeptSpheres, AreThoseThatWouldBeCut) {
   EXPECT_EQ(files().size(), 1u);
 }
 
-TEST_F(KeptSpheres, AreAskedForWithoutCutting) {
+TEST_F(KeptSpheres, LookUpOnlyCutsNothing) {
   storage::SphereCache kept{support::KeptFiles(folder_)};
   kept.lookUpOnly();
   EXPECT_THROW(kept.cut(part()), storage::SphereCache::NotKept);

@@ -221,7 +221,7 @@ TEST_F(KeptTimes, AreOfOneMachineAndTheLastOfEachKindOfWork) {
   EXPECT_TRUE(keptRatios("here").empty()) << "damaged";
 }
 
-TEST_F(KeptTimes, OfDamagedFilesAreNone) {
+TEST_F(KeptTimes, DamagedFilesAreIgnored) {
   keepRatios("here", {{"grains", 0.5}, {"rows", 1e4}, {"frames", 1e-3}});
   EXPECT_EQ(keptRatios("here"), (Ratios{{"grains", 0.5}})) << "beyond a factor of 100";
   fs::path path;
