@@ -33,14 +33,55 @@ template <class T> GROUSER_HD Vec3<T> broadcast(const Vec3<ScalarOf<T>>& v) {
 /// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
 template <class T> GROUSER_HD T squareRoot(const T& x) { return NumberTraits<T>::squareRoot(x); }
 
-/// part / whole, for whole > 0. On a GPU a zero dividend would take the slow path of division.
+/// part / whole, for whole > 0. A GPU's division has a slow path for what is zero or near the ends of a float's range:
+/// a zero is divided as a one, which the compiler is not to know.
 template <class T> GROUSER_HD T shareOf(const T& part, const T& whole) {
   if constexpr (std::is_floating_point_v<T>) {
-    const T share = (part == 0 ? T(1) : part) / whole;
+    T dividend = part == 0 ? T(1) : part;
+#if defined(__CUDA_ARCH__)
+    if constexpr (sizeof(T) == sizeof(float))
+      asm("" : "+f"(dividend));
+    else
+      asm("" : "+d"(dividend));
+#endif
+    const T share = dividend / whole;
     return part == 0 ? part : share;
   } else {
     return part / whole;
   }
+}
+
+/// Square root, quotient and inverse of numbers from 2^-60 to 2^60: a GPU needs no branch then. Rounded correctly, as
+/// everywhere.
+template <class T> GROUSER_HD T moderateRoot(const T& x) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<T, float>) {
+    float inverse;
+    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(inverse) : "f"(x));
+    const float root = x * inverse;
+    return __fmaf_rn(__fmaf_rn(-root, root, x), 0.5f * inverse, root);
+  }
+#endif
+  return squareRoot(x);
+}
+template <class T> GROUSER_HD T moderateInverse(const T& x) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<T, float>) {
+    float inverse;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(inverse) : "f"(x));
+    return __fmaf_rn(inverse, -__fmaf_rn(x, inverse, -1.0f), inverse);
+  }
+#endif
+  return ScalarOf<T>(1) / x;
+}
+template <class T> GROUSER_HD T moderateQuotient(const T& part, const T& whole) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<T, float>) {
+    const float inverse = moderateInverse(whole), quotient = part * inverse;
+    return __fmaf_rn(__fmaf_rn(-quotient, whole, part), inverse, quotient);
+  }
+#endif
+  return part / whole;
 }
 
 /// base::cubeRoot(), lane by lane.

@@ -17,8 +17,10 @@ template <class T> struct SpherePair {
 template <class T, class Reach> GROUSER_HD SpherePair<T> spherePair(const base::Vec3<T>& apart, const T& distance2,
                                                                     const T& missing2, const Reach& reach,
                                                                     base::ScalarOf<T> unit) {
-  const T distance = base::squareRoot(distance2);
-  return {apart * (base::ScalarOf<T>(1) / distance), distance * unit, missing2 / (reach + distance) * unit};
+  // Whole numbers of units: from 1 to some 2^60.
+  const T distance = base::moderateRoot(distance2);
+  return {apart * base::moderateInverse(distance), distance * unit,
+          base::moderateQuotient(missing2, reach + distance) * unit};
 }
 
 } // namespace grouser::contact

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What equal bits on all machines rest on: no fused multiply-add, and functions that are the project's own.
 #include "base/array.hpp"
+#include "base/bits.hpp"
 #include "base/for_each.cuh"
 #include "base/hash.hpp"
 #include "base/math.hpp"
+#include "base/number.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
@@ -110,6 +112,54 @@ TEST(Arithmetic, CubeRootsAreNearThoseOfTheLibraryWithTheSameBitsOnEveryMachine)
   EXPECT_EQ(hash.hex(), "f98baaf8a111e527") << "a fused multiply-add or another formula";
   EXPECT_EQ(base::cubeRoot(0.0), 0.0);
   EXPECT_EQ(base::cubeRoot(-1.0f), 0.0f);
+}
+
+/// Counts where a function of moderate numbers differs from the operator's correctly rounded result: all fractions of
+/// two neighbouring powers of two for root and inverse, as many random pairs for the quotient.
+struct ModerateNumbers {
+  static constexpr int kCount = 1 << 24;
+  std::uint32_t* differ; ///< [3]
+  GROUSER_HD static float within(std::uint64_t bits) { // from 2^-60 to 2^60
+    return bitsAs<float>(static_cast<std::uint32_t>(67 + bits % 120) << 23 |
+                         static_cast<std::uint32_t>(bits >> 41 & 0x7FFFFF));
+  }
+  GROUSER_HD void operator()(int i) const {
+    const auto n = static_cast<std::uint32_t>(i);
+    const float x = bitsAs<float>((127u << 23) + n), far = within(mix(2 * n)), part = within(mix(2 * n + 1));
+    if (moderateRoot(x) != sqrtf(x)) atomicAdd32(differ, 1);
+    if (moderateInverse(x) != 1 / x || moderateInverse(far) != 1 / far) atomicAdd32(differ + 1, 1);
+    if (moderateQuotient(part, far) != part / far) atomicAdd32(differ + 2, 1);
+  }
+  GROUSER_HD static std::uint64_t mix(std::uint64_t x) { // splitmix64's, S. Vigna 2015
+    x += 0x9E3779B97F4A7C15ull;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+    return x ^ (x >> 31);
+  }
+};
+
+TEST(Arithmetic, ModerateNumbersAreRoundedAsAllOthers) {
+  const Exec exec = testExec(2);
+  Array<std::uint32_t> differ(exec, std::vector<std::uint32_t>(3));
+  forEach(exec, "moderate numbers", ModerateNumbers::kCount, ModerateNumbers{differ.data()});
+  EXPECT_EQ(differ.toHost(), std::vector<std::uint32_t>(3)) << "roots, inverses, quotients";
+}
+
+struct Shares {
+  const float *part, *whole;
+  float* out;
+  GROUSER_HD void operator()(int i) const { out[i] = shareOf(part[i], whole[i]); }
+};
+
+TEST(Arithmetic, SharesAreQuotientsOfZerosToo) {
+  const Exec exec = testExec(1);
+  const std::vector<float> part{0.0f, -0.0f, 1.0f, 3.0f, 1e-42f}, whole{2.0f, 2.0f, 3.0f, 1e-30f, 7.0f};
+  const Array<float> x(exec, part), y(exec, whole);
+  Array<float> out(exec, part.size());
+  forEach(exec, "shares", static_cast<std::int64_t>(part.size()), Shares{x.data(), y.data(), out.data()});
+  const std::vector<float> share = out.toHost();
+  for (std::size_t k = 0; k < part.size(); ++k)
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(share[k]), std::bit_cast<std::uint32_t>(part[k] / whole[k]));
 }
 
 } // namespace
