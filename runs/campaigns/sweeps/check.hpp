@@ -14,19 +14,22 @@
 namespace grouser::sweeps {
 
 struct CheckOptions {
-  std::vector<std::string> fixed; ///< overrides "key=value" of all runs
-  int seeds = 8;                  ///< most of each case; from the scene's run.seed on
-  double percent = 5;             ///< of a figure's mean: the bar of the verdicts
-  std::vector<CheckAxis> axes;    ///< to be looked at; empty: all
-  std::string budget;             ///< "20min": wall time for all; empty: no end
-  SweepOptions sweep;             ///< folder, jobs, seconds of this call
+  std::vector<std::string> fixed;   ///< overrides "key=value" of all runs
+  std::optional<int> seeds;         ///< most of each case, from the scene's run.seed on; default: 8, with figures 24
+  double percent = 5;               ///< of a figure's mean: the bar of the verdicts, and that wanted of figures
+  std::vector<std::string> figures; ///< whose bars decide what is run: words of goalFigure(); empty: all is run
+  std::vector<CheckAxis> axes;      ///< to be looked at; empty: all
+  std::string budget;               ///< "20min": wall time for all; empty: no end
+  SweepOptions sweep;               ///< folder, jobs, seconds of this call
+
+  int mostSeeds() const { return seeds.value_or(figures.empty() ? 8 : 24); }
 };
 
 /// Runs what is missing, a process a run, and writes check.json, series.csv, costs.json and check.png into
 /// the folder; settled beds are shared with other runs. A check that was killed goes on: its files are then the same as
 /// those of one that was not, and of one with other `jobs`, but for costs.json and what shows it. With a budget the
 /// cost of the first run decides what is made, and is kept in choice.json, so that a call that goes on makes the same
-/// choice.
+/// choice. With figures the runs are made look by look until their bars are as narrow as wanted: see check_goals.hpp.
 ///
 /// A run that fails is a result: it is shown with its message, and the others go on. Throws InputError where the scene
 /// or the options are wrong, before anything is started; SimulationError at the end where no run of the scene as it is

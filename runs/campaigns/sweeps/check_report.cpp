@@ -3,6 +3,7 @@
 
 #include "base/counted.hpp"
 #include "base/math.hpp"
+#include "runs/campaigns/sweeps/check_goals_text.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/jobs/study_place.hpp"
 #include "runs/support/build_info.hpp"
@@ -65,7 +66,7 @@ Json figureJson(const CheckFigure& f, const CheckResults& results) {
             {"seeds", f.seeds},       {"seeds_half_width", numberOf(f.value.halfWidth)}};
   if (results.seeded) {
     const double wanted = 0.01 * results.percent * std::fabs(f.value.value);
-    json["seeds_for_the_bar"] = seedsFor(wanted, f.value.halfWidth, f.seeds);
+    json["seeds_for_the_bar"] = seedsFor(wanted, f.value.halfWidth, f.seeds, results.levels.value);
   }
   json["errors"] = Json::array();
   for (const AxisError& e : f.errors) json["errors"].push_back(errorJson(e, f));
@@ -185,6 +186,8 @@ CaseStatus statusOf(const CheckRecord& record, std::size_t aCase) {
   if (!record.cases.cases[aCase].refused.empty()) return {"refused", record.cases.cases[aCase].refused};
   if (std::find(record.beyondBudget.begin(), record.beyondBudget.end(), aCase) != record.beyondBudget.end())
     return {"left out", "beyond the budget"};
+  const bool has = std::find(record.runs.caseOf.begin(), record.runs.caseOf.end(), aCase) != record.runs.caseOf.end();
+  if (!has && !record.looks.seeds.empty()) return {"left out", "not needed for the bars of --of"};
   CaseStatus status{"not begun", ""};
   for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
     if (record.runs.caseOf[r] != aCase) continue;
@@ -205,8 +208,9 @@ Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const 
     const double bar = figure.barOfStep[i];
     if (!(bar < most)) continue;
     // What the step leaves of the bar is for the seeds.
-    const int seeds =
-        results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth, figure.seeds) : 1;
+    const int seeds = results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth,
+                                                figure.seeds, results.levels.value)
+                                     : 1;
     const double wall = record.costs[results.stepCases[i]].wall * seeds;
     if (seeds > 0 && wall < best.wall) best = {record.cases.cases[results.stepCases[i]].name, bar / value, seeds, wall};
   }
@@ -221,6 +225,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
             {"bar_percent", results.percent},
             {"skin", bitsText(results.skin)}};
   if (!results.doubt.empty()) json["inconclusive"] = results.doubt;
+  if (!record.looks.seeds.empty()) json["looks"] = record.looks.seeds, json["of"] = goalsJson(record);
   json["cases"] = Json::array();
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) json["cases"].push_back(caseJson(record, c));
   json["not_asked"] = Json::array();
@@ -296,7 +301,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     text += results.seeded ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);
-  text += "\nruns\n";
+  text += goalsText(record, results.percent) + "\nruns\n";
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
     const CaseCost& cost = record.costs[c];
     const CaseStatus status = statusOf(record, c);

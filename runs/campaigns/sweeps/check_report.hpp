@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/campaigns/sweeps/check_goals.hpp"
 #include "runs/campaigns/sweeps/check_results.hpp"
 
 #include <filesystem>
@@ -25,6 +26,11 @@ struct CheckRecord {
   std::vector<CaseCost> costs;           ///< [cases] see costsOf()
   std::vector<std::size_t> beyondBudget; ///< cases that the budget left out
   std::string scene, origin;             ///< its file; hash of what decides its results
+  int jobs = 1;                          ///< runs at the same time
+  Looks looks;                           ///< of a check with --of; else empty
+  std::vector<Goal> goals;               ///< likewise
+  std::vector<std::vector<int>> toReach; ///< [goals][cases] seeds that likely reach it; empty: see seedsToReach()
+  bool isWhole = true;                   ///< all runs chosen have ended
 };
 
 /// [cases] from the manifests of the runs.
