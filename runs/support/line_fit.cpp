@@ -22,7 +22,7 @@ double studentWithin(int freedom, double angle) {
   const double c = base::cos(angle), s = base::sin(angle);
   const bool odd = freedom % 2 == 1;
   double sum = 0, term = odd ? c : 1;
-  for (int k = odd ? 1 : 0; k < freedom - 1; k += 2, term *= c * c * (k + 1) / (k + 2)) sum += term;
+  for (int k = odd ? 1 : 0; k < freedom - 1; k += 2) sum += term, term *= c * c * (k + 1) / (k + 2);
   return odd ? 2 / base::kPi * (angle + s * sum) : s * sum;
 }
 
