@@ -149,7 +149,8 @@ GoalState stateOf(const Goal& goal, const Looks& looks, bool seeded) {
 
 /// Small letters, '_' as a blank, without a unit.
 std::string plainName(std::string name) {
-  name = name.substr(0, name.find(" ["));
+  const std::size_t from = name.find(" ["), to = name.find(']');
+  if (from < to && to != std::string::npos) name.erase(from, to + 1 - from);
   for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return name;
 }

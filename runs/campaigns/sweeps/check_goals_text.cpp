@@ -53,9 +53,8 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
     if (std::isfinite(record.costs[c].wall)) seconds += record.costs[c].wall * (toReach[c] - taken[c]) / record.jobs;
   }
   if (runs == 0) return "more than 1000 seeds would be needed";
-  return fmt::format("about {} more would do ({}, up to {})", base::counted(runs, "run"),
-                     support::Progress::duration(seconds),
-                     base::counted(*std::max_element(toReach.begin(), toReach.end()), "seed"));
+  return fmt::format("about {} more {} would reach it ({}, up to {} seeds)", runs, runs == 1 ? "run" : "runs",
+                     support::Progress::duration(seconds), *std::max_element(toReach.begin(), toReach.end()));
 }
 
 /// Next step of the user, for a bar that is not met.

@@ -105,8 +105,8 @@ Looks naiveLooks(int most) {
   return looks;
 }
 
-constexpr int kTrials = 4000;
-constexpr double kSpread = 0.0105; // three standard deviations of a share of 0.95 among so many
+constexpr int kTrials = 2000;
+constexpr double kSpread = 0.0146; // three standard deviations of a share of 0.95 among so many
 
 /// Share of checks whose value's interval holds the mean.
 double valueCoverage(const Truth& truth, const Looks& looks, double percent) {
@@ -172,14 +172,13 @@ TEST(CheckGoals, SkewedValuesAreHeldAboutAsOftenAsInAPlainCheck) {
       plain += check.valueHolds() ? 1 : 0;
     }
     EXPECT_GE(held, static_cast<double>(plain) / kTrials - kSpread) << deviation;
-    RecordProperty(std::to_string(deviation), std::to_string(held) + " " + std::to_string(plain));
   }
 }
 
 TEST(CheckGoals, TheBarOfAnAxisHoldsItsTrueChangeWhereverTheCheckStops) {
   // The hardest truths lie just above the bar wanted: the check goes on until the change looks small enough.
-  for (const double change : {0.02, 0.1, 0.17, 0.2, 0.22})
-    for (const double deviation : {0.05, 0.1, 0.2}) {
+  for (const double change : {0.1, 0.17, 0.2, 0.22})
+    for (const double deviation : {0.05, 0.2}) {
       const double held = axisCoverage({1, 0.02, {change}, {deviation}}, looksUpTo(24, true), 20);
       EXPECT_GE(held, 0.95 - kSpread) << change << " +- " << deviation;
     }
