@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/campaigns/sweeps/check_report.hpp"
+#include "runs/campaigns/sweeps/check_record.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

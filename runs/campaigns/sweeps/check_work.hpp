@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/campaigns/sweeps/check.hpp"
 #include "runs/campaigns/sweeps/check_beds.hpp"
 #include "runs/campaigns/sweeps/check_choice.hpp"
-#include "runs/campaigns/sweeps/check_report.hpp"
+#include "runs/campaigns/sweeps/check_options.hpp"
+#include "runs/campaigns/sweeps/check_record.hpp"
 #include "runs/support/stopwatch.hpp"
 
 #include <cstdint>
