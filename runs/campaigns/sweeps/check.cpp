@@ -61,10 +61,11 @@ public:
       looks.clear();
       return false;
     }
-    std::erase_if(looks, [&](const std::vector<int>& seeds) {
-      return seeds.size() != cases || std::any_of(seeds.begin(), seeds.end(), [&](int s) { return s < 0 || s > most; });
+    const bool fit = std::all_of(looks.begin(), looks.end(), [&](const std::vector<int>& seeds) {
+      return seeds.size() == cases &&
+             std::all_of(seeds.begin(), seeds.end(), [&](int s) { return s >= 0 && s <= most; });
     });
-    return std::isfinite(costs.run) && costs.run > 0 && costs.settling >= 0;
+    return fit && std::isfinite(costs.run) && costs.run > 0 && costs.settling >= 0;
   }
 };
 

@@ -79,6 +79,18 @@ std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vecto
   return text + "\n";
 }
 
+/// Cases that should have a part in the bars, and have none: "floor (failed), depth (beyond the budget)".
+std::string missingText(const CheckRecord& record) {
+  std::vector<std::string> missing;
+  for (std::size_t c = 1; c < record.cases.cases.size(); ++c) {
+    const CaseStatus status = statusOf(record, c);
+    if (status.word == "refused" || status.word == "failed" || status.word == "left out")
+      missing.push_back(
+          fmt::format("{} ({})", record.cases.cases[c].name, status.word == "left out" ? status.message : status.word));
+  }
+  return missing.empty() ? "" : fmt::format("  not in these bars: {}\n", fmt::join(missing, ", "));
+}
+
 } // namespace
 
 nlohmann::ordered_json goalsJson(const CheckRecord& record) {
@@ -110,7 +122,7 @@ std::string goalsText(const CheckRecord& record, double percent) {
   text += "\n";
   if (record.goals.empty()) text += "  the first runs have not all ended; the same call again goes on\n";
   for (std::size_t g = 0; g < record.goals.size(); ++g) text += lineOf(record, record.goals[g], record.toReach[g]);
-  return text;
+  return text + missingText(record);
 }
 
 } // namespace grouser::sweeps

@@ -32,4 +32,14 @@ struct CheckRecord {
   bool isWhole = true;                   ///< all runs chosen have ended
 };
 
+/// [cases] from the manifests of the runs.
+std::vector<CaseCost> costsOf(const CheckRecord& record);
+
+/// "finished", "incomplete", "failed", "refused", "left out", "not begun", with the message behind it where there is
+/// one.
+struct CaseStatus {
+  std::string word, message;
+};
+CaseStatus statusOf(const CheckRecord& record, std::size_t aCase);
+
 } // namespace grouser::sweeps

@@ -9,16 +9,6 @@
 /// What a check leaves: as text, as files, and as a page.
 namespace grouser::sweeps {
 
-/// [cases] from the manifests of the runs.
-std::vector<CaseCost> costsOf(const CheckRecord& record);
-
-/// "finished", "incomplete", "failed", "refused", "left out", "not begun", with the message behind it where there is
-/// one.
-struct CaseStatus {
-  std::string word, message;
-};
-CaseStatus statusOf(const CheckRecord& record, std::size_t aCase);
-
 /// Of a figure the cheapest step, with so many seeds, that keeps its error by both within `percent` of its value.
 struct Cheapest {
   std::string name; ///< of the case; empty: none of those run

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run says about a check of its scene.
+#include "runs/campaigns/sweeps/check_beds.hpp"
 #include "runs/campaigns/sweeps/check_goals.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -32,6 +36,21 @@ TEST(CheckForecast, WhereAVehicleDrivesOnGrainsTheCheaperCheckIsNamedFirst) {
   const double runs = runsOfFirstLook(scene, 3);
   const std::string note = checkNote(scene, "", 3600 / runs);
   EXPECT_NE(note.find(" --bar 20% --of sinkage,torque (from 1 h 00 min on; "), std::string::npos) << note;
+}
+
+TEST(CheckBeds, SkinAndSpheresOfThePartsSettleOnTheBedOfTheBase) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("grouser_beds_{}", getpid());
+  setenv("GROUSER_CACHE", folder.c_str(), 1);
+  const CheckCases cases = checkCases(kQuickStart, {}, setup::loadScene(kQuickStart, {}));
+  const std::vector<int> numbers = CheckBeds(kQuickStart, {}, cases).numbers();
+  setenv("GROUSER_CACHE", "", 1);
+  std::filesystem::remove_all(folder);
+  for (std::size_t c = 0; c < numbers.size(); ++c) {
+    const CheckAxis axis = cases.cases[c].axis;
+    const bool shares = axis == CheckAxis::skin || axis == CheckAxis::spheres;
+    EXPECT_EQ(numbers[c], shares ? 0 : static_cast<int>(c)) << cases.cases[c].name;
+  }
 }
 
 } // namespace
