@@ -193,11 +193,15 @@ private:
       if (look == choice.looks.size()) choice.looks.push_back(seedsOf(look, choice.costs));
       if (look > 0 && choice.looks[look] == taken_) break;
       taken_ = choice.looks[look];
-      keepLooks(choice, look);
+      keepLooks(choice);
       record_.isWhole = work_.make(taken_, fmt::format("check, look {}", look + 1));
       if (!record_.isWhole || !work_.hasBase()) break;
       findGoals();
     }
+    if (!options_.budget.empty() && anyReachable(record_.goals))
+      for (std::size_t c = 0; c < taken_.size(); ++c)
+        if (taken_[c] == 0 && record_.cases.cases[c].refused.empty() && record_.cases.cases[c].refinement <= 1)
+          record_.beyondBudget.push_back(c);
     report();
   }
 
@@ -207,22 +211,22 @@ private:
       return options_.budget.empty() ||
              secondsOf(record_.cases, costs, seeds) <= budgetSeconds(options_.budget) * options_.sweep.jobs;
     };
-    return look == 0 ? firstLook(record_.cases, record_.looks, fits)
-                     : nextLook(record_.cases, record_.goals, taken_, record_.looks, costs, fits);
+    if (look == 0) return firstLook(record_.cases, record_.looks, fits);
+    if (look == 1) {
+      const std::vector<int> all = secondLook(record_.cases, record_.goals, taken_, record_.looks, fits);
+      if (all != taken_) return all;
+    }
+    return nextLook(record_.cases, record_.goals, taken_, record_.looks, costs, fits);
   }
 
   /// Before the runs of a look are made, so that a call that goes on makes the same.
-  void keepLooks(const GoalChoice& choice, std::size_t look) {
-    if (look == 0)
-      for (std::size_t c = 0; c < taken_.size(); ++c)
-        if (taken_[c] == 0 && record_.cases.cases[c].refused.empty() && record_.cases.cases[c].refinement <= 1)
-          record_.beyondBudget.push_back(c);
+  void keepLooks(const GoalChoice& choice) const {
     if (options_.budget.empty()) return;
     keepFile({{"asked", asked()},
               {"run_s", choice.costs.run},
               {"settling_s", choice.costs.settling},
               {"looks", choice.looks}});
-    tellBudget(secondsOf(record_.cases, choice.costs, taken_) / options_.sweep.jobs, record_.beyondBudget);
+    tellBudget(secondsOf(record_.cases, choice.costs, taken_) / options_.sweep.jobs, {});
   }
 
   CheckResults results() const {

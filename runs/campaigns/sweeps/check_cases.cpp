@@ -236,7 +236,7 @@ bool seedMatters(const scene::Scene& scene) {
          std::any_of(scene.fills.begin(), scene.fills.end(), isRandom);
 }
 
-double runsOfFirstLook(const scene::Scene& scene, int seeds) {
+double runsOfBarCases(const scene::Scene& scene, int seeds) {
   double runs = 1 + 2; // the base and half its step
   if (scene.vehicle || !scene.meshes.empty()) runs += kCostOfSpheres;
   // Finer grains take a shorter step, and 1 / share^3 as many fill the bed.
@@ -250,7 +250,7 @@ double runsOfWholeCheck(const scene::Scene& scene, int seeds) {
                       !scene.sources.empty();
   const bool seeded = seedMatters(scene);
   const double others = (seeded ? 0.5 : 4 + 8 + 0.5 + 0.25) + (grains ? kCostOfDouble : 0); // steps, precision
-  return runsOfFirstLook(scene, seeds) + others * (seeded ? seeds : 1) + (grains ? 1 : 0);
+  return runsOfBarCases(scene, seeds) + others * (seeded ? seeds : 1) + (grains ? 1 : 0);
 }
 
 CheckCases checkCases(const std::filesystem::path& file, const std::vector<std::string>& fixed,

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kMissed = 0.05;  // of all readings together
 constexpr double kFarAway = 1000; // bars wanted: stands for a part that no run has told yet
+constexpr double kCheap = 1.5;    // runs of the base: cases up to this cost are run first
 
 /// Half width of so many seeds, one of which deviates by so much.
 double halfWidth(double deviation, int seeds, double miss) {
@@ -234,10 +235,29 @@ std::vector<int> firstLook(const CheckCases& cases, const Looks& looks, const Se
   std::vector<int> seeds(cases.cases.size(), 0);
   for (std::size_t c = 0; c < seeds.size(); ++c) {
     const CheckCase& one = cases.cases[c];
-    if (!one.refused.empty() || (!cases.seeded && one.refinement > 1)) continue;
+    if (!one.refused.empty() || one.cost > kCheap || (!cases.seeded && one.refinement > 1)) continue;
     std::vector<int> more = seeds;
     more[c] = one.axis == CheckAxis::skin ? 1 : looks.seeds.front();
     if (c == 0 || fits(more)) seeds = std::move(more);
+  }
+  return seeds;
+}
+
+bool anyReachable(const std::vector<Goal>& goals) {
+  return std::any_of(goals.begin(), goals.end(),
+                     [](const Goal& g) { return g.state == GoalState::met || g.state == GoalState::open; });
+}
+
+std::vector<int> secondLook(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& first,
+                            const Looks& looks, const SeedsFit& fits) {
+  std::vector<int> seeds = first;
+  if (!anyReachable(goals)) return seeds;
+  for (std::size_t c = 1; c < seeds.size(); ++c) {
+    const CheckCase& one = cases.cases[c];
+    if (!one.refused.empty() || one.cost <= kCheap || (!cases.seeded && one.refinement > 1)) continue;
+    std::vector<int> more = seeds;
+    more[c] = looks.seeds.front();
+    if (fits(more)) seeds = std::move(more);
   }
   return seeds;
 }

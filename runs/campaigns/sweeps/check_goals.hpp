@@ -76,9 +76,15 @@ void keepGoalCases(CheckCases& cases, const std::vector<CheckAxis>& axes);
 
 using SeedsFit = std::function<bool(const std::vector<int>&)>; ///< whether so many seeds of each case may be run
 
-/// [cases] seeds of the first look, in the order of the cases as long as they fit; the base in any case. Where runs
-/// repeat it has one finer step alone.
+/// [cases] seeds of the first look: the base, and cases of at most one and a half times its cost, in their order as
+/// long as they fit.
 std::vector<int> firstLook(const CheckCases& cases, const Looks& looks, const SeedsFit& fits);
+/// Whether a goal is met, or may be by more runs.
+bool anyReachable(const std::vector<Goal>& goals);
+/// The same of all cases, unless the first look shows that no goal can be reached. Where runs repeat it has one finer
+/// step alone.
+std::vector<int> secondLook(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& first,
+                            const Looks& looks, const SeedsFit& fits);
 
 /// How the figures of these names stand.
 std::vector<Goal> goalsOf(const CheckCases& cases, const CheckResults& results, const std::vector<std::string>& figures,

@@ -128,7 +128,7 @@ std::string checkNote(const scene::Scene& scene, const std::string& inputs, doub
   if (scene.vehicle && seedMatters(scene))
     return fmt::format("no error bars yet; run: {} --bar 20% --of sinkage,torque (from {} on; all figures without "
                        "--of: about {}; --budget 20min: as much as fits)\n",
-                       commandOf(scene), support::Progress::duration(runSeconds * runsOfFirstLook(scene, kFewSeeds)),
+                       commandOf(scene), support::Progress::duration(runSeconds * runsOfBarCases(scene, kFewSeeds)),
                        whole);
   return fmt::format("no error bars yet; run: {} (about {}; --budget 20min: as much as fits)\n", commandOf(scene),
                      whole);

@@ -27,13 +27,13 @@ TEST(CheckForecast, AFirstLookTakesAboutTheRunsOfItsCases) {
   for (const CheckCase& c : cases.cases)
     if (c.refused.empty()) runs += c.cost;
   // The forecast loads no scene: grains are counted by volume, and cut parts cost about as much more.
-  EXPECT_NEAR(runsOfFirstLook(scene, 3), 3 * runs, 0.15 * 3 * runs);
-  EXPECT_LT(runsOfFirstLook(scene, 3), 0.4 * runsOfWholeCheck(scene, 8));
+  EXPECT_NEAR(runsOfBarCases(scene, 3), 3 * runs, 0.15 * 3 * runs);
+  EXPECT_LT(runsOfBarCases(scene, 3), 0.4 * runsOfWholeCheck(scene, 8));
 }
 
 TEST(CheckForecast, WhereAVehicleDrivesOnGrainsTheCheaperCheckIsNamedFirst) {
   const scene::Scene scene = setup::loadScene(kQuickStart, {"run.gravity=[0, 0, -9.8]"}); // nobody has checked this
-  const double runs = runsOfFirstLook(scene, 3);
+  const double runs = runsOfBarCases(scene, 3);
   const std::string note = checkNote(scene, "", 3600 / runs);
   EXPECT_NE(note.find(" --bar 20% --of sinkage,torque (from 1 h 00 min on; "), std::string::npos) << note;
 }
