@@ -182,7 +182,7 @@ double BarPart::expected(int more) const {
 }
 
 double BarPart::least(int more) const {
-  if (!std::isfinite(deviation)) return 0;
+  if (seeds < kFewSeeds) return 0; // as where runs failed: too few to end a check
   const double root = std::sqrt(static_cast<double>(seeds));
   const double leastChange = std::max(0.0, std::fabs(change) - 2 * deviation / root);
   constexpr int kKnown = 1000; // from here on the quantile changes no more

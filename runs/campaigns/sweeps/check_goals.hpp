@@ -44,7 +44,7 @@ struct BarPart {
   /// The bar that so many seeds will likely leave. The change over few seeds holds some scatter, which more take away.
   double expected(int seeds) const;
   /// The least that is likely: the change two standard errors nearer to zero, the deviation at the low end of its own
-  /// interval, about 1 / (1 + 1.6 / sqrt(seeds)).
+  /// interval, about 1 / (1 + 1.6 / sqrt(seeds)); 0 where fewer than three seeds tell it.
   double least(int seeds) const;
 };
 

@@ -52,7 +52,7 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
     runs += toReach[c] - taken[c];
     if (std::isfinite(record.costs[c].wall)) seconds += record.costs[c].wall * (toReach[c] - taken[c]) / record.jobs;
   }
-  if (runs == 0) return "more than 1000 seeds would be needed";
+  if (runs == 0) return "not even 1000 seeds are likely to reach it";
   return fmt::format("about {} more {} would reach it ({}, up to {} seeds)", runs, runs == 1 ? "run" : "runs",
                      support::Progress::duration(seconds), *std::max_element(toReach.begin(), toReach.end()));
 }

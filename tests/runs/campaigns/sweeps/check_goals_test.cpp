@@ -239,6 +239,14 @@ TEST(CheckGoals, WhatTheMostSeedsDoNotReachIsNotBegun) {
   EXPECT_TRUE(seedsToReach(cases, known, {3}, looks).empty());
 }
 
+TEST(CheckGoals, TwoSeedsThatAreLeftOfThreeDoNotEndTheCheck) {
+  BarPart part;
+  part.axis = CheckAxis::floor, part.change = 5, part.deviation = 0.1, part.seeds = 2;
+  EXPECT_EQ(part.least(24), 0);
+  part.seeds = 3;
+  EXPECT_GT(part.least(24), 4.5);
+}
+
 TEST(CheckGoals, ABudgetHoldsWhatItIsGiven) {
   std::mt19937 dice(3);
   CheckCases cases;
