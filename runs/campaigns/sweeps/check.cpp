@@ -200,8 +200,7 @@ private:
     }
     if (!options_.budget.empty() && anyReachable(record_.goals))
       for (std::size_t c = 0; c < taken_.size(); ++c)
-        if (taken_[c] == 0 && record_.cases.cases[c].refused.empty() && record_.cases.cases[c].refinement <= 1)
-          record_.beyondBudget.push_back(c);
+        if (taken_[c] == 0 && record_.cases.cases[c].refused.empty()) record_.beyondBudget.push_back(c);
     report();
   }
 
@@ -213,7 +212,7 @@ private:
     };
     if (look == 0) return firstLook(record_.cases, record_.looks, fits);
     if (look == 1) {
-      const std::vector<int> all = secondLook(record_.cases, record_.goals, taken_, record_.looks, fits);
+      std::vector<int> all = secondLook(record_.cases, record_.goals, taken_, record_.looks, fits);
       if (all != taken_) return all;
     }
     return nextLook(record_.cases, record_.goals, taken_, record_.looks, costs, fits);

@@ -86,18 +86,6 @@ std::vector<int> withMore(const std::vector<int>& planned, std::size_t c, const 
   return more;
 }
 
-/// The finer step that is run next where runs repeat: two of them tell less than three.
-std::vector<int> nextRefinement(const CheckCases& cases, const std::vector<int>& taken, const SeedsFit& fits) {
-  std::vector<int> next = taken;
-  for (std::size_t c = 1; c < cases.cases.size(); ++c) {
-    const CheckCase& one = cases.cases[c];
-    if (one.axis != CheckAxis::step || one.refinement < 1 || taken[c] > 0) continue;
-    next[c] = 1;
-    return one.refused.empty() && fits(next) ? next : taken;
-  }
-  return taken;
-}
-
 /// Reduction of the squared bars of open goals over its cost, by going from `planned` to `more`.
 double worth(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
              const std::vector<int>& planned, const std::vector<int>& more, const RunCosts& costs) {
@@ -235,7 +223,7 @@ std::vector<int> firstLook(const CheckCases& cases, const Looks& looks, const Se
   std::vector<int> seeds(cases.cases.size(), 0);
   for (std::size_t c = 0; c < seeds.size(); ++c) {
     const CheckCase& one = cases.cases[c];
-    if (!one.refused.empty() || one.cost > kCheap || (!cases.seeded && one.refinement > 1)) continue;
+    if (!one.refused.empty() || one.cost > kCheap) continue;
     std::vector<int> more = seeds;
     more[c] = one.axis == CheckAxis::skin ? 1 : looks.seeds.front();
     if (c == 0 || fits(more)) seeds = std::move(more);
@@ -254,7 +242,7 @@ std::vector<int> secondLook(const CheckCases& cases, const std::vector<Goal>& go
   if (!anyReachable(goals)) return seeds;
   for (std::size_t c = 1; c < seeds.size(); ++c) {
     const CheckCase& one = cases.cases[c];
-    if (!one.refused.empty() || one.cost <= kCheap || (!cases.seeded && one.refinement > 1)) continue;
+    if (!one.refused.empty() || one.cost <= kCheap) continue;
     std::vector<int> more = seeds;
     more[c] = looks.seeds.front();
     if (fits(more)) seeds = std::move(more);
@@ -282,8 +270,7 @@ std::vector<Goal> goalsOf(const CheckCases& cases, const CheckResults& results, 
 std::vector<int> nextLook(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
                           const Looks& looks, const RunCosts& costs, const SeedsFit& fits) {
   const auto isOpen = [](const Goal& g) { return g.state == GoalState::open; };
-  if (std::none_of(goals.begin(), goals.end(), isOpen)) return taken;
-  if (!cases.seeded) return nextRefinement(cases, taken, fits);
+  if (!cases.seeded || std::none_of(goals.begin(), goals.end(), isOpen)) return taken;
   const std::vector<int> way = wayToGoals(cases, goals, taken, looks, costs, fits);
   std::vector<int> next = taken;
   for (std::size_t c = 0; c < next.size(); ++c)

@@ -81,8 +81,8 @@ using SeedsFit = std::function<bool(const std::vector<int>&)>; ///< whether so m
 std::vector<int> firstLook(const CheckCases& cases, const Looks& looks, const SeedsFit& fits);
 /// Whether a goal is met, or may be by more runs.
 bool anyReachable(const std::vector<Goal>& goals);
-/// The same of all cases, unless the first look shows that no goal can be reached. Where runs repeat it has one finer
-/// step alone.
+/// The same of all cases, unless the first look shows that no goal can be reached. Where runs repeat all finer steps
+/// are among them: with fewer the bar of the step may be narrow by chance.
 std::vector<int> secondLook(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& first,
                             const Looks& looks, const SeedsFit& fits);
 

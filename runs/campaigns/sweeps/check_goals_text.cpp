@@ -63,7 +63,7 @@ std::string remedy(const CheckRecord& record, const Goal& goal, const std::vecto
   if (goal.state == GoalState::limited)
     return fmt::format("more seeds do not help: {} changes it by {:+.3g}", nameOf(worst), worst.change);
   if (!record.isWhole) return "the same call again goes on";
-  if (!record.cases.seeded) return "no finer step left";
+  if (!record.cases.seeded) return "a finer step than those run would be needed";
   return moreText(record, toReach);
 }
 
