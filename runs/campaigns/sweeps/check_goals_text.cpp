@@ -69,13 +69,18 @@ std::string remedy(const CheckRecord& record, const Goal& goal, const std::vecto
 
 std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
   if (goal.state == GoalState::unknown) return fmt::format("  {:<24} no sound value\n", goal.figure);
-  const auto share = [&](double bar) { return 100 * bar / std::fabs(goal.value); };
-  std::string text = fmt::format("  {:<24} {:>28}  {:>5.2g} %  {}", goal.figure,
-                                 jobs::valueText({goal.value, goal.bar}), share(goal.bar), wordOf(goal.state));
+  const auto share = [&](double bar) {
+    const double percent = 100 * bar / std::fabs(goal.value);
+    return !std::isfinite(percent) ? "?"
+           : percent >= 10         ? fmt::format("{:.0f}", percent)
+                                   : fmt::format("{:.2g}", percent);
+  };
+  std::string text = fmt::format("  {:<24} {:>28}  {:>5} %  {}", goal.figure, jobs::valueText({goal.value, goal.bar}),
+                                 share(goal.bar), wordOf(goal.state));
   const BarPart* worst = goal.largest();
   if (goal.state != GoalState::met && worst)
-    text += fmt::format("; largest part: {} {:.2g} %; {}", nameOf(*worst), share(worst->bar),
-                        remedy(record, goal, toReach));
+    text +=
+        fmt::format("; largest part: {} {} %; {}", nameOf(*worst), share(worst->bar), remedy(record, goal, toReach));
   return text + "\n";
 }
 
