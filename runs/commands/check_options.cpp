@@ -51,13 +51,20 @@ void addCheck(CLI::App& app, const Invocation&) {
   check->add_option("--set", c.options.fixed, kSetHelp)->allow_extra_args(false);
   check
       ->add_option("--seeds", c.options.seeds,
-                   "seeds of every case, from run.seed on, where they make a difference; with --budget at most so "
-                   "many; default: 8")
+                   "seeds of every case, from run.seed on, where they make a difference; with --budget or --of at most "
+                   "so many; default: 8, with --of 24")
       ->check(support::wholeNumber(2, 1000));
   check
       ->add_option("--bar", c.options.percent,
-                   "of a figure's value, within which verdicts call it equal [%]; default: 5")
+                   "percent of a figure's value (10 or 10%) within which verdicts call it equal, and that --of wants; "
+                   "default: 5")
+      ->transform(support::percentSign())
       ->check(support::positive("a share in percent"));
+  check
+      ->add_option("--of", c.options.figures,
+                   "run what narrows the bars of these figures most for its time, until each is within --bar: sinkage, "
+                   "torque, speed, slip, tension, motion_resistance, or any figure of check.json")
+      ->delimiter(',');
   check
       ->add_option("--axes", c.axes,
                    "what to vary: step, skin, depth, width, floor, grain_size, spheres, precision; default: all")

@@ -31,11 +31,13 @@ Moments momentsOf(std::span<const double> values) {
 
 } // namespace
 
-support::Estimate interval95(std::span<const double> values) {
+support::Estimate interval(std::span<const double> values, double miss) {
   const Moments m = momentsOf(values);
   if (m.freedom < 1) return {m.mean, std::numeric_limits<double>::infinity()};
-  return {m.mean, support::student95(m.freedom) * std::sqrt(m.variance)};
+  return {m.mean, support::student(m.freedom, miss) * std::sqrt(m.variance)};
 }
+
+support::Estimate interval95(std::span<const double> values) { return interval(values, 0.05); }
 
 support::Estimate unpairedChange(std::span<const double> a, std::span<const double> b) {
   const Moments ma = momentsOf(a), mb = momentsOf(b);

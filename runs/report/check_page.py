@@ -55,6 +55,19 @@ def figures(check):
                     if first and rest else "")
 
 
+def goals(check):
+    """Bars that --of asked for, and the largest part of each."""
+    rows = []
+    for one in check.json.get("of", []):
+        name, unit = grouser.series.split_unit(one["figure"])
+        largest = max(one["parts"], key=lambda part: math.inf if part["bar"] is None else part["bar"], default=None)
+        rows.append([term(name), number(one["bar"], digits=3), number(one["wanted"], digits=3), esc(unit), esc(one["state"]),
+                     esc(largest["part"].replace("_", " ")) if largest else "", number(largest["bar"], digits=3) if largest else ""])
+    words = f"Bars wanted: {number(check.json.get('bar_percent'))} % of the value."
+    return table(["figure", "bar", "bar wanted", "unit", "state", "largest part", "its bar"], rows, words,
+                 numeric=(1, 2, 6)) if rows else ""
+
+
 def shares(made, check):
     """Bars in percent of the values, by cause."""
     told_errors = {grouser.series.split_unit(one["name"])[0]: one["errors"] for one in check.json["figures"]}
@@ -188,7 +201,7 @@ def page(folder, options):
     made = pages.Page(f"{check.folder.resolve().name} (check)", "check", folder)
     if check.json.get("inconclusive"):
         made.warnings.append(f"<p>WARNING: all figures are inconclusive: {esc(check.json['inconclusive'])}</p>")
-    made.section("figures", "Figures and their bars", figures(check))
+    made.section("figures", "Figures and their bars", goals(check) + figures(check))
     made.section("shares", "What makes the bars", shares(made, check))
     made.section("plots", "Series with their bars", bands(made, check))
     made.section("costs", "What it cost", costs(made, check))

@@ -14,6 +14,31 @@
 
 namespace grouser::support {
 
+namespace {
+
+/// Chance that |t| of Student's distribution lies below tan(angle) sqrt(freedom): M. Abramowitz and I. Stegun, Handbook
+/// of Mathematical Functions (1964), 26.7.3 and 26.7.4.
+double studentWithin(int freedom, double angle) {
+  const double c = base::cos(angle), s = base::sin(angle);
+  const bool odd = freedom % 2 == 1;
+  double sum = 0, term = odd ? c : 1;
+  for (int k = odd ? 1 : 0; k < freedom - 1; k += 2) sum += term, term *= c * c * (k + 1) / (k + 2);
+  return odd ? 2 / base::kPi * (angle + s * sum) : s * sum;
+}
+
+} // namespace
+
+double student(int freedom, double miss) {
+  constexpr int kBits = 60;
+  if (miss == 0.05) return student95(freedom);
+  double low = 0, high = 0.5 * base::kPi;
+  for (int bit = 0; bit < kBits; ++bit) {
+    const double middle = 0.5 * (low + high);
+    (studentWithin(freedom, middle) < 1 - miss ? low : high) = middle;
+  }
+  return std::sqrt(static_cast<double>(freedom)) * base::sin(low) / base::cos(low);
+}
+
 double student95(int freedom) {
   constexpr std::array kQuantile = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
                                     2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120};

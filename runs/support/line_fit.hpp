@@ -38,5 +38,7 @@ LineFit fitPower(std::span<const double> x, std::span<const double> y);
 
 /// Two-sided 95 % quantile of Student's distribution, `freedom` >= 1.
 double student95(int freedom);
+/// The same for any chance `miss` that a number lies beyond it, in (0, 1); that of 0.05 is student95().
+double student(int freedom, double miss);
 
 } // namespace grouser::support

@@ -78,6 +78,15 @@ CLI::Validator positive(const std::string& what) {
   });
 }
 
+CLI::Validator percentSign() {
+  return {[](std::string& text) {
+            if (text.ends_with('%')) text.pop_back();
+            while (text.ends_with(' ')) text.pop_back();
+            return std::string();
+          },
+          ""};
+}
+
 CLI::Validator notNegative(const std::string& what) {
   return check(what + " of at least 0", ">= 0", [](const std::string& text) {
     const auto x = numberIn<double>(text);

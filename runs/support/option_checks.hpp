@@ -18,6 +18,9 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high = std::numeric_li
 /// A finite number above 0; `what` names it and its unit: "a length in metres".
 CLI::Validator positive(const std::string& what);
 
+/// For transform(): "10%" and "10 %" are 10.
+CLI::Validator percentSign();
+
 /// A finite number of at least 0.
 CLI::Validator notNegative(const std::string& what);
 

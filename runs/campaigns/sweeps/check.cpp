@@ -4,22 +4,21 @@
 #include "base/error.hpp"
 #include "runs/campaigns/sweeps/check_beds.hpp"
 #include "runs/campaigns/sweeps/check_choice.hpp"
+#include "runs/campaigns/sweeps/check_goals.hpp"
 #include "runs/campaigns/sweeps/check_report.hpp"
 #include "runs/campaigns/sweeps/check_series.hpp"
+#include "runs/campaigns/sweeps/check_work.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
-#include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/file_hash.hpp"
-#include "runs/support/hdf5_file.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/output_place.hpp"
 #include "runs/support/progress.hpp"
-#include "runs/support/stopwatch.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -47,32 +46,75 @@ std::vector<std::string> quiet(std::vector<std::string> overrides) {
   return overrides;
 }
 
+/// Which runs a check with --of makes, look by look; kept in choice.json where a budget decides.
+class GoalChoice {
+public:
+  RunCosts costs;
+  std::vector<std::vector<int>> looks; ///< [looks][cases] seeds
+
+  /// Of a former call with the same question, if there is one that fits these cases.
+  bool take(const nlohmann::json& kept, std::size_t cases, int most) {
+    try {
+      kept.at("run_s").get_to(costs.run), kept.at("settling_s").get_to(costs.settling);
+      kept.at("looks").get_to(looks);
+    } catch (const nlohmann::json::exception&) {
+      looks.clear();
+      return false;
+    }
+    const bool fit = std::all_of(looks.begin(), looks.end(), [&](const std::vector<int>& seeds) {
+      return seeds.size() == cases &&
+             std::all_of(seeds.begin(), seeds.end(), [&](int s) { return s >= 0 && s <= most; });
+    });
+    return fit && std::isfinite(costs.run) && costs.run > 0 && costs.settling >= 0;
+  }
+};
+
 /// One check, from its options to its files.
 class Check {
 public:
   Check(const fs::path& file, const CheckOptions& options)
-      : options_(options), fixed_(quiet(options.fixed)), scene_(setup::loadScene(file, fixed_)) {
+      : options_(options), fixed_(quiet(options.fixed)), scene_(setup::loadScene(file, fixed_)),
+        work_(options_, fixed_, scene_.run.seed, record_) {
     checkScene(scene_);
     origin_ = checkOrigin(scene_, setup::inputsOf(scene_));
-    if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.seeds)
-      throw base::InputError(
-          fmt::format("run.seed = {}: has no {} seeds after it; choose a smaller one", scene_.run.seed, options.seeds));
+    if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.mostSeeds())
+      throw base::InputError(fmt::format("run.seed = {}: has no {} seeds after it; choose a smaller one",
+                                         scene_.run.seed, options.mostSeeds()));
     record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = support::hashOfText(origin_);
+    record_.jobs = options.sweep.jobs;
     record_.cases = checkCases(file, fixed_, scene_);
     keepAxes();
     record_.runs.plan.scene = file, record_.runs.plan.keys = {kCaseKey, kSeedKey};
+    if (options.figures.empty()) return;
+    keepGoalCases(record_.cases, options.axes);
+    record_.looks = looksUpTo(options.mostSeeds(), record_.cases.seeded);
+    if (scene_.vehicle) nameFigures(sweepFigures(planOf(scene_), {{}}, record_.folder).columns);
   }
 
   void run() {
+    if (!options_.figures.empty()) return runToGoals();
     const CheckChoice choice = choose();
-    for (std::size_t c = 0; c < record_.cases.cases.size(); ++c)
-      for (int s = 0; s < choice.seeds[c]; ++s) addRun(c, s);
     record_.beyondBudget = choice.beyondBudget;
-    make("check");
+    work_.make(choice.seeds, "check");
     report();
   }
 
 private:
+  /// One run that is not made, for the names of its figures.
+  static SweepPlan planOf(const scene::Scene& scene) {
+    SweepPlan plan;
+    plan.runs.emplace_back().scene = scene;
+    return plan;
+  }
+
+  /// Figures of --of, by the names that runs have.
+  void nameFigures(const std::vector<std::string>& columns) {
+    for (const std::string& word : options_.figures)
+      if (const std::string name = goalFigure(word, columns);
+          std::find(figures_.begin(), figures_.end(), name) == figures_.end())
+        figures_.push_back(name);
+  }
+
   void keepAxes() {
     if (options_.axes.empty()) return;
     const auto unwanted = [this](CheckAxis axis) {
@@ -85,149 +127,144 @@ private:
       if (unwanted(axis)) record_.cases.omitted.push_back({axis, "not among --axes"});
   }
 
+  /// The question that a choice in choice.json answers.
+  nlohmann::json asked() const {
+    nlohmann::json asked = {{"origin", record_.origin},
+                            {"budget", options_.budget},
+                            {"seeds", options_.mostSeeds()},
+                            {"cases", record_.cases.cases.size()},
+                            {"jobs", options_.sweep.jobs}};
+    if (!options_.figures.empty()) asked["of"] = options_.figures, asked["bar_percent"] = options_.percent;
+    return asked;
+  }
+
+  /// choice.json of a former call with the same question; no object where there is none.
+  nlohmann::json keptFile() const {
+    std::ifstream former(record_.folder / kCheckChoice);
+    const nlohmann::json kept = nlohmann::json::parse(former, nullptr, false);
+    const bool same = kept.is_object() && kept.value("asked", nlohmann::json()) == asked();
+    return same && !options_.sweep.force ? kept : nlohmann::json();
+  }
+  void keepFile(const nlohmann::json& made) const {
+    support::replaceTextFile(record_.folder / kCheckChoice, support::jsonText(made, 1) + "\n");
+  }
+
   /// Which runs are to be made: as this very check chose before, or by what the first run takes.
   CheckChoice choose() {
-    if (options_.budget.empty()) return chooseRuns(record_.cases, options_.seeds, std::nullopt, {}, 1);
-    const nlohmann::json asked = {{"origin", record_.origin},
-                                  {"budget", options_.budget},
-                                  {"seeds", options_.seeds},
-                                  {"cases", record_.cases.cases.size()},
-                                  {"jobs", options_.sweep.jobs}};
-    const fs::path file = record_.folder / kCheckChoice;
-    std::ifstream former(file);
-    const nlohmann::json kept = nlohmann::json::parse(former, nullptr, false);
+    const int seeds = options_.mostSeeds();
+    if (options_.budget.empty()) return chooseRuns(record_.cases, seeds, std::nullopt, {}, 1);
+    const nlohmann::json kept = keptFile();
     std::optional<CheckChoice> choice;
-    if (kept.is_object() && kept.value("asked", nlohmann::json()) == asked && !options_.sweep.force)
-      choice = keptChoice(kept.value("choice", nlohmann::json()), record_.cases, std::max(options_.seeds, kFewSeeds));
+    if (kept.is_object())
+      choice = keptChoice(kept.value("choice", nlohmann::json()), record_.cases, std::max(seeds, kFewSeeds));
     if (!choice) {
       CheckBeds beds(record_.runs.plan.scene, fixed_, record_.cases);
-      const RunCosts costs = pilot(beds);
-      choice = chooseRuns(record_.cases, options_.seeds, budgetSeconds(options_.budget), costs, options_.sweep.jobs);
-      const nlohmann::json made = {
-          {"asked", asked}, {"run_s", costs.run}, {"settling_s", costs.settling}, {"choice", choiceJson(*choice)}};
-      support::replaceTextFile(file, support::jsonText(made, 1) + "\n");
+      const RunCosts costs = work_.pilot(beds);
+      choice = chooseRuns(record_.cases, seeds, budgetSeconds(options_.budget), costs, options_.sweep.jobs);
+      keepFile(
+          {{"asked", asked()}, {"run_s", costs.run}, {"settling_s", costs.settling}, {"choice", choiceJson(*choice)}});
     }
-    fmt::print("budget    {}: the runs chosen take about {}{}\n", options_.budget,
-               support::Progress::duration(choice->seconds), leftOutText(*choice));
+    tellBudget(choice->seconds, choice->beyondBudget);
     return *choice;
   }
 
-  std::string leftOutText(const CheckChoice& choice) const {
+  void tellBudget(double seconds, const std::vector<std::size_t>& beyondBudget) const {
     std::string names;
-    for (const std::size_t c : choice.beyondBudget)
+    for (const std::size_t c : beyondBudget)
       names += (names.empty() ? "; left out: " : ", ") + record_.cases.cases[c].name;
-    return names;
+    fmt::print("budget    {}: the runs chosen take about {}{}\n", options_.budget, support::Progress::duration(seconds),
+               names);
   }
 
-  /// Makes a run of the base, and returns what runs cost by it. Of the seeds that are run in any case it takes one
-  /// whose bed no run has kept, so that it settles its bed as other cases will theirs.
-  RunCosts pilot(CheckBeds& beds) {
-    const int few = record_.cases.seeded ? std::min(options_.seeds, kFewSeeds) : 1;
-    int seed = 0;
-    while (seed < few && beds.keptSteps(0, seed)) ++seed;
-    const bool settles = seed < few;
-    if (!settles) seed = 0;
-    addRun(0, seed);
-    make("check, first run");
-    const fs::path folder = record_.folder / record_.runs.plan.runs[0].name;
-    const RunManifest manifest(folder);
-    const double wall = manifest.wallTime();
-    if (!output::hasEnded(record_.outcomes[0].status) || !std::isfinite(wall)) throwBaseFailed();
-    made_.push_back(record_.runs.plan.runs[0].name);
-    record_.runs = {{record_.runs.plan.scene, record_.runs.plan.keys, {}}, {}, {}, {}};
-
-    const auto part = [&](const char* name) {
-      return std::max(0.0, std::isfinite(manifest.figure(name)) ? manifest.figure(name) : 0);
-    };
-    RunCosts costs;
-    costs.settling = part("wall_settling_s");
-    costs.run = std::max(1e-3, wall - costs.settling - part("wall_cutting_s")); // spheres are cut once for all runs
-    // Of a kept bed only its steps are known.
-    if (!settles) costs.settling = 1e-6 * part("microseconds_a_step") * static_cast<double>(*beds.keptSteps(0, 0));
-    costs.beds = beds.numbers();
-    costs.isKept = [&beds, seed, settles](int bed, int of) {
-      const bool justMade = settles && bed == 0 && of == seed; // no gift
-      return !justMade && beds.keptSteps(bed, of).has_value();
-    };
-    return costs;
-  }
-
-  void addRun(std::size_t c, int seedIndex) {
-    SweepRun run;
-    const std::int64_t seed = scene_.run.seed + seedIndex;
-    const CheckCase& one = record_.cases.cases[c];
-    run.name = record_.cases.seeded ? fmt::format("{},seed={}", one.name, seed) : one.name;
-    run.values = {one.name, fmt::format("{}", seed)};
-    run.overrides = fixed_;
-    for (const std::string& o : one.overrides) putOverride(run.overrides, o);
-    putOverride(run.overrides, fmt::format("run.seed={}", seed));
-    run.scene = setup::loadScene(record_.runs.plan.scene, run.overrides);
-    record_.runs.plan.runs.push_back(std::move(run));
-    record_.runs.caseOf.push_back(c), record_.runs.seedOf.push_back(seed);
-  }
-
-  void make(const std::string& what) {
-    SweepOptions sweep = options_.sweep;
-    sweep.made = made_;
-    if (!options_.budget.empty()) { // what the first run did not tell must not cost more than was asked
-      const double left = std::max(1e-3, budgetSeconds(options_.budget) - clock_.seconds());
-      sweep.seconds = sweep.seconds > 0 ? std::min(sweep.seconds, left) : left;
+  /// Makes the runs of one look after the other until the bars of --of are met, or nothing that may be run brings them
+  /// there.
+  void runToGoals() {
+    GoalChoice choice;
+    const nlohmann::json kept = keptFile();
+    const bool goesOn = kept.is_object() && choice.take(kept, record_.cases.cases.size(), record_.looks.most());
+    if (options_.budget.empty()) {
+      choice = {}, choice.costs.run = 1; // costs of the cases alone: the same choice on every machine
+    } else {
+      CheckBeds beds(record_.runs.plan.scene, fixed_, record_.cases);
+      if (!goesOn) choice = {}, choice.costs = work_.pilot(beds), choice.costs.isKept = nullptr;
+      choice.costs.beds = beds.numbers();
     }
-    record_.outcomes = runMissing(record_.runs.plan, sweep, what, [](const std::vector<SweepOutcome>&) {});
-    record_.runs.series.assign(record_.outcomes.size(), {});
-    for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
-      if (output::hasEnded(record_.outcomes[r].status)) read(r);
-  }
-
-  /// What a run wrote over time. One whose files are damaged has failed, and is made again by a call that finds it so.
-  void read(std::size_t r) {
-    const fs::path folder = record_.folder / record_.runs.plan.runs[r].name;
-    try {
-      RunSeries series = readSeries(folder);
-      if (!hasPartInSeries(record_.cases.cases[record_.runs.caseOf[r]])) series.keepEnd();
-      support::Hdf5File::open(folder / "results.h5");
-      record_.runs.series[r] = std::move(series);
-    } catch (const std::exception& error) {
-      record_.outcomes[r] = {RunStatus::failed, fmt::format("its results are damaged: {}; the same call again makes "
-                                                            "them anew",
-                                                            error.what())};
-      std::error_code none;
-      fs::remove(folder / "manifest.json", none);
+    for (std::size_t look = 0;; ++look) {
+      if (look == choice.looks.size()) choice.looks.push_back(seedsOf(look, choice.costs));
+      if (look > 0 && choice.looks[look] == taken_) break;
+      taken_ = choice.looks[look];
+      keepLooks(choice);
+      record_.isWhole = work_.make(taken_, fmt::format("check, look {}", look + 1));
+      if (!record_.isWhole || !work_.hasBase()) break;
+      findGoals();
     }
+    if (!options_.budget.empty() && anyReachable(record_.goals))
+      for (std::size_t c = 0; c < taken_.size(); ++c)
+        if (taken_[c] == 0 && record_.cases.cases[c].refused.empty()) record_.beyondBudget.push_back(c);
+    report();
   }
 
-  /// True where the base has a run that ended.
-  bool hasBase() const {
-    for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
-      if (record_.runs.caseOf[r] == 0 && output::hasEnded(record_.outcomes[r].status)) return true;
-    return false;
+  /// [cases] seeds of a look.
+  std::vector<int> seedsOf(std::size_t look, const RunCosts& costs) const {
+    const SeedsFit fits = [&](const std::vector<int>& seeds) {
+      return options_.budget.empty() ||
+             secondsOf(record_.cases, costs, seeds) <= budgetSeconds(options_.budget) * options_.sweep.jobs;
+    };
+    if (look == 0) return firstLook(record_.cases, record_.looks, fits);
+    if (look == 1) {
+      std::vector<int> all = secondLook(record_.cases, record_.goals, taken_, record_.looks, fits);
+      if (all != taken_) return all;
+    }
+    return nextLook(record_.cases, record_.goals, taken_, record_.looks, costs, fits);
   }
 
-  [[noreturn]] void throwBaseFailed() const {
-    std::string why;
-    for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
-      if (record_.runs.caseOf[r] == 0) why = record_.outcomes[r].message;
-    throw base::SimulationError(fmt::format("no run of the scene as it is has ended: {}", why));
+  /// Before the runs of a look are made, so that a call that goes on makes the same.
+  void keepLooks(const GoalChoice& choice) const {
+    if (options_.budget.empty()) return;
+    keepFile({{"asked", asked()},
+              {"run_s", choice.costs.run},
+              {"settling_s", choice.costs.settling},
+              {"looks", choice.looks}});
+    tellBudget(secondsOf(record_.cases, choice.costs, taken_) / options_.sweep.jobs, {});
+  }
+
+  CheckResults results() const {
+    return checkResults(record_.cases, record_.runs, record_.outcomes, record_.folder, options_.percent,
+                        record_.looks.levels);
+  }
+
+  void findGoals() {
+    const CheckResults found = results();
+    if (figures_.empty()) { // without a vehicle names are known from runs
+      std::vector<std::string> names;
+      for (const CheckFigure& f : found.figures) names.push_back(f.name);
+      nameFigures(names);
+    }
+    record_.goals = goalsOf(record_.cases, found, figures_, record_.looks);
+    record_.toReach.clear();
+    for (const Goal& goal : record_.goals)
+      record_.toReach.push_back(goal.state == GoalState::open || goal.state == GoalState::beyond
+                                    ? seedsToReach(record_.cases, goal, taken_, record_.looks)
+                                    : std::vector<int>{});
   }
 
   void report() {
-    if (!hasBase()) {
+    if (!work_.hasBase()) {
       const bool failed = std::any_of(record_.outcomes.begin(), record_.outcomes.end(),
                                       [](const SweepOutcome& o) { return o.status == RunStatus::failed; });
-      if (failed) throwBaseFailed();
+      if (failed) work_.throwBaseFailed();
       return fmt::print("check     no run of the scene as it is has ended yet; the same call again goes on\n");
     }
-    const CheckResults results =
-        checkResults(record_.cases, record_.runs, record_.outcomes, record_.folder, options_.percent);
+    const CheckResults found = results();
     record_.costs = costsOf(record_);
     const auto write = [&](const char* name, const std::string& text) {
       support::replaceTextFile(record_.folder / name, text);
     };
-    if (!results.doubt.empty()) fmt::print("WARNING: all figures are inconclusive: {}\n", results.doubt);
-    const std::string json = checkJson(record_, results);
-    write(kCheckFile, json), write(kCheckCosts, costsJson(record_, results));
-    write(kCheckSeries, seriesCsv(checkSeries(record_.cases, record_.runs, record_.outcomes)));
-    fmt::print("{}\n", checkText(record_, results));
+    if (!found.doubt.empty()) fmt::print("WARNING: all figures are inconclusive: {}\n", found.doubt);
+    const std::string json = checkJson(record_, found);
+    write(kCheckFile, json), write(kCheckCosts, costsJson(record_, found));
+    write(kCheckSeries, seriesCsv(checkSeries(record_.cases, record_.runs, record_.outcomes, found.levels)));
+    fmt::print("{}\n", checkText(record_, found));
     if (options_.sweep.plot)
       output::drawPicture("check.py", {record_.folder / kCheckFile, record_.folder / kCheckCosts},
                           record_.folder / kCheckPlot);
@@ -237,18 +274,19 @@ private:
     const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
                                         [](const SweepOutcome& o) { return output::hasEnded(o.status); });
     keepCheck(origin_, json, static_cast<int>(finished), record_.folder);
-    if (results.skin == SameBits::no)
+    if (found.skin == SameBits::no)
       throw base::SimulationError(
           "another run.skin gave other bits: this is a fault of the program; please report it with the scene");
   }
 
   const CheckOptions& options_;
-  const support::Stopwatch clock_;
   const std::vector<std::string> fixed_;
   const scene::Scene scene_;
-  std::string origin_;            ///< checkOrigin()
-  std::vector<std::string> made_; ///< names of runs that this call has made
+  std::string origin_;               ///< checkOrigin()
+  std::vector<std::string> figures_; ///< of --of
+  std::vector<int> taken_;           ///< [cases] seeds of the last look
   CheckRecord record_;
+  CheckWork work_;
 };
 
 } // namespace

@@ -236,15 +236,21 @@ bool seedMatters(const scene::Scene& scene) {
          std::any_of(scene.fills.begin(), scene.fills.end(), isRandom);
 }
 
-double runsOfWholeCheck(const scene::Scene& scene, int seeds) {
-  const bool bed = scene.terrain && scene.terrain->granular();
-  const bool grains = bed || !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
-  double runs = seedMatters(scene) ? 1 + 2 + 0.5 : 1 + 2 + 4 + 8 + 0.5 + 0.25; // steps
-  if (grains) runs += kCostOfDouble;
+double runsOfBarCases(const scene::Scene& scene, int seeds) {
+  double runs = 1 + 2; // the base and half its step
   if (scene.vehicle || !scene.meshes.empty()) runs += kCostOfSpheres;
-  // A finer grain takes a shorter step, and its cube of them fills the bed.
-  if (bed) runs += kLarger + kLarger + 1 + 1 / (kFiner * kFiner * kFiner * kFiner);
-  return runs * (seedMatters(scene) ? seeds : 1) + (grains ? 1 : 0);
+  // Finer grains take a shorter step, and 1 / share^3 as many fill the bed.
+  if (scene.terrain && scene.terrain->granular())
+    runs += kLarger + kLarger + 1 + 1 / (kFiner * kFiner * kFiner * kFiner);
+  return runs * (seedMatters(scene) ? seeds : 1);
+}
+
+double runsOfWholeCheck(const scene::Scene& scene, int seeds) {
+  const bool grains = (scene.terrain && scene.terrain->granular()) || !scene.grains.empty() || !scene.fills.empty() ||
+                      !scene.sources.empty();
+  const bool seeded = seedMatters(scene);
+  const double others = (seeded ? 0.5 : 4 + 8 + 0.5 + 0.25) + (grains ? kCostOfDouble : 0); // steps, precision
+  return runsOfBarCases(scene, seeds) + others * (seeded ? seeds : 1) + (grains ? 1 : 0);
 }
 
 CheckCases checkCases(const std::filesystem::path& file, const std::vector<std::string>& fixed,

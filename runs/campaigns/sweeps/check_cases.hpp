@@ -56,6 +56,8 @@ CheckCases checkCases(const std::filesystem::path& file, const std::vector<std::
 
 /// About what a whole check of so many seeds costs, in runs of the scene [-]; loads nothing.
 double runsOfWholeCheck(const scene::Scene& scene, int seeds);
+/// The same of all cases that have a part in bars, which a check with --of runs with three seeds first.
+double runsOfBarCases(const scene::Scene& scene, int seeds);
 
 /// Whether run.seed makes a difference: random beds, fills, shifts of lattices, rough floors, sources.
 bool seedMatters(const scene::Scene& scene);

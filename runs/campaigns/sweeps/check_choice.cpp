@@ -20,7 +20,7 @@ int seedsOf(const CheckCases& cases, std::size_t c, int seeds) {
   return !cases.seeded || cases.cases[c].axis == CheckAxis::skin ? 1 : seeds;
 }
 
-/// What the runs taken so far cost.
+/// Sums the cost of the runs taken so far.
 class Spending {
 public:
   Spending(const CheckCases& cases, const RunCosts& costs)
@@ -73,6 +73,12 @@ CheckChoice chooseRuns(const CheckCases& cases, int seeds, std::optional<double>
   }
   choice.seeds = spent.taken(), choice.seconds = spent.seconds() / jobs;
   return choice;
+}
+
+double secondsOf(const CheckCases& cases, const RunCosts& costs, const std::vector<int>& seeds) {
+  Spending spent(cases, costs);
+  for (std::size_t c = 0; c < seeds.size(); ++c) spent.take(c, seeds[c]);
+  return spent.seconds();
 }
 
 nlohmann::json choiceJson(const CheckChoice& choice) {

@@ -54,11 +54,11 @@ StepError stepError(std::span<const double> values) {
   return error;
 }
 
-ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<const double> coarse) {
-  ScatteredStepError error{jobs::interval95(fine), std::nullopt, 0};
-  error.bar = 2 * (std::fabs(error.change.value) + error.change.halfWidth);
+ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<const double> coarse, double miss) {
+  ScatteredStepError error{jobs::interval(fine, miss), std::nullopt, 0};
+  error.bar = kStepUnseen * (std::fabs(error.change.value) + error.change.halfWidth);
   if (coarse.size() != fine.size() || std::fabs(error.change.value) <= error.change.halfWidth) return error;
-  const support::Estimate before = jobs::interval95(coarse);
+  const support::Estimate before = jobs::interval(coarse, miss);
   if (std::fabs(before.value) <= before.halfWidth) return error;
   const double f = error.change.value, c = before.value;
   error.order = orderOf(c, f);
@@ -67,7 +67,7 @@ ScatteredStepError scatteredStepError(std::span<const double> fine, std::span<co
   const double byFine = c * c / ((c - f) * (c - f)), byCoarse = -f * f / ((c - f) * (c - f));
   std::vector<double> linear;
   for (std::size_t i = 0; i < fine.size(); ++i) linear.push_back(byFine * fine[i] + byCoarse * coarse[i]);
-  error.change = {f * c / (c - f), jobs::interval95(linear).halfWidth};
+  error.change = {f * c / (c - f), jobs::interval(linear, miss).halfWidth};
   error.bar = std::fabs(error.change.value) + error.change.halfWidth;
   return error;
 }
@@ -85,13 +85,20 @@ double totalBar(double seedsHalfWidth, std::span<const double> bars) {
   return std::sqrt(squares);
 }
 
-int seedsFor(double bar, double halfWidth, int seeds) {
+int seedsFor(double bar, double halfWidth, int seeds, double miss) {
   if (seeds < 2 || !std::isfinite(halfWidth)) return 0;
-  const double deviation = halfWidth * std::sqrt(static_cast<double>(seeds)) / support::student95(seeds - 1);
+  const double deviation = halfWidth * std::sqrt(static_cast<double>(seeds)) / support::student(seeds - 1, miss);
   constexpr int kMost = 1000;
-  for (int n = 2; n <= kMost; ++n)
-    if (support::student95(n - 1) * deviation <= bar * std::sqrt(static_cast<double>(n))) return n;
-  return 0;
+  const auto isEnough = [&](int n) {
+    return support::student(n - 1, miss) * deviation <= bar * std::sqrt(static_cast<double>(n));
+  };
+  if (!isEnough(kMost)) return 0;
+  int low = 1, high = kMost; // too few, enough
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (isEnough(middle) ? high : low) = middle;
+  }
+  return high;
 }
 
 } // namespace grouser::sweeps

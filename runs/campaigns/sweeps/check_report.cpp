@@ -3,6 +3,7 @@
 
 #include "base/counted.hpp"
 #include "base/math.hpp"
+#include "runs/campaigns/sweeps/check_goals_text.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/jobs/study_place.hpp"
 #include "runs/support/build_info.hpp"
@@ -28,12 +29,6 @@ constexpr double kPercents[] = {10, 5, 1};
 constexpr int kMostTold = 24; // figures in a terminal
 
 Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-/// Of the numbers among them; NaN where there are none.
-double medianOf(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  return values.empty() ? base::kNaN : jobs::medianOf(std::move(values));
-}
 
 std::string bitsText(SameBits bits) {
   return bits == SameBits::yes ? "the same bits" : bits == SameBits::no ? "OTHER BITS" : "not run";
@@ -65,7 +60,7 @@ Json figureJson(const CheckFigure& f, const CheckResults& results) {
             {"seeds", f.seeds},       {"seeds_half_width", numberOf(f.value.halfWidth)}};
   if (results.seeded) {
     const double wanted = 0.01 * results.percent * std::fabs(f.value.value);
-    json["seeds_for_the_bar"] = seedsFor(wanted, f.value.halfWidth, f.seeds);
+    json["seeds_for_the_bar"] = seedsFor(wanted, f.value.halfWidth, f.seeds, results.levels.value);
   }
   json["errors"] = Json::array();
   for (const AxisError& e : f.errors) json["errors"].push_back(errorJson(e, f));
@@ -163,39 +158,6 @@ std::string lineOf(const CheckRecord& record, const CheckResults& results, const
 
 } // namespace
 
-std::vector<CaseCost> costsOf(const CheckRecord& record) {
-  struct Taken {
-    std::vector<double> wall, cpu, steps;
-  };
-  std::vector<Taken> taken(record.cases.cases.size());
-  for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
-    if (!output::hasEnded(record.outcomes[r].status)) continue;
-    const RunManifest manifest(record.folder / record.runs.plan.runs[r].name);
-    Taken& of = taken[record.runs.caseOf[r]];
-    of.wall.push_back(manifest.wallTime());
-    of.cpu.push_back(manifest.stepsOverTimed() * manifest.figure("cpu_steps_s"));
-    of.steps.push_back(manifest.number("steps"));
-  }
-  std::vector<CaseCost> costs;
-  for (const Taken& of : taken) costs.push_back({medianOf(of.wall), medianOf(of.cpu), medianOf(of.steps)});
-  return costs;
-}
-
-CaseStatus statusOf(const CheckRecord& record, std::size_t aCase) {
-  if (!record.cases.cases[aCase].refused.empty()) return {"refused", record.cases.cases[aCase].refused};
-  if (std::find(record.beyondBudget.begin(), record.beyondBudget.end(), aCase) != record.beyondBudget.end())
-    return {"left out", "beyond the budget"};
-  CaseStatus status{"not begun", ""};
-  for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
-    if (record.runs.caseOf[r] != aCase) continue;
-    const SweepOutcome& outcome = record.outcomes[r];
-    if (outcome.status == RunStatus::failed) return {"failed", outcome.message};
-    if (outcome.status == RunStatus::incomplete) return {"incomplete", outcome.message};
-    if (outcome.status == RunStatus::finished) status.word = "finished";
-  }
-  return status;
-}
-
 Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const CheckFigure& figure, double percent) {
   Cheapest best;
   const double value = std::fabs(figure.value.value), most = 0.01 * percent * value;
@@ -205,8 +167,9 @@ Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const 
     const double bar = figure.barOfStep[i];
     if (!(bar < most)) continue;
     // What the step leaves of the bar is for the seeds.
-    const int seeds =
-        results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth, figure.seeds) : 1;
+    const int seeds = results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth,
+                                                figure.seeds, results.levels.value)
+                                     : 1;
     const double wall = record.costs[results.stepCases[i]].wall * seeds;
     if (seeds > 0 && wall < best.wall) best = {record.cases.cases[results.stepCases[i]].name, bar / value, seeds, wall};
   }
@@ -221,6 +184,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
             {"bar_percent", results.percent},
             {"skin", bitsText(results.skin)}};
   if (!results.doubt.empty()) json["inconclusive"] = results.doubt;
+  if (!record.looks.seeds.empty()) json["looks"] = record.looks.seeds, json["of"] = goalsJson(record);
   json["cases"] = Json::array();
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) json["cases"].push_back(caseJson(record, c));
   json["not_asked"] = Json::array();
@@ -296,7 +260,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     text += results.seeded ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);
-  text += "\nruns\n";
+  text += goalsText(record, results.percent) + "\nruns\n";
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
     const CaseCost& cost = record.costs[c];
     const CaseStatus status = statusOf(record, c);

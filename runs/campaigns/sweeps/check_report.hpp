@@ -1,41 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/campaigns/sweeps/check_results.hpp"
+#include "runs/campaigns/sweeps/check_record.hpp"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 /// What a check leaves: as text, as files, and as a page.
 namespace grouser::sweeps {
-
-/// What the runs of one case took: medians of those that ended; NaN where none has.
-struct CaseCost {
-  double wall = 0, cpu = 0; ///< [s] a run, preparation included; in steps alone, all threads together
-  double steps = 0;
-};
-
-/// All that a report tells of, but for the results themselves.
-struct CheckRecord {
-  std::filesystem::path folder; ///< of the check
-  CheckCases cases;
-  CheckRuns runs;
-  std::vector<SweepOutcome> outcomes;
-  std::vector<CaseCost> costs;           ///< [cases] see costsOf()
-  std::vector<std::size_t> beyondBudget; ///< cases that the budget left out
-  std::string scene, origin;             ///< its file; hash of what decides its results
-};
-
-/// [cases] from the manifests of the runs.
-std::vector<CaseCost> costsOf(const CheckRecord& record);
-
-/// "finished", "incomplete", "failed", "refused", "left out", "not begun", with the message behind it where there is
-/// one.
-struct CaseStatus {
-  std::string word, message;
-};
-CaseStatus statusOf(const CheckRecord& record, std::size_t aCase);
 
 /// Of a figure the cheapest step, with so many seeds, that keeps its error by both within `percent` of its value.
 struct Cheapest {

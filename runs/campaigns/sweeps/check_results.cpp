@@ -92,14 +92,14 @@ jobs::Verdict verdictOf(const CheckFigure& figure, const AxisError& error, doubl
 /// Makes one figure of the values of all cases.
 class FigureMaker {
 public:
-  FigureMaker(const CheckCases& cases, const Values& values, double percent)
-      : cases_(cases), values_(values), bar_(0.01 * percent) {}
+  FigureMaker(const CheckCases& cases, const Values& values, const CheckResults& asked)
+      : cases_(cases), values_(values), asked_(asked) {}
 
-  CheckFigure make(const std::string& name, const std::vector<std::size_t>& stepCases) {
+  CheckFigure make(const std::string& name) {
     figure_.name = name;
     const std::vector<double> base = values_.of(0);
     figure_.seeds = static_cast<int>(base.size());
-    figure_.value = cases_.seeded ? jobs::interval95(base) : support::Estimate{base.front(), 0};
+    figure_.value = cases_.seeded ? jobs::interval(base, asked_.levels.value) : support::Estimate{base.front(), 0};
     cases_.seeded ? addScatteredStep() : addStep();
     for (std::size_t c = 1; c < cases_.cases.size(); ++c) addOther(c);
     std::vector<double> parts;
@@ -110,13 +110,13 @@ public:
     }
     const bool known = hasStep || cases_.seeded;
     figure_.bar = known ? totalBar(figure_.value.halfWidth, parts) : std::numeric_limits<double>::infinity();
-    for (const std::size_t c : stepCases) figure_.barOfStep.push_back(barOfStep(c));
+    for (const std::size_t c : asked_.stepCases) figure_.barOfStep.push_back(barOfStep(c));
     return figure_;
   }
 
 private:
   void add(AxisError error) {
-    error.verdict = verdictOf(figure_, error, bar_, cases_.seeded);
+    error.verdict = verdictOf(figure_, error, 0.01 * asked_.percent, cases_.seeded);
     figure_.errors.push_back(error);
   }
 
@@ -150,9 +150,9 @@ private:
     const auto fine = stepCase(cases_, 1), coarse = stepCase(cases_, -1);
     const std::vector<double> both = coarse ? changes(0, *fine, coarse) : std::vector<double>{};
     seeds = changes(0, *fine, std::nullopt).size();
-    if (both.size() < 2) return scatteredStepError(changes(0, *fine, std::nullopt), {});
+    if (both.size() < 2) return scatteredStepError(changes(0, *fine, std::nullopt), {}, asked_.levels.change);
     seeds = both.size();
-    return scatteredStepError(both, changes(*coarse, 0, fine));
+    return scatteredStepError(both, changes(*coarse, 0, fine), asked_.levels.change);
   }
 
   void addScatteredStep() {
@@ -168,13 +168,18 @@ private:
     if (axis == CheckAxis::step || axis == CheckAxis::skin) return;
     const std::vector<double> change = changes(0, c, std::nullopt);
     if (change.empty()) return;
-    const support::Estimate changed = cases_.seeded ? jobs::interval95(change) : support::Estimate{change.front(), 0};
+    const support::Estimate changed = over(change);
     add({axis,
          changed,
          std::nullopt,
          static_cast<int>(change.size()),
          std::fabs(changed.value) + changed.halfWidth,
          {}});
+  }
+
+  /// A change and its interval over the seeds.
+  support::Estimate over(const std::vector<double>& change) const {
+    return cases_.seeded ? jobs::interval(change, asked_.levels.change) : support::Estimate{change.front(), 0};
   }
 
   /// Error bar of the figure at the step of case c, all else as in the base.
@@ -192,14 +197,14 @@ private:
     // What lies between this case and the base is added to the base's error, or taken off.
     const std::vector<double> change = changes(c, 0, std::nullopt);
     if (change.empty()) return base::kNaN;
-    const support::Estimate apart = jobs::interval95(change);
+    const support::Estimate apart = over(change);
     if (!base.order) return (refinement > 0 ? 1 : 2) * (std::fabs(apart.value) + apart.halfWidth);
     return std::fabs(base.change.value + apart.value) + base.change.halfWidth + apart.halfWidth;
   }
 
   const CheckCases& cases_;
   const Values& values_;
-  double bar_;
+  const CheckResults& asked_; // percent, levels and stepCases
   CheckFigure figure_;
 };
 
@@ -266,10 +271,15 @@ std::vector<std::vector<std::size_t>> RunsByCase::sharing(const std::vector<std:
   return rows;
 }
 
+CheckFigure checkFigure(const CheckCases& cases, const RunsByCase& runs, const SweepFigures& figures,
+                        std::size_t column, const CheckResults& asked) {
+  return FigureMaker(cases, Values(runs, figures, column), asked).make(figures.columns[column]);
+}
+
 CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
-                          const std::filesystem::path& folder, double percent) {
+                          const std::filesystem::path& folder, double percent, const SeedLevels& levels) {
   CheckResults results;
-  results.seeded = cases.seeded, results.percent = percent;
+  results.seeded = cases.seeded, results.percent = percent, results.levels = levels;
   const RunsByCase byCase(runs, cases.cases.size());
   results.skin = sameBits(cases, byCase, runs, outcomes, folder);
   const bool hasVehicle = !runs.plan.runs.empty() && runs.plan.runs.front().scene.vehicle.has_value();
@@ -282,9 +292,8 @@ CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const 
     if (finished && (axis == CheckAxis::step || axis == CheckAxis::base)) results.stepCases.push_back(c);
   }
   for (std::size_t column = 0; column < figures.columns.size(); ++column) {
-    const Values values(byCase, figures, column);
-    if (values.of(0).empty()) continue;
-    results.figures.push_back(FigureMaker(cases, values, percent).make(figures.columns[column], results.stepCases));
+    if (Values(byCase, figures, column).of(0).empty()) continue;
+    results.figures.push_back(checkFigure(cases, byCase, figures, column, results));
   }
   findScales(results.figures);
   return results;

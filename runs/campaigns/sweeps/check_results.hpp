@@ -71,6 +71,7 @@ enum class SameBits { yes, no, notRun };
 struct CheckResults {
   bool seeded = false;
   double percent = 5; ///< of a figure's mean: the bar of the verdicts
+  SeedLevels levels;  ///< of all intervals
   std::vector<CheckFigure> figures;
   std::vector<std::size_t> stepCases; ///< those of barOfStep: finished cases of the step axis and the base
   SameBits skin = SameBits::notRun;
@@ -79,6 +80,9 @@ struct CheckResults {
 
 /// `folder`: that of the runs' folders. A figure is kept where a base run has it.
 CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
-                          const std::filesystem::path& folder, double percent);
+                          const std::filesystem::path& folder, double percent, const SeedLevels& levels = {});
+/// One figure of it, but for its scale: a column that a run of the base has.
+CheckFigure checkFigure(const CheckCases& cases, const RunsByCase& runs, const SweepFigures& figures,
+                        std::size_t column, const CheckResults& asked);
 
 } // namespace grouser::sweeps

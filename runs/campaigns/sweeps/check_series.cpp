@@ -41,15 +41,15 @@ bool sameTimes(const RunSeries& a, const RunSeries& b) {
 }
 
 /// Mean and half width; of runs that repeat the one value.
-support::Estimate estimateOf(const std::vector<double>& values, bool seeded) {
+support::Estimate estimateOf(const std::vector<double>& values, bool seeded, double miss) {
   if (values.empty()) return {base::kNaN, base::kNaN};
-  return seeded ? jobs::interval95(values) : support::Estimate{values.front(), 0};
+  return seeded ? jobs::interval(values, miss) : support::Estimate{values.front(), 0};
 }
 
 /// Numbers of one column in one row, by refinement and seed.
 using Cell = std::map<int, std::map<std::int64_t, double>>;
 
-double stepBar(const Cell& cell, bool seeded) {
+double stepBar(const Cell& cell, bool seeded, double miss) {
   const auto base = cell.find(0);
   if (base == cell.end()) return base::kNaN;
   if (!seeded) {
@@ -64,7 +64,7 @@ double stepBar(const Cell& cell, bool seeded) {
   for (const auto& [seed, value] : base->second)
     if (const auto other = fine->second.find(seed); other != fine->second.end())
       changes.push_back(other->second - value);
-  return changes.empty() ? base::kNaN : scatteredStepError(changes, {}).bar;
+  return changes.empty() ? base::kNaN : scatteredStepError(changes, {}, miss).bar;
 }
 
 /// One column of the members that have it.
@@ -91,7 +91,8 @@ bool hasPartInSeries(const CheckCase& aCase) {
   return aCase.axis == CheckAxis::base || (aCase.axis == CheckAxis::step && aCase.refinement > 0);
 }
 
-CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes) {
+CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                        const SeedLevels& levels) {
   std::vector<Member> members = membersOf(cases, runs, outcomes);
   CheckSeries all;
   const auto base = std::find_if(members.begin(), members.end(), [](const Member& m) { return m.refinement == 0; });
@@ -109,8 +110,9 @@ CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const st
       std::vector<double> values;
       if (const auto at = cell.find(0); at != cell.end())
         for (const auto& [seed, value] : at->second) values.push_back(value);
-      const support::Estimate e = estimateOf(values, cases.seeded);
-      s.value.push_back(e.value), s.seeds.push_back(e.halfWidth), s.step.push_back(stepBar(cell, cases.seeded));
+      const support::Estimate e = estimateOf(values, cases.seeded, levels.value);
+      s.value.push_back(e.value), s.seeds.push_back(e.halfWidth),
+          s.step.push_back(stepBar(cell, cases.seeded, levels.change));
       s.both.push_back(std::hypot(s.seeds.back(), s.step.back()));
     }
   }

@@ -25,8 +25,9 @@ struct CheckSeries {
 bool hasPartInSeries(const CheckCase& aCase);
 
 /// Of the base's runs; a number that is not known is NaN. Series that the finer runs have not, or at other times, have
-/// no error by the step.
-CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes);
+/// no error by the step. `levels`: of the intervals over seeds.
+CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
+                        const SeedLevels& levels = {});
 
 /// As text: time, and for each series its value and the three half widths.
 std::string seriesCsv(const CheckSeries& series);

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/campaigns/sweeps/check_cases.hpp"
+#include "runs/campaigns/sweeps/check_choice.hpp"
 #include "runs/campaigns/sweeps/check_report.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/runner.hpp"
@@ -123,9 +124,14 @@ std::string checkNote(const scene::Scene& scene, const std::string& inputs, doub
   } catch (const nlohmann::json::exception&) {
     // damaged, or of another version
   }
-  return fmt::format("unchecked errors of step, extent and seed: {}, about {} (--budget 20min: as much as fits)\n",
-                     commandOf(scene),
-                     support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck)));
+  const std::string whole = support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck));
+  if (scene.vehicle && seedMatters(scene))
+    return fmt::format("no error bars yet; run: {} --bar 20% --of sinkage,torque (from {} on; all figures without "
+                       "--of: about {}; --budget 20min: as much as fits)\n",
+                       commandOf(scene), support::Progress::duration(runSeconds * runsOfBarCases(scene, kFewSeeds)),
+                       whole);
+  return fmt::format("no error bars yet; run: {} (about {}; --budget 20min: as much as fits)\n", commandOf(scene),
+                     whole);
 }
 
 std::string keptCheckText(const scene::Scene& scene, const std::string& inputs) {

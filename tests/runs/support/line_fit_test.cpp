@@ -52,6 +52,18 @@ TEST(LineFit, WhereThereIsNoLine) {
   EXPECT_EQ(two.slopeText(), "-");
 }
 
+TEST(LineFit, StudentsQuantilesAreThoseOfTheTables) {
+  // M. Abramowitz and I. Stegun, Handbook of Mathematical Functions (1964), table 26.10, and tan of the first.
+  EXPECT_NEAR(student(1, 0.01), 63.657, 5e-4);
+  EXPECT_NEAR(student(2, 0.01), 9.925, 5e-4);
+  EXPECT_NEAR(student(3, 0.02), 4.541, 5e-4);
+  EXPECT_NEAR(student(5, 0.01), 4.032, 5e-4);
+  EXPECT_NEAR(student(11, 0.02), 2.718, 5e-4);
+  EXPECT_NEAR(student(24, 0.01), 2.797, 5e-4);
+  EXPECT_NEAR(student(120, 0.1), 1.658, 5e-4);
+  for (const int freedom : {1, 2, 7, 16}) EXPECT_NEAR(student(freedom, 0.05 + 1e-12), student95(freedom), 1e-3);
+}
+
 TEST(LineFit, IntervalsHoldTheTruthNineteenTimesOfTwenty) {
   int slopes = 0, intercepts = 0;
   constexpr int kTrials = 2000;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/sweeps/check_goals_text.hpp"
+
+#include "base/counted.hpp"
+#include "runs/support/progress.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::sweeps {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* wordOf(GoalState state) {
+  switch (state) {
+  case GoalState::met:
+    return "met";
+  case GoalState::open:
+    return "not met";
+  case GoalState::beyond:
+    return "not met: beyond --seeds";
+  case GoalState::limited:
+    return "not met: limited by axes";
+  default:
+    return "unknown";
+  }
+}
+
+std::string nameOf(const BarPart& part) {
+  return part.axis == CheckAxis::base ? "seeds" : std::string(base::wordOf(part.axis));
+}
+
+/// Seeds of each case so far.
+std::vector<int> seedsSoFar(const CheckRecord& record) {
+  std::vector<int> seeds(record.cases.cases.size(), 0);
+  for (const std::size_t c : record.runs.caseOf) ++seeds[c];
+  return seeds;
+}
+
+/// "about 36 more runs, 40 min".
+std::string moreText(const CheckRecord& record, const std::vector<int>& toReach) {
+  const std::vector<int> taken = seedsSoFar(record);
+  int runs = 0;
+  double seconds = 0;
+  for (std::size_t c = 0; c < toReach.size(); ++c) {
+    runs += toReach[c] - taken[c];
+    if (std::isfinite(record.costs[c].wall)) seconds += record.costs[c].wall * (toReach[c] - taken[c]) / record.jobs;
+  }
+  if (runs == 0) return "not even 1000 seeds are likely to reach it";
+  return fmt::format("about {} more {} would reach it ({}, up to {} seeds)", runs, runs == 1 ? "run" : "runs",
+                     support::Progress::duration(seconds), *std::max_element(toReach.begin(), toReach.end()));
+}
+
+/// Next step of the user, for a bar that is not met.
+std::string remedy(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
+  const BarPart& worst = *goal.largest();
+  if (goal.state == GoalState::limited)
+    return fmt::format("more seeds do not help: {} changes it by {:+.3g}", nameOf(worst), worst.change);
+  if (!record.isWhole) return "the same call again goes on";
+  if (!record.cases.seeded) return "a finer step than those run would be needed";
+  return moreText(record, toReach);
+}
+
+std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
+  if (goal.state == GoalState::unknown) return fmt::format("  {:<24} no sound value\n", goal.figure);
+  const auto share = [&](double bar) {
+    const double percent = 100 * bar / std::fabs(goal.value);
+    return !std::isfinite(percent) ? "?"
+           : percent >= 10         ? fmt::format("{:.0f}", percent)
+                                   : fmt::format("{:.2g}", percent);
+  };
+  std::string text = fmt::format("  {:<24} {:>28}  {:>5} %  {}", goal.figure, jobs::valueText({goal.value, goal.bar}),
+                                 share(goal.bar), wordOf(goal.state));
+  const BarPart* worst = goal.largest();
+  if (goal.state != GoalState::met && worst)
+    text +=
+        fmt::format("; largest part: {} {} %; {}", nameOf(*worst), share(worst->bar), remedy(record, goal, toReach));
+  return text + "\n";
+}
+
+/// Cases that should have a part in the bars, and have none: "floor (failed), depth (beyond the budget)".
+std::string missingText(const CheckRecord& record) {
+  std::vector<std::string> missing;
+  for (std::size_t c = 1; c < record.cases.cases.size(); ++c) {
+    const CaseStatus status = statusOf(record, c);
+    if (status.word == "refused" || status.word == "failed" || status.word == "left out")
+      missing.push_back(
+          fmt::format("{} ({})", record.cases.cases[c].name, status.word == "left out" ? status.message : status.word));
+  }
+  return missing.empty() ? "" : fmt::format("  not in these bars: {}\n", fmt::join(missing, ", "));
+}
+
+} // namespace
+
+nlohmann::ordered_json goalsJson(const CheckRecord& record) {
+  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  Json all = Json::array();
+  for (std::size_t g = 0; g < record.goals.size(); ++g) {
+    const Goal& goal = record.goals[g];
+    Json json{{"figure", goal.figure},
+              {"wanted", number(goal.wanted)},
+              {"bar", number(goal.bar)},
+              {"met", goal.state == GoalState::met},
+              {"state", wordOf(goal.state)}};
+    json["parts"] = Json::array();
+    for (const BarPart& part : goal.parts)
+      json["parts"].push_back({{"part", nameOf(part)}, {"bar", number(part.bar)}, {"seeds", part.seeds}});
+    json["seeds_to_reach"] = Json::object();
+    for (std::size_t c = 0; c < record.toReach[g].size(); ++c)
+      json["seeds_to_reach"][record.cases.cases[c].name] = record.toReach[g][c];
+    all.push_back(json);
+  }
+  return all;
+}
+
+std::string goalsText(const CheckRecord& record, double percent) {
+  if (record.looks.seeds.empty()) return "";
+  std::string text =
+      fmt::format("\nbars of --of at {:g} %, {}", percent, base::counted(record.runs.caseOf.size(), "run"));
+  if (record.cases.seeded) text += fmt::format(", intervals read at {} seeds", fmt::join(record.looks.seeds, ", "));
+  text += "\n";
+  if (record.goals.empty()) text += "  the first runs have not all ended; the same call again goes on\n";
+  for (std::size_t g = 0; g < record.goals.size(); ++g) text += lineOf(record, record.goals[g], record.toReach[g]);
+  return text + missingText(record);
+}
+
+} // namespace grouser::sweeps
