@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// What runs slower than it could, by name: the reason why that is left so. A kernel costs compile time.
 const std::map<std::string, std::string> kExceptions = {};
 
-/// Names of what has no kernel of its own, or no SIMD on a CPU; behind each the choice in words.
+/// Names of what takes a general kernel, or no SIMD on a CPU; behind each the choice in words.
 using Slow = std::map<std::string, std::string>;
 
 void addSlow(Slow& slow, const std::string& name, const scene::Scene& scene) {
@@ -36,7 +36,7 @@ void addSlow(Slow& slow, const std::string& name, const scene::Scene& scene) {
     const terrain::KernelChoice step = terrain::stepKernel(features, traits.model);
     const std::string text = terrain::stepKernelText(features, traits.model);
     if (step.general()) slow.emplace(name + ": kernel of the grains", text);
-    if (step.noSimd) slow.emplace(name + ": SIMD", text);
+    if (step.noSimd || step.simdGeneral()) slow.emplace(name + ": SIMD", text);
   }
   if (traits.features & terrain::kBoundaries && terrain::boundaryKernel(traits.features, traits.model).general())
     slow.emplace(name + ": kernel of walls and floor", terrain::boundaryKernelText(traits.features, traits.model));
