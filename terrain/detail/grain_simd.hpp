@@ -13,6 +13,14 @@
 
 namespace grouser::terrain::detail {
 
+namespace {
+
+constexpr int kUsual = 6; ///< contacts of a grain
+/// kUsual masks from place kUsual - n on: n that are set, then none.
+constexpr std::int32_t kThere[2 * kUsual] = {-1, -1, -1, -1, -1, -1};
+
+} // namespace
+
 /// The step of grains k in [first, last) of a launch, kWidth contacts side by side. It takes the grains in blocks whose
 /// contacts fit into the processor's first cache, and each block in five sweeps:
 ///
@@ -85,7 +93,6 @@ private:
                    contact::kCohesion | contact::kManyMasses | contact::kPlastic);
   static_assert(kGrains == Advance::kGrains);
   static constexpr unsigned kAll = (1u << kWidth) - 1;
-  static constexpr int kUsual = 6; ///< contacts of a grain
 
   /// The rows of each contact: what tells the two grains apart. Where things lie is taken once: for all the compiler
   /// knows, rows that are stored could change it.
@@ -310,9 +317,11 @@ private:
     Sum all;
     const int first = begin_[g], n = begin_[g + 1] - first;
     // Without a branch for the most frequent numbers, which the processor would often foretell wrongly: to add zero
-    // changes no sum that began with one.
+    // changes no sum that began with one. Masks come from memory, since the compiler turns comparisons into masked
+    // loads, which wait until the rows just stored have left the processor.
+    const std::int32_t* const there = kThere + (n < kUsual ? kUsual - n : 0);
 #pragma GCC unroll 6
-    for (int k = 0; k < kUsual; ++k) add(first + k, Int4{} + n > k, all);
+    for (int k = 0; k < kUsual; ++k) add(first + k, Int4{} + there[k], all);
     for (int k = kUsual; k < n; ++k) add(first + k, ~Int4{}, all);
     Float4 force = all.force, torque = all.torque;
     const float damped = force[3];
