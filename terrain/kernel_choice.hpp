@@ -13,7 +13,7 @@ struct KernelChoice {
   unsigned compiledFor = contact::kGeneral;
   int lanes = 1;                ///< contacts that this machine's CPU computes side by side; 1: the scalar kernel
   const char* noSimd = nullptr; ///< why no CPU computes them side by side; null: it does where it has lanes
-  unsigned simdFor = contact::kGeneral; ///< the same of the kernel in SIMD; those of walls have no general one
+  unsigned simdFor = contact::kGeneral; ///< features that the SIMD kernel was compiled for; walls have no general one
 
   bool general() const { return compiledFor == contact::kGeneral; }
   bool simdGeneral() const { return simdFor == contact::kGeneral; }

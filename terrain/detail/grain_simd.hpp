@@ -152,12 +152,12 @@ private:
     Float ownMass, ownRadius, otherRadius; ///< where they differ
     Float otherMass;
   };
-  /// Two materials in touch.
+  /// Law and densities of two materials in touch.
   struct Materials {
     const contact::BasicLaw<float>& law;
     float ownPerCube, otherPerCube; ///< mass over radius^3 [kg/m3]
   };
-  /// Those that the first of the lanes `left` has, and which lanes have them (`taken`).
+  /// Materials of the first lane in `left`; `taken`: all lanes that have the same.
   GROUSER_SIMD Materials materialsOf(const Float& pairs, unsigned left, const ForceData<float>& f, Int& taken) const {
     taken = ~Int{};
     if (!has(kManyMaterials)) return {f.law, f.massPerCube, f.massPerCube};
@@ -204,8 +204,8 @@ private:
     base::storeRows(rows, in);
   }
 
-  /// GrainStep::touchNeighbour() of the contacts from c on. Rows of forces and torques replace those of motion. Only of
-  /// those lanes that have the materials of the first one `left`; returns them, a bit each.
+  /// GrainStep::touchNeighbour() of the contacts from c on. Rows of forces and torques replace those of motion, in
+  /// those lanes that have the materials of the first one in `left`; returns these lanes, a bit each.
   GROUSER_SIMD unsigned computeContacts(int c, unsigned left, const ForceData<float>& f) {
     Float rows[4], relative[4], turning[4], theirs[4], spring[4];
     base::loadRows(apart_ + c, rows);
@@ -305,7 +305,7 @@ private:
     }
     sum.most = turning > sum.most ? turning : sum.most;
   }
-  /// Of a grain that never moves.
+  /// Copies the state of a grain that never moves.
   GROUSER_SIMD void keep(int i) {
     if (data_.features & kLoads && data_.loads.range[i] != 0) return letStay(data_, forces_, i, books_);
     data_.nextPosition[i] = data_.position[i], data_.nextMotion[i] = data_.motion[i];
