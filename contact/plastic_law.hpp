@@ -147,7 +147,7 @@ template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasti
 }
 
 /// State after the first loading to this overlap, and what yields since the steep line of `before` met the elastic law
-/// [J]. `steepBefore`, `steep`: steepness() before and after. With SIMD numbers too.
+/// [J]. `steepBefore`, `steepNow`: steepness() before and after. With SIMD numbers too.
 template <class T> struct Loading {
   BasicPlasticState<T> state;
   T yielded;
@@ -155,10 +155,10 @@ template <class T> struct Loading {
 
 template <class T> GROUSER_HD Loading<T> firstLoading(const BasicPlasticity<base::ScalarOf<T>>& p,
                                                       const BasicElasticSpring<T>& spring, T overlap, T elastic,
-                                                      T steepBefore, T steep, const BasicPlasticState<T>& before) {
+                                                      T steepBefore, T steepNow, const BasicPlasticState<T>& before) {
   using Scalar = base::ScalarOf<T>;
   if (p.fullDepth <= 0) return {{overlap, p.share * elastic}, yieldedSince(p, spring, overlap, elastic, before.origin)};
-  const T from = before.deepest, lost = Scalar(1) - Scalar(1) / steep;
+  const T from = before.deepest, lost = Scalar(1) - Scalar(1) / steepNow;
   return {{overlap, lost * elastic},
           Scalar(0.5) * (elastic * overlap * lost - spring.force(from) * from * (Scalar(1) - Scalar(1) / steepBefore))};
 }

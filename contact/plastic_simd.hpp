@@ -31,7 +31,7 @@ GROUSER_SIMD BasicPlasticForce<T> plasticForce(const BasicPlasticity<base::Scala
     state.origin = loads ? loaded.state.origin : before.origin;
   }
   T pull{};
-  auto turned = zero > zero;
+  std::remove_cvref_t<decltype(loads)> turned{};
   if (luding) {
     pull = detail::ludingPull(p, elastic, steep, state.origin);
   } else {

@@ -13,14 +13,6 @@
 
 namespace grouser::terrain::detail {
 
-namespace {
-
-constexpr int kUsual = 6; ///< contacts of a grain
-/// kUsual masks from place kUsual - n on: n that are set, then none.
-constexpr std::int32_t kThere[2 * kUsual] = {-1, -1, -1, -1, -1, -1};
-
-} // namespace
-
 /// The step of grains k in [first, last) of a launch, kWidth contacts side by side. It takes the grains in blocks whose
 /// contacts fit into the processor's first cache, and each block in five sweeps:
 ///
@@ -92,6 +84,7 @@ private:
       kFeatures & (contact::kGeneral | contact::kHertz | contact::kFriction | contact::kRollingFriction |
                    contact::kCohesion | contact::kManyMasses | contact::kPlastic);
   static_assert(kGrains == Advance::kGrains);
+  static constexpr int kUsual = 6; ///< contacts of a grain
   static constexpr unsigned kAll = (1u << kWidth) - 1;
 
   /// The rows of each contact: what tells the two grains apart. Where things lie is taken once: for all the compiler
@@ -319,7 +312,7 @@ private:
     // Without a branch for the most frequent numbers, which the processor would often foretell wrongly: to add zero
     // changes no sum that began with one. Masks come from memory, since the compiler turns comparisons into masked
     // loads, which wait until the rows just stored have left the processor.
-    const std::int32_t* const there = kThere + (n < kUsual ? kUsual - n : 0);
+    const std::int32_t* const there = there_ + (n < kUsual ? kUsual - n : 0);
 #pragma GCC unroll 6
     for (int k = 0; k < kUsual; ++k) add(first + k, Int4{} + there[k], all);
     for (int k = kUsual; k < n; ++k) add(first + k, ~Int4{}, all);
@@ -372,6 +365,8 @@ private:
 
   const ForceData<float>& forces_;
   GrainBooks books_; ///< of what is rare
+  /// kUsual masks from place kUsual - n on: n that are set, then none.
+  const std::int32_t there_[2 * kUsual] = {-1, -1, -1, -1, -1, -1};
   Advance advance_;
   alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows],
       dent_[kRows]; ///< plastic state, what yields, what is slipped
