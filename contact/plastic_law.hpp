@@ -79,12 +79,14 @@ template <class T> struct BasicPlasticForce {
 
 namespace detail {
 
-/// k2 / k1 after a greatest overlap.
-template <class T> GROUSER_HD T steepness(const BasicPlasticity<T>& p, T deepest, T radius) {
-  const T most = T(1) / (T(1) - p.share);
-  if (p.fullDepth <= 0) return most;
+/// k2 / k1 after a greatest overlap. With SIMD numbers, of as many contacts, as all below that say so.
+template <class T> GROUSER_HD T steepness(const BasicPlasticity<base::ScalarOf<T>>& p, T deepest, T radius) {
+  using Scalar = base::ScalarOf<T>;
+  const Scalar most = Scalar(1) / (Scalar(1) - p.share);
+  const T one = base::broadcast<T>(1);
+  if (p.fullDepth <= 0) return base::broadcast<T>(most);
   const T part = deepest / (p.fullDepth * radius);
-  return T(1) + (most - T(1)) * (part < T(1) ? part : T(1));
+  return Scalar(1) + (most - Scalar(1)) * (part < one ? part : one);
 }
 
 /// EEPA: what yields on the first loading to this overlap [J], from where the steep line of `origin` meets the elastic
@@ -108,13 +110,18 @@ template <class T> struct PullOff {
 
 /// `perRoot`: pullPerRoot(), > 0. With SIMD numbers, of as many contacts.
 template <class T> GROUSER_HD PullOff<T> pullOff(const BasicPlasticity<base::ScalarOf<T>>& p,
-                                                 const BasicElasticSpring<T>& spring, base::ScalarOf<T> steep,
-                                                 T perRoot, T deepest) {
+                                                 const BasicElasticSpring<T>& spring, T steep, T perRoot, T deepest) {
   const T origin = p.share * spring.force(deepest); // before any pull
   const T half = base::ScalarOf<T>(0.5) * steep * origin;
   const T pull = perRoot * base::squareRoot(deepest * spring.effectiveRadius);
   const T most = pull < half ? pull : half;
   return {most, origin - most / steep};
+}
+
+/// Luding: k_c x where the steep line is above it, else where they meet [N]. With SIMD numbers too.
+template <class T> GROUSER_HD T ludingPull(const BasicPlasticity<base::ScalarOf<T>>& p, T elastic, T steep, T origin) {
+  const T most = steep * origin / (steep + p.adhesion);
+  return p.adhesion * (elastic < most ? elastic : most);
 }
 
 /// The adhesive branch of a contact at an overlap.
@@ -126,10 +133,7 @@ template <class T> struct AdhesiveBranch {
 template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasticity<T>& p,
                                                                const BasicElasticSpring<T>& spring, T elastic, T steep,
                                                                const BasicPlasticState<T>& state) {
-  if (p.fullDepth > 0) { // Luding: k_c x
-    const T most = steep * state.origin / (steep + p.adhesion);
-    return {p.adhesion * (elastic < most ? elastic : most), T(1)};
-  }
+  if (p.fullDepth > 0) return {ludingPull(p, elastic, steep, state.origin), T(1)};
   const T perRoot = pullPerRoot(p, spring.effectiveRadius);
   if (perRoot <= 0) return {T(0), T(1)};
   const auto [most, turn] = pullOff(p, spring, steep, perRoot, state.deepest);
@@ -142,16 +146,21 @@ template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasti
   return {most * share, T(p.exponent) / T(spring.hertz ? 3 : 2)};
 }
 
-/// First loading: from where the steep line meets the elastic law to this overlap.
-template <class T> GROUSER_HD T yieldedByLoading(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring,
-                                                 T overlap, T elastic, T steepBefore,
-                                                 const BasicPlasticState<T>& before) {
-  if (p.fullDepth > 0) {
-    const T steep = steepness(p, overlap, spring.effectiveRadius), from = before.deepest;
-    return T(0.5) *
-           (elastic * overlap * (T(1) - T(1) / steep) - spring.force(from) * from * (T(1) - T(1) / steepBefore));
-  }
-  return yieldedSince(p, spring, overlap, elastic, before.origin);
+/// State after the first loading to this overlap, and what yields since the steep line of `before` met the elastic law
+/// [J]. `steepBefore`, `steepNow`: steepness() before and after. With SIMD numbers too.
+template <class T> struct Loading {
+  BasicPlasticState<T> state;
+  T yielded;
+};
+
+template <class T> GROUSER_HD Loading<T> firstLoading(const BasicPlasticity<base::ScalarOf<T>>& p,
+                                                      const BasicElasticSpring<T>& spring, T overlap, T elastic,
+                                                      T steepBefore, T steepNow, const BasicPlasticState<T>& before) {
+  using Scalar = base::ScalarOf<T>;
+  if (p.fullDepth <= 0) return {{overlap, p.share * elastic}, yieldedSince(p, spring, overlap, elastic, before.origin)};
+  const T from = before.deepest, lost = Scalar(1) - Scalar(1) / steepNow;
+  return {{overlap, lost * elastic},
+          Scalar(0.5) * (elastic * overlap * lost - spring.force(from) * from * (Scalar(1) - Scalar(1) / steepBefore))};
 }
 
 /// Luding: the greatest overlap from which a contact comes to -k_c x at this one.
@@ -183,12 +192,10 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
   const BasicPlasticState<T> before = state;
   const T steep = detail::steepness(p, before.deepest, radius), line = steep * (elastic - before.origin);
   if (line >= elastic) {
-    const T yielded = detail::yieldedByLoading(p, spring, overlap, elastic, steep, before);
-    state.deepest = overlap;
-    state.origin =
-        p.fullDepth > 0 ? (T(1) - T(1) / detail::steepness(p, overlap, radius)) * elastic : p.share * elastic;
     const T steepNow = detail::steepness(p, overlap, radius);
-    return {elastic, detail::adhesiveBranch(p, spring, elastic, steepNow, state).pull, yielded};
+    const detail::Loading<T> loaded = detail::firstLoading(p, spring, overlap, elastic, steep, steepNow, before);
+    state = loaded.state;
+    return {elastic, detail::adhesiveBranch(p, spring, elastic, steepNow, state).pull, loaded.yielded};
   }
   const detail::AdhesiveBranch<T> branch = detail::adhesiveBranch(p, spring, elastic, steep, before);
   if (line >= -branch.pull) return {line, branch.pull, T(0)};

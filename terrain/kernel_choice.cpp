@@ -32,35 +32,13 @@ int processorLanes([[maybe_unused]] int most) {
   return 1;
 }
 
-/// Why there are no lanes for what is known at compile time.
-const char* whyNotCompiled(unsigned features) {
-  const auto has = [&](unsigned feature) { return (features & feature) != 0; };
-  if (has(kCohesion) && !has(kHertz)) return "cohesion with linear springs";
-  if (has(kPlastic) && !has(kHertz)) return "plastic contacts with linear springs";
-  if (has(kPlastic) && !has(kRollingFriction)) return "plastic contacts without rolling friction";
-  return "grains without friction";
-}
-
-const char* whyNoSimd(unsigned features, const contact::ContactLaw& pairLaw) {
-  if (features & kGeneral) return "linear and Hertz contacts in one scene";
-  if (features & kManyMaterials) return "several materials";
-  if (features & ~(detail::kSimdCompiled | detail::kSimdAsked)) return "a feature without SIMD";
-  if (!detail::isListed(detail::kSimdKernels, features & detail::kSimdCompiled)) return whyNotCompiled(features);
-  // Features are those of all contacts, lanes are for contacts of grains; as the kernel rounds their law.
-  const auto law = pairLaw.as<float>();
-  if (features & kFriction && law.friction <= 0) return "friction at walls alone";
-  if (features & kPlastic && law.plastic.share <= 0) return "plastic contacts at walls alone";
-  if (features & kPlastic && law.plastic.fullDepth > 0) return "Luding's law";
-  return nullptr;
-}
-
-/// The choice, for a list of kernels; `noSimd` of their features.
+/// The choice, for a list of kernels; `simd` and `noSimd` of their features.
 template <class List>
-KernelChoice chosen(const List& list, unsigned features, const GrainModel& model, const char* noSimd) {
+KernelChoice chosen(const List& list, unsigned features, const GrainModel& model, unsigned simd, const char* noSimd) {
   if (!model.specialised) return {kGeneral, 1, "the general kernel is asked for"};
   if (model.precision != Precision::single) return {kGeneral, 1, "double precision"};
   return {detail::isListed(list, features) ? features : kGeneral, noSimd ? 1 : processorLanes(model.mostSimdLanes),
-          noSimd};
+          noSimd, simd};
 }
 
 struct FeatureName {
@@ -105,16 +83,10 @@ template <class List> std::string remedy(const List& list, unsigned features, co
 
 std::string simdText(const KernelChoice& choice) {
   if (choice.noSimd) return fmt::format("no SIMD on a CPU: {}", choice.noSimd);
-  switch (choice.lanes) {
-  case 16:
-    return "on this CPU SIMD, 16 lanes (AVX-512)";
-  case 8:
-    return "on this CPU SIMD, 8 lanes (AVX2)";
-  case 4:
-    return "on this CPU SIMD, 4 lanes (SSE2)";
-  default:
-    return "no SIMD on this CPU";
-  }
+  if (choice.lanes == 1) return "no SIMD on this CPU";
+  const char* set = choice.lanes == 16 ? "AVX-512" : choice.lanes == 8 ? "AVX2" : "SSE2";
+  return fmt::format("on this CPU SIMD, {} lanes ({}){}", choice.lanes, set,
+                     choice.simdGeneral() ? ", general kernel" : "");
 }
 
 template <class List>
@@ -136,12 +108,12 @@ unsigned atBoundaries(unsigned features) { return features & detail::kAtBoundari
 
 KernelChoice stepKernel(unsigned features, const GrainModel& model) {
   const unsigned own = atStep(features);
-  return chosen(detail::kStepKernels, own, model, whyNoSimd(own, model.law));
+  return chosen(detail::kStepKernels, own, model, detail::simdKernel(own), nullptr);
 }
 
 KernelChoice boundaryKernel(unsigned features, const GrainModel& model) {
   const unsigned own = atBoundaries(features);
-  KernelChoice choice = chosen(detail::kBoundaryKernels, own, model,
+  KernelChoice choice = chosen(detail::kBoundaryKernels, own, model, own,
                                own & ~kFriction ? "only planes with linear contacts of equal grains have it" : nullptr);
   if (!(features & kLedger) && !detail::withoutBooks(choice.compiledFor, false)) choice.compiledFor = kGeneral;
   return choice;

@@ -12,9 +12,11 @@ struct KernelChoice {
   /// What it was compiled for: just these features, or contact::kGeneral for all, which decides as it runs.
   unsigned compiledFor = contact::kGeneral;
   int lanes = 1;                ///< contacts that this machine's CPU computes side by side; 1: the scalar kernel
-  const char* noSimd = nullptr; ///< why no CPU computes them side by side; null: SIMD is compiled for them
+  const char* noSimd = nullptr; ///< why no CPU computes them side by side; null: it does where it has lanes
+  unsigned simdFor = contact::kGeneral; ///< features that the SIMD kernel was compiled for; walls have no general one
 
   bool general() const { return compiledFor == contact::kGeneral; }
+  bool simdGeneral() const { return simdFor == contact::kGeneral; }
 };
 
 /// Of the grains' step. The only place where this is decided: the launches (grain_kernels.cu), `grouser plan` and tests

@@ -10,9 +10,6 @@ namespace grouser::terrain::detail {
 /// the same numbers in the same order; grains with which something is out of the ordinary go to GrainStep itself.
 template <int kLanes, unsigned kFeatures> class AdvanceLanes {
 public:
-  static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger,
-                        kSlips = (kFeatures & contact::kHertz) && kWithFriction && kWithLedger,
-                        kManySizes = kFeatures & kManyRadii;
   static constexpr int kGrains = 64; ///< of a block
   enum class Way : std::int32_t { lanes, alone, done };
 
@@ -25,16 +22,16 @@ public:
     const int lane = laneOf(g);
     slot_[lane] = static_cast<std::uint32_t>(slot), way_[lane] = static_cast<std::int32_t>(Way::lanes);
     force_[g] = force, torque_[g] = torque;
-    if (kWithLedger) rubbed_[lane] = rubbed, rolled_[lane] = rolled;
-    if (kSlips) slipped_[lane] = slipped;
+    if (has(kLedger)) rubbed_[lane] = rubbed, rolled_[lane] = rolled;
+    if (slips()) slipped_[lane] = slipped;
   }
   /// One that is advanced already, or never.
   GROUSER_SIMD void addDone(int g, int slot) {
     const int lane = laneOf(g);
     slot_[lane] = static_cast<std::uint32_t>(slot), way_[lane] = static_cast<std::int32_t>(Way::done);
     force_[g] = torque_[g] = Float4{};
-    if (kWithLedger) rubbed_[lane] = rolled_[lane] = 0;
-    if (kSlips) slipped_[lane] = 0;
+    if (has(kLedger)) rubbed_[lane] = rolled_[lane] = 0;
+    if (slips()) slipped_[lane] = 0;
   }
   /// Grain g goes to GrainStep, with these instead of what add() was given.
   GROUSER_SIMD void setAlone(int g, const Double4& force, const Double4& torque) {
@@ -53,6 +50,10 @@ public:
   GROUSER_SIMD const LaneBooks<kLanes, kFeatures>& books() const { return books_; }
 
 private:
+  static constexpr bool kMaySlip = kFeatures & (contact::kHertz | contact::kGeneral);
+  GROUSER_SIMD bool has(unsigned feature) const { return hasFeature<kFeatures>(data_, feature); }
+  GROUSER_SIMD bool slips() const { return has(contact::kHertz) && has(contact::kFriction) && has(kLedger); }
+
   using Float = Simd<float, kLanes>;
   using Int = Simd<std::int32_t, kLanes>;
   using Unsigned = Simd<std::uint32_t, kLanes>;
@@ -121,12 +122,16 @@ private:
     Double stepPerMass, stepPerInertia, mass, massShare, inertia;
     Float maxOverlap;
   };
-  GROUSER_SIMD Sizes sizesOf(const Float& radius) const {
-    if (!kManySizes)
+  GROUSER_SIMD Sizes sizesOf(const Float& radius, const Float& material) const {
+    if (!has(kManyRadii))
       return {base::broadcast<Double>(data_.stepPerMass), base::broadcast<Double>(data_.stepPerInertia),
               base::broadcast<Double>(data_.mass),        base::broadcast<Double>(1),
               base::broadcast<Double>(data_.inertia),     base::broadcast<Float>(data_.maxOverlap)};
-    const Double own = base::toDouble(forces_.massPerCube * radius * radius * radius), r = base::toDouble(radius);
+    Float perCube = base::broadcast<Float>(forces_.massPerCube);
+    if (has(kManyMaterials))
+      for (int l = 0; l < kLanes; ++l)
+        perCube[l] = static_cast<float>(data_.massPerCube[static_cast<int>(material[l])]);
+    const Double own = base::toDouble(perCube * radius * radius * radius), r = base::toDouble(radius);
     const Double inertia = 0.4 * own * r * r, share = own / data_.mass;
     return {data_.timeStep / own,          data_.timeStep / inertia, data_.mass * share, share, inertia,
             data_.maxOverlapShare * radius};
@@ -139,21 +144,24 @@ private:
     loadAll<kApart>(&data_.motion->velocity, g, together, v), loadAll<kApart>(&data_.motion->spin, g, together, w);
     loadAll(data_.remainders, g, together, kept), loadAll(data_.position, g, together, p);
     base::loadRows(force_ + g, force), base::loadRows(torque_ + g, torque);
-    const Sizes size = sizesOf(v[3]);
+    const Sizes size = sizesOf(v[3], w[3]);
     const double gravity[3] = {data_.gravityStep.x, data_.gravityStep.y, data_.gravityStep.z};
     Int ordinary = load<Int>(way_ + g) == static_cast<std::int32_t>(Way::lanes);
     ordinary &= ~(torque[3] > size.maxOverlap);
     Double work[3];
+    // Without history and parts torques are zero, and spins stay as they are.
+    const bool turns =
+        has(contact::kFriction | contact::kRollingFriction | contact::kPlastic) || data_.features & kLoads;
     keep[3] = kept[3] & ~0x3FFFFFFF, q[3] = p[3];
 #pragma GCC unroll 3
     for (int a = 0; a < 3; ++a) {
       Int rv = kept[a] << 16 >> 16, rw = kept[a] >> 16;
       const Double faster = base::toDouble(force[a]) * size.stepPerMass + gravity[a];
-      const Double turning = (kWithFriction ? base::toDouble(torque[a]) : Double{}) * size.stepPerInertia;
+      const Double turning = base::toDouble(torque[a]) * size.stepPerInertia;
       const Compensated speed = addCompensated(v[a], rv, faster);
       Compensated turn{};
-      if (kWithFriction || data_.features & kLoads) turn = addCompensated(w[a], rw, turning);
-      if (kWithLedger)
+      if (turns) turn = addCompensated(w[a], rw, turning);
+      if (has(kLedger))
         work[a] = halfSquareGained(faster, speed) * size.mass + halfSquareGained(turning, turn) * size.inertia;
       keep[a] = (rv & 0xFFFF) | rw << 16;
       Double displacement = speed.sum * data_.unitsPerSpeed;
@@ -175,16 +183,16 @@ private:
     const Float speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     ordinary &= (speed2 <= data_.maxSpeed2) & (speed2 < 1e30f);
     const unsigned which = base::laneBits(ordinary);
-    if (kWithLedger) {
-      const Double slipped = kSlips ? base::toDouble(load<Float>(slipped_ + g)) : Double{};
+    if (has(kLedger)) {
+      const Double slipped = slips() ? base::toDouble(load<Float>(slipped_ + g)) : Double{};
       books_.add(work,
                  {base::toDouble(force[3]), base::toDouble(load<Float>(rubbed_ + g)),
                   base::toDouble(load<Float>(rolled_ + g)), slipped},
                  p, size.massShare, ordinary);
     }
     raiseWhereStale(g, q, which);
-    if (!kManySizes) v[3] = Float{};
-    w[3] = Float{};
+    if (!has(kManyRadii)) v[3] = Float{};
+    if (!has(kManyMaterials)) w[3] = Float{};
     storeAll(data_.nextPosition, g, together, q, which), storeAll(data_.remainders, g, together, keep, which);
     storeAll<kApart>(&data_.nextMotion->velocity, g, together, v, which);
     storeAll<kApart>(&data_.nextMotion->spin, g, together, w, which);
@@ -224,10 +232,10 @@ private:
       const int lane = __builtin_ctz(which), k = g + rowOf(lane), l = g + lane;
       if (way_[l] == static_cast<std::int32_t>(Way::done)) continue;
       const bool alone = way_[l] == static_cast<std::int32_t>(Way::alone);
-      const Double4 none{}, torque = kWithFriction ? base::toDouble(torque_[k]) : none;
-      const Double4 f = alone ? forceAlone_[k] : base::toDouble(force_[k]), t = alone ? torqueAlone_[k] : torque;
-      const Lost lost{static_cast<double>(force_[k][3]), kWithLedger ? double{rubbed_[l]} : 0,
-                      kWithLedger ? double{rolled_[l]} : 0, kSlips ? double{slipped_[l]} : 0};
+      const Double4 f = alone ? forceAlone_[k] : base::toDouble(force_[k]),
+                    t = alone ? torqueAlone_[k] : base::toDouble(torque_[k]);
+      const Lost lost{static_cast<double>(force_[k][3]), has(kLedger) ? double{rubbed_[l]} : 0,
+                      has(kLedger) ? double{rolled_[l]} : 0, slips() ? double{slipped_[l]} : 0};
       advanceGrain(data_, forces_, static_cast<int>(slot_[l]), {f[0], f[1], f[2]}, {t[0], t[1], t[2]}, torque_[k][3],
                    lost, rare);
     }
@@ -239,7 +247,7 @@ private:
   std::uint32_t slot_[kGrains];
   std::int32_t way_[kGrains];
   alignas(32) Float4 force_[kGrains], torque_[kGrains];
-  float rubbed_[kGrains], rolled_[kGrains], slipped_[kSlips ? kGrains : 1];
+  float rubbed_[kGrains], rolled_[kGrains], slipped_[kMaySlip ? kGrains : 1];
   Double4 forceAlone_[kGrains], torqueAlone_[kGrains];
 };
 

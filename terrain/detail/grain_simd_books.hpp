@@ -47,6 +47,11 @@ using base::Simd;
 using base::SimdVector;
 using base::store;
 
+/// Whether grains have a feature (or one of several): known at compile time but in the general kernel.
+template <unsigned kFeatures> GROUSER_SIMD bool hasFeature(const GrainKernelData& d, unsigned feature) {
+  return ((kFeatures & contact::kGeneral ? d.features : kFeatures) & feature) != 0;
+}
+
 /// wholeQuanta()
 template <SimdVector V> GROUSER_SIMD Simd<std::int64_t, base::kWidthOf<V>> wholeOf(V quanta) {
   using Long = Simd<std::int64_t, base::kWidthOf<V>>;
@@ -72,7 +77,6 @@ template <SimdVector V> GROUSER_SIMD Simd<double, base::kWidthOf<V>> exactly(con
 /// What grains are booked with, kLanes side by side: GrainStep::book().
 template <int kLanes, unsigned kFeatures> class LaneBooks {
 public:
-  static constexpr bool kManySizes = kFeatures & kManyRadii;
   using Int = Simd<std::int32_t, kLanes>;
   using Long = Simd<std::int64_t, kLanes>;
   using Double = Simd<double, kLanes>;
@@ -91,16 +95,16 @@ public:
     const Double all = (work[0] + work[2]) + work[1];
     work_ += wholeOf(all * perEnergy) & mask, turnover_ += wholeOf((all < 0.0 ? -all : all) * perEnergy) & mask;
     damped_ += wholeOf(lost.damped * perEnergy) & mask;
-    if (kFeatures & contact::kFriction) rubbed_ += wholeOf(lost.rubbed * perEnergy) & mask;
-    if (kFeatures & contact::kRollingFriction) rolled_ += wholeOf(lost.rolled * perEnergy) & mask;
-    if (kFeatures & contact::kHertz) slipped_ += wholeOf(lost.slipped * perEnergy) & mask;
-    if (kManySizes)
+    if (has(contact::kFriction)) rubbed_ += wholeOf(lost.rubbed * perEnergy) & mask;
+    if (has(contact::kRollingFriction)) rolled_ += wholeOf(lost.rolled * perEnergy) & mask;
+    if (has(contact::kHertz)) slipped_ += wholeOf(lost.slipped * perEnergy) & mask;
+    if (has(kManyRadii))
       mass_ += wholeOf(massShare * static_cast<double>(kMassQuanta)) & mask;
     else
       mass_ += mask & kMassQuanta;
     for (int a = 0; a < 3; ++a) {
       const Long u = axisOf(place[a], place[3], a);
-      moment_[a] += (kManySizes ? wholeOf(massShare * exactly(u)) : u) & mask;
+      moment_[a] += (has(kManyRadii) ? wholeOf(massShare * exactly(u)) : u) & mask;
     }
   }
 
@@ -109,13 +113,15 @@ public:
     for (int l = 0; l < kLanes; ++l) {
       books.of[kWork] += work_[l], books.of[kTurnover] += turnover_[l];
       books.of[kDamped] += damped_[l], books.of[kRubbed] += rubbed_[l], books.of[kRolled] += rolled_[l];
-      if (kFeatures & contact::kHertz) books.of[kSlipped] += slipped_[l];
+      if (has(contact::kHertz)) books.of[kSlipped] += slipped_[l];
       for (int a = 0; a < 3; ++a) books.of[kMoment + a] += moment_[a][l];
       books.of[kMass] += mass_[l];
     }
   }
 
 private:
+  GROUSER_SIMD bool has(unsigned feature) const { return hasFeature<kFeatures>(data_, feature); }
+
   const GrainKernelData& data_;
   Long work_{}, turnover_{}, damped_{}, rubbed_{}, rolled_{}, slipped_{}, mass_{}, moment_[3] = {};
 };

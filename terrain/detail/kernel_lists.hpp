@@ -162,23 +162,30 @@ constexpr bool withoutBooks(unsigned set, bool ofStep) {
 /// makes no other kernel.
 inline constexpr unsigned kSimdCompiled =
     kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii | kLedger;
-inline constexpr unsigned kSimdAsked = kBoundaries | kSurfaces | kLoads | kPeriodic | kFixed;
+inline constexpr unsigned kSimdAsked = kBoundaries | kSurfaces | kLoads | kPeriodic | kFixed | kFloor;
 /// Each of these laws with friction, with and without many radii and a ledger; and grains without friction.
-constexpr std::array<unsigned, 34> simdKernels() {
-  constexpr unsigned kLaws[] = {0,
+constexpr auto simdKernels() {
+  constexpr std::array kLaws = {0u,
                                 kHertz,
                                 kRollingFriction,
                                 kHertz | kRollingFriction,
                                 kHertz | kCohesion,
                                 kHertz | kRollingFriction | kCohesion,
                                 kHertz | kRollingFriction | kPlastic,
-                                kHertz | kRollingFriction | kCohesion | kPlastic};
-  std::array<unsigned, 34> sets{0, kLedger};
-  for (unsigned which = 0; which < 32; ++which)
+                                kHertz | kRollingFriction | kCohesion | kPlastic,
+                                kRollingFriction | kPlastic};
+  std::array<unsigned, 2 + 4 * kLaws.size()> sets{0, kLedger};
+  for (unsigned which = 0; which < 4 * kLaws.size(); ++which)
     sets[2 + which] = kFriction | kLaws[which / 4] | (which & 1 ? kManyRadii : 0u) | (which & 2 ? kLedger : 0u);
   return sets;
 }
 inline constexpr auto kSimdKernels = simdKernels();
 static_assert(allDiffer(kSimdKernels));
+
+/// The one of these that grains of such features take, or kGeneral.
+constexpr unsigned simdKernel(unsigned features) {
+  const unsigned own = features & kSimdCompiled;
+  return (features & ~(kSimdCompiled | kSimdAsked)) == 0 && isListed(kSimdKernels, own) ? own : contact::kGeneral;
+}
 
 } // namespace grouser::terrain::detail

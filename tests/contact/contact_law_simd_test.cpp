@@ -156,6 +156,15 @@ TEST(ContactLawSimd, ContactsThatYield) {
   expectYieldingAsAlone<16>(p, true, false);
 }
 
+TEST(ContactLawSimd, LudingsContacts) {
+  BasicPlasticity<float> p{0.6f, 0, 0, 0, 0, 0.01f, 0.5f, 2}; // full depth among the overlaps
+  expectYieldingAsAlone<4>(p, false);
+  expectYieldingAsAlone<8>(p, false);
+  expectYieldingAsAlone<16>(p, false);
+  p.adhesion = 0;
+  expectYieldingAsAlone<8>(p, false, false);
+}
+
 template <int kWidth, class T> void expectRollingAsAlone(T stiffness) {
   using Numbers = base::Simd<T, kWidth>;
   BasicLaw<T> law = linear<T>();

@@ -23,7 +23,7 @@ struct LaneKind {
   double wallFriction = 0.5;
   bool hertz = false, rolling = false, periodic = false, fixed = false, surface = false;
   double smallest = 1; ///< radii are uniform from this share on [-]
-  bool cohesive = false, yielding = false;
+  bool cohesive = false, yielding = false, luding = false;
   double pull = 40, pullGrowth = 0;      ///< of contacts that yield, as BasicPlasticity has them
   bool onDevice = false, special = true; ///< under test; by a kernel of its own where there is one
 };
@@ -48,6 +48,7 @@ GrainModel laneModel(const LaneKind& kind) {
   }
   if (kind.cohesive) m.law.pullPerRadius = 2;
   if (kind.yielding) m.law.plastic = {0.6, 0.7, 0.3, kind.pull, kind.pullGrowth, 0, 0, 3};
+  if (kind.luding) m.law.plastic = {0.6, 0, 0, 0, 0, 0.02, kind.pull / 40, 2};
   m.specialised = kind.special;
   if (kind.rolling) m.law.rollingFriction = 0.1, m.law.rollingDamping = 0.3;
   if (kind.smallest < 1 && !kind.hertz) m.law.damping = 0, m.law.rootDamping = 60, m.law.tangentialRootDamping = 30;
@@ -174,7 +175,7 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
                             {.ledger = false},
                             {.friction = false, .wallFriction = 0},
                             {.friction = false, .ledger = false, .wallFriction = 0},
-                            {.friction = false}, // only walls rub: the scalar kernel must take it
+                            {.friction = false}, // only walls rub
                             {.walls = false},
                             {.loads = true},
                             {.friction = false, .loads = true, .wallFriction = 0},
@@ -212,18 +213,20 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
 
 /// Beds whose contacts yield, stick by what pressing has left, and come apart along their adhesive branch.
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelWhereContactsYield) {
-  for (int bits = 0; bits < 16; ++bits) {
+  for (int bits = 0; bits < 24; ++bits) {
+    const bool luding = bits >= 16;
     LaneKind kind{.ledger = bits != 5,
                   .loads = bits % 3 == 1,
                   .grains = 257,
-                  .hertz = true,
-                  .rolling = true,
+                  .hertz = !luding,
+                  .rolling = bits != 20,
                   .periodic = (bits & 4) != 0,
                   .fixed = (bits & 2) != 0,
                   .surface = bits % 5 == 1,
                   .smallest = bits & 1 ? 0.6 : 1,
-                  .cohesive = (bits & 8) != 0,
-                  .yielding = true};
+                  .cohesive = !luding && (bits & 8) != 0,
+                  .yielding = !luding,
+                  .luding = luding};
     kind.pull = bits % 4 == 1 ? 0 : 40, kind.pullGrowth = bits % 4 == 3 ? 4e3 : 0;
     const auto expected = wordsAfter(kind, 1, 1, kSteps);
     LaneKind loose = kind;

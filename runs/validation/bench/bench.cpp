@@ -158,6 +158,8 @@ void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   json["friction"] = b.friction;
   json["restitution"] = b.restitution;
   json["stiffness_N_m"] = b.stiffness;
+  json["hertz"] = b.hertz;
+  json["normal_stiffness"] = f.law.stiffness;
   json["tangential_stiffness"] = f.law.tangentialStiffness;
   json["damping"] = b.hertz ? f.law.rootDamping : f.law.damping;
   json["tangential_damping"] = b.hertz ? f.law.tangentialRootDamping : f.law.tangentialDamping;
@@ -168,6 +170,7 @@ void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   json["ledger"] = b.ledger;
   json["radii_spread"] = b.radiiSpread;
   json["rolling_friction"] = b.rolling;
+  json["rolling_damping"] = f.law.rollingDamping;
   json["features"] = f.features;
   json["settling_wall_s"] = f.settleSeconds;
   json["kinetic_energy_a_grain_over_mgr"] = f.kineticPerGrain;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// What runs slower than it could, by name: the reason why that is left so. A kernel costs compile time.
 const std::map<std::string, std::string> kExceptions = {};
 
-/// Names of what has no kernel of its own, or no SIMD on a CPU; behind each the choice in words.
+/// Names of what takes a general kernel, or no SIMD on a CPU; behind each the choice in words.
 using Slow = std::map<std::string, std::string>;
 
 void addSlow(Slow& slow, const std::string& name, const scene::Scene& scene) {
@@ -36,7 +36,7 @@ void addSlow(Slow& slow, const std::string& name, const scene::Scene& scene) {
     const terrain::KernelChoice step = terrain::stepKernel(features, traits.model);
     const std::string text = terrain::stepKernelText(features, traits.model);
     if (step.general()) slow.emplace(name + ": kernel of the grains", text);
-    if (step.noSimd) slow.emplace(name + ": SIMD", text);
+    if (step.noSimd || step.simdGeneral()) slow.emplace(name + ": SIMD", text);
   }
   if (traits.features & terrain::kBoundaries && terrain::boundaryKernel(traits.features, traits.model).general())
     slow.emplace(name + ": kernel of walls and floor", terrain::boundaryKernelText(traits.features, traits.model));
@@ -56,8 +56,9 @@ std::vector<fs::path> filesIn(const std::string& folder) {
   return files;
 }
 
-scene::Scene bedOf(const std::string& soil, bool vehicle) {
-  std::string text = "version = 1\n[run]\nduration = 1\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [6, 4]\n"
+scene::Scene bedOf(const std::string& soil, bool vehicle, const std::string& sections = "") {
+  std::string text = "version = 1\n[run]\nduration = 1\n" + sections +
+                     "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [6, 4]\n"
                      "height_range = [0, 0]\ndepth = 0.3\ngrain_radius = 0.03\nmaterial = \"" +
                      soil + "\"\n";
   if (vehicle)
@@ -79,6 +80,22 @@ TEST(SceneKernels, ShippedScenesAndSoilsHaveTheirOwnAndSimd) {
   for (const auto& [name, text] : slowOfAll())
     EXPECT_TRUE(kExceptions.count(name)) << name << ": " << text
                                          << "\nAdd a kernel to terrain/detail/kernel_lists.hpp, or an exception here.";
+}
+
+TEST(SceneKernels, BedsOfEveryLawHaveTheirOwnInSimd) {
+  for (const std::string law : {"linear", "hertz", "eepa", "eepa_linear", "luding"})
+    for (const bool vehicle : {false, true}) {
+      const std::string springs =
+          law == "hertz" || law == "eepa" ? "young = 1e7\npoisson = 0.3\n" : "stiffness = 1e6\n";
+      const scene::Scene scene =
+          bedOf("soil", vehicle,
+                "[material.soil]\ndensity = 2600\nrestitution = 0.5\nfriction = 0.5\nrolling_friction = 0.1\nlaw = \"" +
+                    law + "\"\n" + springs);
+      const ContactPairs pairs(scene);
+      const KernelTraits traits = kernelTraits(scene, pairs);
+      const terrain::KernelChoice step = terrain::stepKernel(traits.features, traits.model);
+      EXPECT_TRUE(!step.noSimd && !step.simdGeneral()) << terrain::stepKernelText(traits.features, traits.model);
+    }
 }
 
 TEST(SceneKernels, NoExceptionIsOutOfDate) {
