@@ -16,6 +16,7 @@
 #include "runs/support/child_process.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/file_lock.hpp"
+#include "runs/support/gpu_sharing.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 
@@ -110,12 +111,17 @@ std::ptrdiff_t countEnded(const std::vector<SweepOutcome>& outcomes) {
                        [](const SweepOutcome& o) { return output::hasEnded(o.status); });
 }
 
+bool mayUseGpu(const SweepPlan& plan) {
+  return std::any_of(plan.runs.begin(), plan.runs.end(),
+                     [](const SweepRun& run) { return run.scene.run.device != support::DeviceChoice::cpu; });
+}
+
 /// The runs of a sweep as processes, at most `jobs` at a time.
 class Runner {
 public:
   Runner(const SweepPlan& plan, const SweepOptions& options, const std::string& what, const OutcomesChanged& changed)
-      : plan_(plan), options_(options), changed_(changed), outcomes_(plan.runs.size()), work_(plan.runs.size()),
-        progress_(what) {
+      : plan_(plan), options_(options), changed_(changed), gpus_(options.jobs > 1 && mayUseGpu(plan)),
+        outcomes_(plan.runs.size()), work_(plan.runs.size()), progress_(what) {
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       const bool anew =
           options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
@@ -216,7 +222,8 @@ private:
     if (plan_.runs[i].untilRest) words.insert(words.end(), {"--until", "rest"});
     if (const auto& from = plan_.runs[i].from; from && !goesOn) words.insert(words.end(), {"--resume", from->file});
     const int place = freePlace();
-    program.environment = {{support::kFirstGpu, support::firstGpuOf(place)}};
+    program.environment = gpus_.environment();
+    program.environment.emplace_back(support::kFirstGpu, support::firstGpuOf(place));
     program.log = folder(i) / kLog, program.append = goesOn;
     if (goesOn) progress_.note(fmt::format("{} goes on from its checkpoint", title(i)));
     running_.emplace_back(i, place, program);
@@ -302,6 +309,7 @@ private:
   const SweepPlan& plan_;
   const SweepOptions& options_;
   const OutcomesChanged& changed_;
+  support::GpuSharing gpus_; ///< ends after the runs
   std::vector<SweepOutcome> outcomes_;
   std::vector<std::size_t> waiting_;
   std::set<std::size_t> goesOn_; ///< runs to do of which a checkpoint is there

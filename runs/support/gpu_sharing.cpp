@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/support/gpu_sharing.hpp"
+
+#include "base/error.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+namespace grouser::support {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kControl = "nvidia-cuda-mps-control";
+constexpr const char* kPipes = "CUDA_MPS_PIPE_DIRECTORY";
+
+bool isForbidden() {
+  const char* given = std::getenv("GROUSER_MPS");
+  return std::getenv(kPipes) || (given && std::string_view(given) == "0");
+}
+
+/// An empty folder of this process alone; empty where none can be made.
+fs::path ownFolder() {
+  std::error_code error;
+  std::string pattern = (fs::temp_directory_path(error) / "grouser_mps_XXXXXX").string();
+  return error || !mkdtemp(pattern.data()) ? fs::path() : fs::path(pattern);
+}
+
+/// Whether the service has come up: it makes a pipe named `control`.
+bool comesUp(ChildProcess& service, const fs::path& folder) {
+  constexpr int kMostWaits = 100;
+  for (int wait = 0; wait < kMostWaits && !service.ended(); ++wait) {
+    std::error_code error;
+    if (fs::exists(folder / "control", error)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+} // namespace
+
+GpuSharing::GpuSharing(bool wanted) {
+  if (!wanted || isForbidden() || (folder_ = ownFolder()).empty()) return;
+  try {
+    Program control{{kControl, "-f"}};
+    control.environment = {{kPipes, folder_.string()}, {"CUDA_MPS_LOG_DIRECTORY", folder_.string()}};
+    control.log = folder_ / "service.log";
+    service_ = std::make_unique<ChildProcess>(control);
+    if (!comesUp(*service_, folder_)) service_.reset();
+  } catch (const base::DeviceError&) { // no such program: processes take turns, as they do without it
+    service_.reset();
+  }
+}
+
+GpuSharing::~GpuSharing() {
+  if (service_) {
+    try { // the servers of the service end with "quit", not with its process
+      Program quit{{kControl}};
+      quit.environment = environment(), quit.log = folder_ / "quit.log", quit.input = true;
+      ChildProcess process(quit);
+      process.write("quit\n");
+      process.wait();
+    } catch (const base::DeviceError&) {
+    }
+    service_.reset();
+  }
+  std::error_code error;
+  if (!folder_.empty()) fs::remove_all(folder_, error);
+}
+
+Environment GpuSharing::environment() const {
+  return runs() ? Environment{{kPipes, folder_.string()}} : Environment{};
+}
+
+} // namespace grouser::support

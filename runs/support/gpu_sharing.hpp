@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/support/child_process.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace grouser::support {
+
+/// NVIDIA's Multi-Process Service, for as long as this object lives: with it kernels of several processes run side by
+/// side on a GPU, and without it in turns. A bed of some ten thousand grains fills a small part of a large GPU.
+///
+/// The service is of this call alone: its pipes lie in a folder of its own, and it ends with this process. Nothing is
+/// started where there is no such program on the PATH (it comes with the driver), where the user runs the service
+/// already (CUDA_MPS_PIPE_DIRECTORY is set), or where GROUSER_MPS is 0.
+class GpuSharing {
+public:
+  /// `wanted`: whether several processes are to use a GPU at the same time.
+  explicit GpuSharing(bool wanted);
+  ~GpuSharing();
+  GpuSharing(const GpuSharing&) = delete;
+  GpuSharing& operator=(const GpuSharing&) = delete;
+
+  bool runs() const { return service_ != nullptr; }
+  /// What the processes need to find the service; empty where none runs.
+  Environment environment() const;
+
+private:
+  std::filesystem::path folder_;
+  std::unique_ptr<ChildProcess> service_;
+};
+
+} // namespace grouser::support
