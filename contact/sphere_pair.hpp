@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/number.hpp"
+#include "base/moderate.hpp"
 
 namespace grouser::contact {
 

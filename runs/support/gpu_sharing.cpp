@@ -65,16 +65,13 @@ GpuSharing::~GpuSharing() {
       ChildProcess process(quit);
       process.write("quit\n");
       process.wait();
-    } catch (const base::DeviceError&) {
-    }
+    } catch (const base::DeviceError&) {}
     service_.reset();
   }
   std::error_code error;
   if (!folder_.empty()) fs::remove_all(folder_, error);
 }
 
-Environment GpuSharing::environment() const {
-  return runs() ? Environment{{kPipes, folder_.string()}} : Environment{};
-}
+Environment GpuSharing::environment() const { return runs() ? Environment{{kPipes, folder_.string()}} : Environment{}; }
 
 } // namespace grouser::support

@@ -5,7 +5,7 @@
 #include "base/for_each.cuh"
 #include "base/hash.hpp"
 #include "base/math.hpp"
-#include "base/number.hpp"
+#include "base/moderate.hpp"
 #include "tests/device_under_test.hpp"
 
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ TEST(Arithmetic, CubeRootsAreNearThoseOfTheLibraryWithTheSameBitsOnEveryMachine)
 /// two neighbouring powers of two for root and inverse, as many random pairs for the quotient.
 struct ModerateNumbers {
   static constexpr int kCount = 1 << 24;
-  std::uint32_t* differ; ///< [3]
+  std::uint32_t* differ;                               ///< [3]
   GROUSER_HD static float within(std::uint64_t bits) { // from 2^-60 to 2^60
     return bitsAs<float>(static_cast<std::uint32_t>(67 + bits % 120) << 23 |
                          static_cast<std::uint32_t>(bits >> 41 & 0x7FFFFF));
