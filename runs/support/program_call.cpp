@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/program_call.hpp"
 
+#include "base/error.hpp"
 #include "runs/support/stop_signals.hpp"
 
 #include <poll.h>
