@@ -47,6 +47,7 @@ struct PreparationSetup {
   double porosity{};                         ///< wanted [-]
   std::shared_ptr<const GroundSetup> sample; ///< a small bed of the same grains, to try frictions on
   std::string place;                         ///< "scene.toml:14: terrain.porosity = 0.3 [-]", for messages
+  std::string origin; ///< all that makes the bits of the friction found, as text; empty: not known
 };
 
 /// A bed of grains, laid under a height-map.

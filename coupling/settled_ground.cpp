@@ -12,10 +12,10 @@ namespace {
 
 /// The grains of a tile, come to rest. Throws SimulationError where they do not. Every rank has all of them.
 std::unique_ptr<terrain::Grains> settledTile(const TileSetup& tile, const base::Exec& exec,
-                                             const SettleProgress& progress) {
+                                             const SettleProgress& progress, const FoundFrictions* found) {
   LaidGround ground = buildGround(*tile.ground, exec);
   const BedSetup& bed = *tile.ground->grains->bed;
-  if (bed.settle.timeLimit > 0) settle(bed, ground, SettleProgress(progress.tell));
+  if (bed.settle.timeLimit > 0) settle(bed, ground, SettleProgress(progress.tell), found);
   return std::move(ground.grains);
 }
 
@@ -30,11 +30,11 @@ std::vector<terrain::GrainSpec> tiledGrains(const GroundSetup& setup, const BedS
 } // namespace
 
 LaidGround buildGround(const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm,
-                       const SettleProgress& progress) {
+                       const SettleProgress& progress, const FoundFrictions* found) {
   const BedSetup* bed = setup.grains && setup.grains->bed ? &*setup.grains->bed : nullptr;
-  if (bed && bed->alone) return buildGround(*bed->alone, exec, comm, progress);
+  if (bed && bed->alone) return buildGround(*bed->alone, exec, comm, progress, found);
   if (!bed || !bed->tile) return layGround(setup, exec, comm);
-  const TiledBed tiles(*bed->tile, *settledTile(*bed->tile, exec, progress), *setup.surface);
+  const TiledBed tiles(*bed->tile, *settledTile(*bed->tile, exec, progress, found), *setup.surface);
   const std::vector<terrain::GrainSpec> start = tiledGrains(setup, *bed, tiles);
   LaidGround ground = layGround(setup, exec, comm, &start);
   tiles.bringToRest(*ground.grains, setup.grains->boundaries.walls.size()); // the floor stands behind the walls

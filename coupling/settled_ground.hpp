@@ -8,10 +8,10 @@ namespace grouser::coupling {
 /// Lays the grains and places the walls. Nothing moves yet, but a tile that is to be copied
 /// settles, which `progress` watches. Where more is put
 /// on a bed once it has settled (placed_on_bed.hpp), the ground is the bed alone.
-/// On several ranks each takes the grains of its subdomain.
+/// On several ranks each takes the grains of its subdomain. `found`: as frictionFor() has it.
 LaidGround buildGround(
     const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {},
-    const SettleProgress& progress = [](double, double) {});
+    const SettleProgress& progress = [](double, double) {}, const FoundFrictions* found = nullptr);
 
 /// A ground whose bed has come to rest.
 struct SettledGround {

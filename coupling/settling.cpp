@@ -131,7 +131,9 @@ void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double fri
   settleUntilRest(bed, bed.settle, grains, 0, progress, report);
 }
 
-double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress) {
+namespace {
+
+double frictionByTrials(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress) {
   const double wanted = preparation.porosity;
   const auto at = [&](double friction) { return porosityAt(preparation, friction, exec, progress); };
   double low = kLeastFriction, high = kMostFriction;
@@ -161,12 +163,25 @@ double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, 
   return friction;
 }
 
-SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleProgress& progress) {
+} // namespace
+
+double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress,
+                   const FoundFrictions* found) {
+  const bool isKept = found && !preparation.origin.empty();
+  if (isKept)
+    if (const std::optional<double> friction = found->find(preparation.origin)) return *friction;
+  const double friction = frictionByTrials(preparation, exec, progress);
+  if (isKept) found->keep(preparation.origin, friction);
+  return friction;
+}
+
+SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleProgress& progress,
+                    const FoundFrictions* found) {
   terrain::Grains& grains = *ground.grains;
   SettleReport report;
   try {
     if (bed.preparation) {
-      report.friction = frictionFor(*bed.preparation, grains.system().exec, progress);
+      report.friction = frictionFor(*bed.preparation, grains.system().exec, progress, found);
       settleWithFriction(bed, grains, report.friction, progress, report);
     } else {
       settleUntilRest(bed, bed.settle, grains, bed.fall, progress, report);

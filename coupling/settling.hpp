@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,19 @@ struct SettleProgress {
   /// Where it ends in a SimulationError: the bed as it is then, and the message of the error, which is thrown when this
   /// returns. May be empty; must not throw.
   std::function<void(const terrain::Grains& bed, const std::string& message, base::Cause cause)> failed{};
+};
+
+/// Frictions that trials have found, kept from run to run. Ranks may find different ones of them: each finds the same
+/// friction by its own trials.
+class FoundFrictions {
+public:
+  FoundFrictions() = default;
+  FoundFrictions(const FoundFrictions&) = delete;
+  FoundFrictions& operator=(const FoundFrictions&) = delete;
+  virtual ~FoundFrictions() = default;
+  /// Empty where none is kept of that origin (PreparationSetup).
+  virtual std::optional<double> find(const std::string& origin) const = 0;
+  virtual void keep(const std::string& origin, double friction) const = 0;
 };
 
 /// How settling ended.
@@ -47,12 +61,15 @@ void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double fri
 
 /// Prepares the bed, where the scene asks for a porosity, and lets it come to rest under gravity. Throws
 /// SimulationError when the scene's time limit passes first, or when the grains meet a fault: the message says that it
-/// was while the bed settled.
-SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleProgress& progress);
+/// was while the bed settled. `found`: see frictionFor().
+SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleProgress& progress,
+                    const FoundFrictions* found = nullptr);
 
 /// The friction that has to act while a bed settles for it to have the porosity wanted: by bisection on small beds,
 /// until one is within 0.002 of it. The same on every device and rank, each of which does all of it. Throws InputError
-/// with the porosities that can be reached where the one wanted cannot.
-double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress);
+/// with the porosities that can be reached where the one wanted cannot. `found`: where it is looked up first, and kept;
+/// null: nowhere.
+double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress,
+                   const FoundFrictions* found = nullptr);
 
 } // namespace grouser::coupling

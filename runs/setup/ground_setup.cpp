@@ -150,7 +150,8 @@ coupling::PreparationSetup preparationSetup(const scene::Scene& scene, const ter
                "[-] is reached by friction while the bed settles, but its material has none and packs as densely as it "
                "can; remove it, or give the material friction");
   return {*t.porosity, std::make_shared<const coupling::GroundSetup>(groundSetup(sample, timeStep)),
-          messageOf([&] { scene.fail("terrain", "porosity", "[-]"); })};
+          messageOf([&] { scene.fail("terrain", "porosity", "[-]"); }),
+          t.cache ? fmt::format("porosity {:a}\n{}", *t.porosity, bedOrigin(sample, timeStep)) : ""};
 }
 
 coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terrain::HeightField& surface,

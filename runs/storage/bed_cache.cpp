@@ -5,6 +5,7 @@
 #include "coupling/ledger.hpp"
 #include "coupling/placed_on_bed.hpp"
 #include "runs/storage/checkpoint.hpp"
+#include "runs/storage/kept_frictions.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/shared_folder.hpp"
 #include "runs/support/tell.hpp"
@@ -84,11 +85,12 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
     }
     if (std::optional<coupling::SettledGround> kept = taken()) return std::move(*kept);
   }
-  coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress), {}};
+  const KeptFrictions frictions(files_);
+  coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress, &frictions), {}};
   const terrain::Grains& grains = *settled.ground.grains;
   const bool fits = files_.fits(kBytesPerGrain * static_cast<double>(grains.count()));
   if (!fits) lock.release(); // others would wait for nothing
-  settled.report = coupling::settle(*setup.grains->bed, settled.ground, progress);
+  settled.report = coupling::settle(*setup.grains->bed, settled.ground, progress, &frictions);
   const double settledIn = seconds();
   const bool kept = usable && fits && keep(file, made, grains, settled.report, comm);
   summary_ = fmt::format("settled in {:.2f} s; {}", settledIn,

@@ -25,8 +25,11 @@ constexpr auto kAbandoned = std::chrono::hours(24); // a part of a file that no 
 struct KindName {
   const char *prefix, *suffix;
 };
-constexpr std::array<KindName, 4> kKindNames{
-    {{"bed-", ".h5"}, {"spheres-", ".bin"}, {"check-", ".json"}, {"times-", ".json"}}}; // by Kind
+constexpr std::array<KindName, 5> kKindNames{{{"bed-", ".h5"},
+                                              {"friction-", ".json"},
+                                              {"spheres-", ".bin"},
+                                              {"check-", ".json"},
+                                              {"times-", ".json"}}}; // by Kind
 
 /// Empty where nothing is to be kept.
 std::string folderOfUser() {

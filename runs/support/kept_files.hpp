@@ -10,12 +10,13 @@
 
 namespace grouser::support {
 
-/// A cache folder: settled beds, parts cut into spheres, check results, probe times. A file's name is a hash of its
-/// origin, the text of all inputs of its contents. The file stores the origin too, which guards against hash
-/// collisions. Missing files are made again, so any file may be deleted at any time. All kinds share one size limit.
+/// A cache folder: settled beds, frictions that prepare them, parts cut into spheres, check results, probe times. A
+/// file's name is a hash of its origin, the text of all inputs of its contents. The file stores the origin too, which
+/// guards against hash collisions. Missing files are made again, so any file may be deleted at any time. All kinds
+/// share one size limit.
 class KeptFiles {
 public:
-  enum class Kind { bed, spheres, check, times };
+  enum class Kind { bed, friction, spheres, check, times };
   static constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30; ///< [bytes]
 
   /// `limit` [bytes]: the files used last are kept up to it.

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 namespace grouser::coupling {
@@ -49,6 +50,35 @@ TEST(BedPreparation, PorosityWantedIsReachedWithTheSameFrictionForEverySeed) {
     // The grains rub with their own friction again.
     EXPECT_EQ((*s)->ground().grains->model().law.friction, 0.5);
   }
+}
+
+/// Keeps them in memory.
+struct Remembered final : FoundFrictions {
+  mutable std::map<std::string, double> all;
+  std::optional<double> find(const std::string& origin) const override {
+    const auto at = all.find(origin);
+    return at == all.end() ? std::nullopt : std::optional(at->second);
+  }
+  void keep(const std::string& origin, double friction) const override { all[origin] = friction; }
+};
+
+TEST(BedPreparation, FrictionIsFoundOnceForBedsOfOneSoil) {
+  const Remembered found;
+  int looks = 0;
+  const auto friction = [&](std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), {"terrain.cache=true", "terrain.porosity=0.37"});
+    const SimulationSetup setup = setup::simulationSetup(randomBed(overrides));
+    looks = 0;
+    return frictionFor(
+        *setup.ground.grains->bed->preparation, base::cpuExec(1), [&](double, double) { ++looks; }, &found);
+  };
+  const double first = friction({});
+  EXPECT_GT(looks, 0);
+  EXPECT_EQ(friction({"run.seed=4", "terrain.size=[1.2, 0.9]"}), first);
+  EXPECT_EQ(looks, 0) << "no bed has settled";
+  EXPECT_EQ(found.all.size(), 1u);
+  EXPECT_NE(friction({"material.soil.rolling_friction=0.1"}), first);
+  EXPECT_GT(looks, 0) << "another soil";
 }
 
 TEST(BedPreparation, LooserBedsNeedMoreFrictionAndEverySeedTheSame) {
