@@ -133,6 +133,8 @@ void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double fri
 
 namespace {
 
+bool isPossible(double friction) { return friction >= kLeastFriction && friction <= kMostFriction; }
+
 double frictionByTrials(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress) {
   const double wanted = preparation.porosity;
   const auto at = [&](double friction) { return porosityAt(preparation, friction, exec, progress); };
@@ -169,7 +171,7 @@ double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, 
                    const FoundFrictions* found) {
   const bool isKept = found && !preparation.origin.empty();
   if (isKept)
-    if (const std::optional<double> friction = found->find(preparation.origin)) return *friction;
+    if (const auto friction = found->find(preparation.origin); friction && isPossible(*friction)) return *friction;
   const double friction = frictionByTrials(preparation, exec, progress);
   if (isKept) found->keep(preparation.origin, friction);
   return friction;

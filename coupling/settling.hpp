@@ -24,8 +24,7 @@ struct SettleProgress {
   std::function<void(const terrain::Grains& bed, const std::string& message, base::Cause cause)> failed{};
 };
 
-/// Frictions that trials have found, kept from run to run. Ranks may find different ones of them: each finds the same
-/// friction by its own trials.
+/// Frictions that trials have found, kept from run to run.
 class FoundFrictions {
 public:
   FoundFrictions() = default;
@@ -66,9 +65,9 @@ SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleP
                     const FoundFrictions* found = nullptr);
 
 /// The friction that has to act while a bed settles for it to have the porosity wanted: by bisection on small beds,
-/// until one is within 0.002 of it. The same on every device and rank, each of which does all of it. Throws InputError
+/// until one is within 0.002 of it. The same on every device and rank. Throws InputError
 /// with the porosities that can be reached where the one wanted cannot. `found`: where it is looked up first, and kept;
-/// null: nowhere.
+/// null: nowhere, as on several ranks, each of which does all trials.
 double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress,
                    const FoundFrictions* found = nullptr);
 

@@ -62,7 +62,8 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->check(support::positive("a share in percent"));
   check
       ->add_option("--of", c.options.figures,
-                   "run what narrows the bars of these figures most for its time, until each is within --bar: sinkage, "
+                   "choose the runs that narrow the error bars of these figures at the least cost, until each is "
+                   "within --bar: sinkage, "
                    "torque, speed, slip, tension, motion_resistance, or any figure of check.json")
       ->delimiter(',');
   check

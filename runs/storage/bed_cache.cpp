@@ -85,12 +85,14 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
     }
     if (std::optional<coupling::SettledGround> kept = taken()) return std::move(*kept);
   }
+  // Ranks that differ in whether they find one would differ in how often they speak to each other.
   const KeptFrictions frictions(files_);
-  coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress, &frictions), {}};
+  const KeptFrictions* const found = comm.alone() ? &frictions : nullptr;
+  coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress, found), {}};
   const terrain::Grains& grains = *settled.ground.grains;
   const bool fits = files_.fits(kBytesPerGrain * static_cast<double>(grains.count()));
   if (!fits) lock.release(); // others would wait for nothing
-  settled.report = coupling::settle(*setup.grains->bed, settled.ground, progress, &frictions);
+  settled.report = coupling::settle(*setup.grains->bed, settled.ground, progress, found);
   const double settledIn = seconds();
   const bool kept = usable && fits && keep(file, made, grains, settled.report, comm);
   summary_ = fmt::format("settled in {:.2f} s; {}", settledIn,

@@ -7,7 +7,7 @@
 namespace grouser::storage {
 
 /// Frictions that prepare beds of a porosity, a small file for each: beds of one soil need the same one, however large
-/// they are and whatever their seed. What is wrong with the folder or a file costs the trials again, no more.
+/// they are and whatever their seed. A damaged file, or a folder that cannot be written, costs the trials again.
 class KeptFrictions final : public coupling::FoundFrictions {
 public:
   explicit KeptFrictions(support::KeptFiles files) : files_(std::move(files)) {}

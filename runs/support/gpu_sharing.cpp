@@ -19,9 +19,18 @@ namespace fs = std::filesystem;
 constexpr const char* kControl = "nvidia-cuda-mps-control";
 constexpr const char* kPipes = "CUDA_MPS_PIPE_DIRECTORY";
 
-bool isForbidden() {
-  const char* given = std::getenv("GROUSER_MPS");
-  return std::getenv(kPipes) || (given && std::string_view(given) == "0");
+constexpr const char* kUsualPipe = "/tmp/nvidia-mps/control";
+
+std::string_view variable(const char* name) {
+  const char* text = std::getenv(name);
+  return text ? text : "";
+}
+
+bool isAskedFor() {
+  const std::string_view gpus = variable("CUDA_VISIBLE_DEVICES");
+  const bool areNumbered = !gpus.empty() && gpus.find("GPU-") == std::string_view::npos;
+  std::error_code error;
+  return variable("GROUSER_MPS") == "1" && variable(kPipes).empty() && !areNumbered && !fs::exists(kUsualPipe, error);
 }
 
 /// An empty folder of this process alone; empty where none can be made.
@@ -45,7 +54,7 @@ bool comesUp(ChildProcess& service, const fs::path& folder) {
 } // namespace
 
 GpuSharing::GpuSharing(bool wanted) {
-  if (!wanted || isForbidden() || (folder_ = ownFolder()).empty()) return;
+  if (!wanted || !isAskedFor() || (folder_ = ownFolder()).empty()) return;
   try {
     Program control{{kControl, "-f"}};
     control.environment = {{kPipes, folder_.string()}, {"CUDA_MPS_LOG_DIRECTORY", folder_.string()}};

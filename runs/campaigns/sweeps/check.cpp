@@ -273,7 +273,7 @@ private:
     fmt::print("{:<9} `grouser report {}` makes one page of it\n", "report", record_.folder.string());
     const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
                                         [](const SweepOutcome& o) { return output::hasEnded(o.status); });
-    keepCheck(origin_, json, static_cast<int>(finished), record_.folder);
+    keepCheck(origin_, json, static_cast<int>(finished), !options_.figures.empty(), record_.folder);
     if (found.skin == SameBits::no)
       throw base::SimulationError(
           "another run.skin gave other bits: this is a fault of the program; please report it with the scene");

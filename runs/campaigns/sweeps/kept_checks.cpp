@@ -97,18 +97,22 @@ std::string checkOrigin(scene::Scene scene, const std::string& inputs) {
   return identity(scene) + inputs;
 }
 
-void keepCheck(const std::string& origin, const std::string& json, int runs, const fs::path& folder) {
+void keepCheck(const std::string& origin, const std::string& json, int runs, bool ofSome, const fs::path& folder) {
   const auto kept = support::KeptFiles::ofUser();
   if (!kept || !kept->writable()) return;
   const fs::path file = kept->fileOf(support::KeptFiles::Kind::check, origin);
   const fs::path fresh = support::KeptFiles::freshName(file);
   try {
     const nlohmann::json check = nlohmann::json::parse(json), former = keptCheck(origin);
-    if (former.is_object() && former.value("runs", 0) > runs &&
+    const bool wasOfSome = former.is_object() && former.value("of_some", false);
+    if (former.is_object() && (ofSome != wasOfSome ? ofSome : former.value("runs", 0) > runs) &&
         former.at("check").at("program").at("commit") == check.at("program").at("commit"))
       return;
-    const nlohmann::json all = {
-        {"of", origin}, {"runs", runs}, {"folder", fs::absolute(folder).lexically_normal().string()}, {"check", check}};
+    const nlohmann::json all = {{"of", origin},
+                                {"runs", runs},
+                                {"of_some", ofSome},
+                                {"folder", fs::absolute(folder).lexically_normal().string()},
+                                {"check", check}};
     support::replaceTextFile(fresh, support::jsonText(all) + "\n");
     kept->put(fresh, file);
   } catch (const std::exception&) {

@@ -15,8 +15,10 @@ namespace grouser::sweeps {
 std::string checkOrigin(scene::Scene scene, const std::string& inputs);
 
 /// Keeps check.json of `folder` for later runs, made of so many of them, unless one of more runs by the same commit is
-/// kept. Nothing is said where it cannot be kept.
-void keepCheck(const std::string& origin, const std::string& json, int runs, const std::filesystem::path& folder);
+/// kept. One of `ofSome` figures, which may leave axes out, does not replace one of all. Nothing is said where it
+/// cannot be kept.
+void keepCheck(const std::string& origin, const std::string& json, int runs, bool ofSome,
+               const std::filesystem::path& folder);
 
 /// For the end of a run of this scene with these inputs, whose steps and preparation took `runSeconds`: figures with
 /// their bars where it has been checked, else how long `grouser check` would take. Whole lines.

@@ -20,12 +20,12 @@ protected:
   void SetUp() override {
     FolderTest::SetUp();
     path_ = std::getenv("PATH");
-    unsetenv("CUDA_MPS_PIPE_DIRECTORY"), unsetenv("GROUSER_MPS");
+    unsetenv("CUDA_MPS_PIPE_DIRECTORY"), unsetenv("CUDA_VISIBLE_DEVICES"), setenv("GROUSER_MPS", "1", 1);
     setenv("PATH", (folder_.string() + ":" + path_).c_str(), 1);
   }
   void TearDown() override {
     setenv("PATH", path_.c_str(), 1);
-    unsetenv("CUDA_MPS_PIPE_DIRECTORY"), unsetenv("GROUSER_MPS");
+    for (const char* name : {"CUDA_MPS_PIPE_DIRECTORY", "CUDA_VISIBLE_DEVICES", "GROUSER_MPS"}) unsetenv(name);
     FolderTest::TearDown();
   }
   fs::path calls() const { return folder_ / "calls"; }
@@ -63,12 +63,15 @@ TEST_F(GpuSharingTest, ServiceLivesAsLongAsTheObject) {
 TEST_F(GpuSharingTest, NothingStartsWithoutNeed) {
   install();
   EXPECT_FALSE(GpuSharing(false).runs());
-  setenv("GROUSER_MPS", "0", 1);
-  EXPECT_FALSE(GpuSharing(true).runs());
   unsetenv("GROUSER_MPS");
-  setenv("CUDA_MPS_PIPE_DIRECTORY", "/tmp/of_the_user", 1);
+  EXPECT_FALSE(GpuSharing(true).runs()) << "nobody has asked for it";
+  setenv("GROUSER_MPS", "1", 1), setenv("CUDA_MPS_PIPE_DIRECTORY", "/tmp/of_the_user", 1);
   EXPECT_FALSE(GpuSharing(true).runs()) << "the user's own service is used";
+  setenv("CUDA_MPS_PIPE_DIRECTORY", "", 1), setenv("CUDA_VISIBLE_DEVICES", "2,3", 1);
+  EXPECT_FALSE(GpuSharing(true).runs()) << "the service would count these GPUs anew";
   EXPECT_FALSE(fs::exists(calls()));
+  setenv("CUDA_VISIBLE_DEVICES", "GPU-1234", 1);
+  EXPECT_TRUE(GpuSharing(true).runs());
 }
 
 TEST_F(GpuSharingTest, ProcessesTakeTurnsWhereTheServiceDoesNotComeUp) {

@@ -207,6 +207,25 @@ TEST_F(Check, ARunSaysWhetherItsSceneHasBeenChecked) {
   EXPECT_NE(other.out.find("grouser check "), std::string::npos) << other.out;
 }
 
+TEST_F(Check, BarsOfSomeFiguresDoNotTakeThePlaceOfThoseOfAll) {
+  writeFall();
+  const std::string keep = "export GROUSER_CACHE=$PWD/cache; ", of = " --of grain.0.position.z_at_the_end --out some";
+  const auto keptFolder = [&] {
+    for (const auto& file : fs::directory_iterator(folder_ / "cache"))
+      if (file.path().filename().string().starts_with("check-"))
+        return fs::path(Json::parse(contents(file.path().string())).at("folder").get<std::string>())
+            .filename()
+            .string();
+    return std::string();
+  };
+  ASSERT_EQ(call("check fall.toml --bar 5%" + of, keep).code, 0);
+  EXPECT_EQ(keptFolder(), "some");
+  ASSERT_EQ(call("check fall.toml --axes precision --out all", keep).code, 0);
+  EXPECT_EQ(keptFolder(), "all") << "made of fewer runs, but for all figures";
+  ASSERT_EQ(call("check fall.toml --bar 5% --force" + of, keep).code, 0);
+  EXPECT_EQ(keptFolder(), "all");
+}
+
 TEST_F(Check, ARunOfOnesOwnIsNotWrittenOver) {
   writeFall();
   ASSERT_EQ(call("run fall.toml --out mine/base").code, 0);
