@@ -17,7 +17,7 @@ namespace grouser::sweeps {
 namespace {
 
 constexpr double kMissed = 0.05;  // of all readings together
-constexpr double kFarAway = 1000; // bars wanted: stands for a part that no run has told yet
+constexpr double kFarAway = 1000; // bars wanted: stands for a part that no run has measured yet
 constexpr double kCheap = 1.5;    // runs of the base: cases up to this cost are run first
 
 /// Half width of so many seeds, one of which deviates by so much.

@@ -36,7 +36,7 @@ struct BarPart {
   CheckAxis axis = CheckAxis::base;
   int seeds = 0;        ///< behind it
   double change = 0;    ///< 0 of the seeds
-  double deviation = 0; ///< of one seed's value or change; NaN where fewer than two tell it
+  double deviation = 0; ///< of one seed's value or change; NaN from fewer than two seeds
   double factor = 1;    ///< bar = factor (|change| + half width)
   double bar = 0;       ///< in the figure's unit
   double miss = 0.05;   ///< level of its half width
@@ -44,7 +44,7 @@ struct BarPart {
   /// The bar that so many seeds will likely leave. The change over few seeds holds some scatter, which more take away.
   double expected(int seeds) const;
   /// The least that is likely: the change two standard errors nearer to zero, the deviation at the low end of its own
-  /// interval, about 1 / (1 + 1.6 / sqrt(seeds)); 0 where fewer than three seeds tell it.
+  /// interval, about 1 / (1 + 1.6 / sqrt(seeds)); 0 from fewer than three seeds.
   double least(int seeds) const;
 };
 

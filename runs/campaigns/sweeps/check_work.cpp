@@ -56,7 +56,7 @@ RunCosts CheckWork::pilot(CheckBeds& beds) {
   if (!settles) costs.settling = 1e-6 * part("microseconds_a_step") * static_cast<double>(*beds.keptSteps(0, 0));
   costs.beds = beds.numbers();
   costs.isKept = [&beds, seed, settles](int bed, int of) {
-    const bool justMade = settles && bed == 0 && of == seed; // no gift
+    const bool justMade = settles && bed == 0 && of == seed; // by the first run: its cost counts
     return !justMade && beds.keptSteps(bed, of).has_value();
   };
   return costs;
