@@ -23,7 +23,6 @@ namespace grouser::sweeps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using output::RunStatus;
 
 constexpr double kPercents[] = {10, 5, 1};
 constexpr int kMostTold = 24; // figures in a terminal
