@@ -27,7 +27,7 @@ public:
   GpuSharing& operator=(const GpuSharing&) = delete;
 
   bool runs() const { return service_ != nullptr; }
-  /// What the processes need to find the service; empty where none runs.
+  /// Variables by which client processes find the service; empty if none runs.
   Environment environment() const;
 
 private:

@@ -52,7 +52,7 @@ public:
   RunCosts costs;
   std::vector<std::vector<int>> looks; ///< [looks][cases] seeds
 
-  /// Of a former call with the same question, if there is one that fits these cases.
+  /// Takes over what an earlier call with the same options has kept; false if that does not fit these cases.
   bool take(const nlohmann::json& kept, std::size_t cases, int most) {
     try {
       kept.at("run_s").get_to(costs.run), kept.at("settling_s").get_to(costs.settling);

@@ -41,7 +41,7 @@ CheckChoice chooseRuns(const CheckCases& cases, int seeds, std::optional<double>
                        int jobs);
 inline constexpr int kFewSeeds = 3; ///< with which an interval begins to say something
 
-/// What so many seeds of each case cost, one run after the other [s].
+/// Total time of `seeds` runs of each case, run one after another [s].
 double secondsOf(const CheckCases& cases, const RunCosts& costs, const std::vector<int>& seeds);
 
 /// A choice as it is kept for calls that go on; empty where it is none of these cases, or asks for more than `most`

@@ -16,7 +16,7 @@ namespace grouser::sweeps {
 
 namespace {
 
-constexpr double kMissed = 0.05;  // of all readings together
+constexpr double kMissed = 0.05;  // probability that any reading misses the truth
 constexpr double kFarAway = 1000; // bars wanted: stands for a part that no run has measured yet
 constexpr double kCheap = 1.5;    // runs of the base: cases up to this cost are run first
 
@@ -70,7 +70,7 @@ std::vector<BarPart> partsOf(const CheckCases& cases, const CheckFigure& figure,
   return parts;
 }
 
-/// What the runs taken so far and those planned leave of a goal.
+/// Predicted bar of a goal once the planned runs have been made.
 double expectedBar(const Goal& goal, const std::vector<int>& taken, const std::vector<int>& planned) {
   return total(goal.parts, [&](const BarPart& p) {
     const double bar = planned[p.ofCase] > taken[p.ofCase] ? p.expected(planned[p.ofCase]) : p.bar;
@@ -95,7 +95,7 @@ double worth(const CheckCases& cases, const std::vector<Goal>& goals, const std:
     const double before = expectedBar(goal, taken, planned), after = expectedBar(goal, taken, more);
     gain += (before * before - after * after) / (goal.wanted * goal.wanted);
   }
-  constexpr double kLeastGain = 0.01; // of the square of a bar wanted: less is not worth a run
+  constexpr double kLeastGain = 0.01; // relative to the square of the wanted bar; a smaller gain is not worth a run
   return gain < kLeastGain ? 0 : gain / (secondsOf(cases, costs, more) - secondsOf(cases, costs, planned));
 }
 

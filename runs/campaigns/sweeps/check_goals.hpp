@@ -30,7 +30,7 @@ struct Looks {
 /// At 3, 6, 12, 24... seeds, and at `most` [2, 1000]; at 1 where seeds make no difference.
 Looks looksUpTo(int most, bool seeded);
 
-/// What a figure's bar is made of: the base's seeds (case 0), or a case less the base.
+/// One part of a figure's bar: the scatter of the base's seeds (case 0), or the difference of a case from the base.
 struct BarPart {
   std::size_t ofCase = 0;
   CheckAxis axis = CheckAxis::base;

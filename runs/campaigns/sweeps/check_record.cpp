@@ -15,7 +15,7 @@ namespace {
 
 using output::RunStatus;
 
-/// Of the numbers among them; NaN where there are none.
+/// Median of the finite values; NaN if there are none.
 double medianOf(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   return values.empty() ? base::kNaN : jobs::medianOf(std::move(values));

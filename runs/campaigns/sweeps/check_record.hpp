@@ -10,7 +10,7 @@
 
 namespace grouser::sweeps {
 
-/// What the runs of one case took: medians of those that ended; NaN where none has.
+/// Cost of one case: medians over the runs that have ended; NaN if none has.
 struct CaseCost {
   double wall = 0, cpu = 0; ///< [s] a run, preparation included; in steps alone, all threads together
   double steps = 0;

@@ -52,7 +52,7 @@ RunCosts CheckWork::pilot(CheckBeds& beds) {
   RunCosts costs;
   costs.settling = part("wall_settling_s");
   costs.run = std::max(1e-3, wall - costs.settling - part("wall_cutting_s")); // spheres are cut once for all runs
-  // Of a kept bed only its steps are known.
+  // A kept bed records its number of steps, but not the time they took.
   if (!settles) costs.settling = 1e-6 * part("microseconds_a_step") * static_cast<double>(*beds.keptSteps(0, 0));
   costs.beds = beds.numbers();
   costs.isKept = [&beds, seed, settles](int bed, int of) {
