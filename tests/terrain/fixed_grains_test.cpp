@@ -6,6 +6,7 @@
 #include "terrain/grain_forces.hpp"
 #include "terrain/kernel_choice.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/terrain/state_words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -135,14 +136,6 @@ std::vector<GrainSpec> overFixed(const Kind& kind, int layers = 3) {
 
 Grains bedOf(const Kind& kind, const GrainModel& m, const base::Exec& exec = testExec(1)) {
   return {exec, m, {{{{1, 0, 0}, -0.0055, m.law}}, {}}, overFixed(kind)};
-}
-
-std::vector<std::uint32_t> wordsOf(const Grains& grains) {
-  const GrainState state = grains.state();
-  std::vector<std::uint32_t> words = state.words();
-  for (const std::int64_t sum : state.books)
-    words.push_back(static_cast<std::uint32_t>(sum)), words.push_back(static_cast<std::uint32_t>(sum >> 32));
-  return words;
 }
 
 std::vector<Kind> kinds() {

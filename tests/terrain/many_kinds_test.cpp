@@ -5,6 +5,7 @@
 #include "grain_fixture.hpp"
 #include "terrain/kernel_choice.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/terrain/state_words.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,15 +76,6 @@ Bed bedOf(const Kind& kind, int across = 5) {
   }
   if (kind.radii) bed.start[0].radius = m.radius;
   return bed;
-}
-
-/// State and books.
-std::vector<std::uint32_t> wordsOf(const Grains& grains) {
-  const GrainState state = grains.state();
-  std::vector<std::uint32_t> words = state.words();
-  for (const std::int64_t sum : state.books)
-    words.push_back(static_cast<std::uint32_t>(sum)), words.push_back(static_cast<std::uint32_t>(sum >> 32));
-  return words;
 }
 
 std::vector<std::uint32_t> wordsAfter(const Bed& bed, int steps, int threads = 1) {

@@ -13,9 +13,9 @@
 #include "runs/scene/scene.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/kept_files.hpp"
+#include "runs/support/kept_json.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/shell_word.hpp"
-#include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,6 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr auto kCheck = support::KeptFiles::Kind::check;
 constexpr int kSeedsOfCheck = 8; // of a whole one
 
 nlohmann::json readJson(const fs::path& path) {
@@ -47,8 +48,7 @@ double numberOrInfinity(const nlohmann::json& json, const char* key) {
 nlohmann::json keptCheck(const std::string& origin) {
   const auto kept = support::KeptFiles::ofUser();
   if (!kept) return {};
-  nlohmann::json json = readJson(kept->fileOf(support::KeptFiles::Kind::check, origin));
-  return json.is_object() && json.value("of", "") == origin ? json : nlohmann::json();
+  return support::keptJson(*kept, kCheck, origin);
 }
 
 /// "step, depth, 8 seeds": what is in the bar of a figure.
@@ -100,24 +100,19 @@ std::string checkOrigin(scene::Scene scene, const std::string& inputs) {
 void keepCheck(const std::string& origin, const std::string& json, int runs, bool ofSome, const fs::path& folder) {
   const auto kept = support::KeptFiles::ofUser();
   if (!kept || !kept->writable()) return;
-  const fs::path file = kept->fileOf(support::KeptFiles::Kind::check, origin);
-  const fs::path fresh = support::KeptFiles::freshName(file);
   try {
     const nlohmann::json check = nlohmann::json::parse(json), former = keptCheck(origin);
     const bool wasOfSome = former.is_object() && former.value("of_some", false);
     if (former.is_object() && (ofSome != wasOfSome ? ofSome : former.value("runs", 0) > runs) &&
         former.at("check").at("program").at("commit") == check.at("program").at("commit"))
       return;
-    const nlohmann::json all = {{"of", origin},
-                                {"runs", runs},
-                                {"of_some", ofSome},
-                                {"folder", fs::absolute(folder).lexically_normal().string()},
-                                {"check", check}};
-    support::replaceTextFile(fresh, support::jsonText(all) + "\n");
-    kept->put(fresh, file);
+    support::keepJson(*kept, kCheck, origin,
+                      nlohmann::json::object({{"runs", runs},
+                                              {"of_some", ofSome},
+                                              {"folder", fs::absolute(folder).lexically_normal().string()},
+                                              {"check", check}}));
   } catch (const std::exception&) {
-    std::error_code error; // a later run then says that nothing was checked
-    fs::remove(fresh, error);
+    return; // a later run then says that nothing was checked
   }
 }
 

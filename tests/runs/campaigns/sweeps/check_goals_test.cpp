@@ -108,28 +108,27 @@ Looks naiveLooks(int most) {
 constexpr int kTrials = 2000;
 constexpr double kSpread = 0.0146; // three standard deviations of a share of 0.95 among so many
 
-/// Share of checks whose value's interval holds the mean.
-double valueCoverage(const Truth& truth, const Looks& looks, double percent) {
-  std::mt19937 dice(7);
+/// Share of checks that hold the truth, as `holds` judges each.
+template <class Holds>
+double coverage(const Truth& truth, const Looks& looks, double percent, unsigned seed, const Holds& holds) {
+  std::mt19937 dice(seed);
   int held = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     SyntheticCheck check(truth, looks, percent, dice);
     check.run();
-    held += check.valueHolds() ? 1 : 0;
+    held += holds(check) ? 1 : 0;
   }
   return static_cast<double>(held) / kTrials;
 }
 
-/// Share of checks in which the bar of the first axis holds its true change.
+/// The mean by the interval of the value.
+double valueCoverage(const Truth& truth, const Looks& looks, double percent) {
+  return coverage(truth, looks, percent, 7, [](const SyntheticCheck& check) { return check.valueHolds(); });
+}
+
+/// The true change by the bar of the first axis.
 double axisCoverage(const Truth& truth, const Looks& looks, double percent) {
-  std::mt19937 dice(11);
-  int held = 0;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    SyntheticCheck check(truth, looks, percent, dice);
-    check.run();
-    held += check.axisHolds(0) ? 1 : 0;
-  }
-  return static_cast<double>(held) / kTrials;
+  return coverage(truth, looks, percent, 11, [](const SyntheticCheck& check) { return check.axisHolds(0); });
 }
 
 TEST(CheckGoals, LooksDoubleAndShareTheFivePercent) {
