@@ -76,7 +76,7 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->check(support::wholeNumber(1, 1024));
   check
       ->add_option("--seconds", c.options.sweep.seconds,
-                   "this call begins no further run after so many, 0: no limit; the same call again goes on")
+                   "this call begins no further run after so many, 0: no limit; the same command again continues")
       ->check(support::notNegative("a time in seconds"));
   support::addOut(*check, c.folder, "folder for the runs' folders and the results; default: out/NAME_check");
   check->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");

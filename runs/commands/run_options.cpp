@@ -69,7 +69,7 @@ void addSweep(CLI::App& app, const Invocation&) {
   sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(support::wholeNumber(1, 1024));
   sweep
       ->add_option("--seconds", c.seconds,
-                   "no further run is begun after so many, 0: no limit; the same call again goes on")
+                   "no further run is begun after so many, 0: no limit; the same command again continues")
       ->check(support::notNegative("a time in seconds"));
   support::addOut(*sweep, c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");

@@ -253,7 +253,8 @@ private:
       const bool failed = std::any_of(record_.outcomes.begin(), record_.outcomes.end(),
                                       [](const SweepOutcome& o) { return o.status == RunStatus::failed; });
       if (failed) work_.throwBaseFailed();
-      return fmt::print("check     no run of the scene as it is has ended yet; the same call again goes on\n");
+      return fmt::print(
+          "check     no run of the scene as it is has ended yet; run the same command again to continue\n");
     }
     const CheckResults found = results();
     record_.costs = costsOf(record_);

@@ -122,6 +122,18 @@ std::vector<int> wayToGoals(const CheckCases& cases, const std::vector<Goal>& go
   return planned;
 }
 
+/// The open goal as intervals at other levels would show it.
+Goal atLevels(Goal goal, const SeedLevels& levels) {
+  goal.state = GoalState::open;
+  for (BarPart& p : goal.parts) {
+    const double miss = p.axis == CheckAxis::base ? levels.value : levels.change;
+    if (p.seeds > 1)
+      p.bar += p.factor * (halfWidth(p.deviation, p.seeds, miss) - halfWidth(p.deviation, p.seeds, p.miss));
+    p.miss = miss;
+  }
+  return goal;
+}
+
 /// How a goal stands that is not met.
 GoalState stateOf(const Goal& goal, const Looks& looks, bool seeded) {
   constexpr int kUnlimited = 1'000'000;
@@ -154,7 +166,7 @@ int Looks::after(int taken) const {
 Looks looksUpTo(int most, bool seeded) {
   if (!seeded) return {{1}, {}};
   Looks looks;
-  for (int seeds = kFewSeeds; seeds < most; seeds *= 2) looks.seeds.push_back(seeds);
+  for (int seeds = kFewSeeds; 1.5 * seeds <= most && seeds < most; seeds *= 2) looks.seeds.push_back(seeds);
   looks.seeds.push_back(most);
   const double share = kMissed / static_cast<double>(looks.seeds.size());
   looks.levels = {share, 2 * share};
@@ -278,16 +290,20 @@ std::vector<int> nextLook(const CheckCases& cases, const std::vector<Goal>& goal
   return next;
 }
 
-std::vector<int> seedsToReach(const CheckCases& cases, Goal goal, const std::vector<int>& taken, Looks looks) {
+std::vector<int> seedsToReach(const CheckCases& cases, const Goal& goal, const std::vector<int>& taken,
+                              const Looks& looks) {
   constexpr int kMost = 1000;
   if (!cases.seeded) return {};
-  while (looks.most() < kMost) looks.seeds.push_back(std::min(kMost, 2 * looks.most()));
-  goal.state = GoalState::open;
   RunCosts costs;
   costs.run = 1;
   const SeedsFit any = [](const std::vector<int>&) { return true; };
-  const std::vector<int> planned = wayToGoals(cases, {goal}, taken, looks, costs, any);
-  return expectedBar(goal, taken, planned) > goal.wanted ? std::vector<int>{} : planned;
+  for (int most = looks.most();; most = std::min(kMost, 2 * most)) {
+    const Looks more = most == looks.most() ? looks : looksUpTo(most, true);
+    const Goal asked = atLevels(goal, more.levels);
+    const std::vector<int> planned = wayToGoals(cases, {asked}, taken, more, costs, any);
+    if (expectedBar(asked, taken, planned) <= asked.wanted) return planned;
+    if (most >= kMost) return {};
+  }
 }
 
 } // namespace grouser::sweeps

@@ -27,7 +27,8 @@ struct Looks {
   int after(int taken) const;
   int most() const { return seeds.back(); }
 };
-/// At 3, 6, 12, 24... seeds, and at `most` [2, 1000]; at 1 where seeds make no difference.
+/// At 3, 6, 12, 24... seeds, and at `most` [2, 1000], which takes the place of a look less than half as many seeds
+/// below it; at 1 where seeds make no difference.
 Looks looksUpTo(int most, bool seeded);
 
 /// One part of a figure's bar: the scatter of the base's seeds (case 0), or the difference of a case from the base.
@@ -97,8 +98,9 @@ std::vector<Goal> goalsOf(const CheckCases& cases, const CheckResults& results, 
 std::vector<int> nextLook(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
                           const Looks& looks, const RunCosts& costs, const SeedsFit& fits);
 
-/// [cases] seeds that likely reach an open goal, or one beyond the looks, by as many more looks as that takes; empty:
-/// more than a thousand.
-std::vector<int> seedsToReach(const CheckCases& cases, Goal goal, const std::vector<int>& taken, Looks looks);
+/// [cases] seeds that likely reach an open goal, or one beyond the looks, in a check with as many more looks as that
+/// takes, each at the level that it has there; empty: more than a thousand.
+std::vector<int> seedsToReach(const CheckCases& cases, const Goal& goal, const std::vector<int>& taken,
+                              const Looks& looks);
 
 } // namespace grouser::sweeps

@@ -32,8 +32,33 @@ const char* wordOf(GoalState state) {
   }
 }
 
+/// " m" of "sinkage mean [m]".
+std::string unitOf(const std::string& figure) {
+  const std::size_t from = figure.find(" ["), to = figure.find(']');
+  return to == std::string::npos || from > to ? "" : " " + figure.substr(from + 2, to - from - 2);
+}
+
 std::string nameOf(const BarPart& part) {
   return part.axis == CheckAxis::base ? "seeds" : std::string(base::wordOf(part.axis));
+}
+
+/// Cases that should have a part in the bars, and have none, or one of fewer seeds: "floor (failed)".
+std::vector<std::string> missingCases(const CheckRecord& record) {
+  std::vector<std::string> missing;
+  for (std::size_t c = 1; c < record.cases.cases.size(); ++c) {
+    const CaseStatus status = statusOf(record, c);
+    if (status.word == "refused" || status.word == "failed" || status.word == "partly failed" ||
+        status.word == "left out")
+      missing.push_back(
+          fmt::format("{} ({})", record.cases.cases[c].name, status.word == "left out" ? status.message : status.word));
+  }
+  return missing;
+}
+
+/// The state in words: a bar without the parts of some cases is not called met.
+std::string stateText(const CheckRecord& record, const Goal& goal) {
+  if (goal.state != GoalState::met || missingCases(record).empty()) return wordOf(goal.state);
+  return "inconclusive: narrow enough, but cases are missing";
 }
 
 /// Seeds of each case so far.
@@ -61,14 +86,16 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
 std::string remedy(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
   const BarPart& worst = *goal.largest();
   if (goal.state == GoalState::limited)
-    return fmt::format("more seeds do not help: {} changes it by {:+.3g}", nameOf(worst), worst.change);
-  if (!record.isWhole) return "the same call again goes on";
+    return fmt::format("{} alone changes it by {:+.3g}{}, which no number of seeds reduces: change the scene",
+                       nameOf(worst), worst.change, unitOf(goal.figure));
+  if (!record.isWhole) return "run the same command again to continue";
   if (!record.cases.seeded) return "a finer step than those run would be needed";
   return moreText(record, toReach);
 }
 
 std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
-  if (goal.state == GoalState::unknown) return fmt::format("  {:<24} no sound value\n", goal.figure);
+  if (goal.state == GoalState::unknown)
+    return fmt::format("  {:<24} unknown: no run has a conclusive value\n", goal.figure);
   const auto share = [&](double bar) {
     const double percent = 100 * bar / std::fabs(goal.value);
     return !std::isfinite(percent) ? "?"
@@ -76,7 +103,7 @@ std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vecto
                                    : fmt::format("{:.2g}", percent);
   };
   std::string text = fmt::format("  {:<24} {:>28}  {:>5} %  {}", goal.figure, jobs::valueText({goal.value, goal.bar}),
-                                 share(goal.bar), wordOf(goal.state));
+                                 share(goal.bar), stateText(record, goal));
   const BarPart* worst = goal.largest();
   if (goal.state != GoalState::met && worst)
     text +=
@@ -84,30 +111,20 @@ std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vecto
   return text + "\n";
 }
 
-/// Cases that should have a part in the bars, and have none: "floor (failed), depth (beyond the budget)".
-std::string missingText(const CheckRecord& record) {
-  std::vector<std::string> missing;
-  for (std::size_t c = 1; c < record.cases.cases.size(); ++c) {
-    const CaseStatus status = statusOf(record, c);
-    if (status.word == "refused" || status.word == "failed" || status.word == "left out")
-      missing.push_back(
-          fmt::format("{} ({})", record.cases.cases[c].name, status.word == "left out" ? status.message : status.word));
-  }
-  return missing.empty() ? "" : fmt::format("  not in these bars: {}\n", fmt::join(missing, ", "));
-}
-
 } // namespace
 
 nlohmann::ordered_json goalsJson(const CheckRecord& record) {
   const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  const std::vector<std::string> missing = missingCases(record);
   Json all = Json::array();
   for (std::size_t g = 0; g < record.goals.size(); ++g) {
     const Goal& goal = record.goals[g];
     Json json{{"figure", goal.figure},
               {"wanted", number(goal.wanted)},
               {"bar", number(goal.bar)},
-              {"met", goal.state == GoalState::met},
-              {"state", wordOf(goal.state)}};
+              {"met", goal.state == GoalState::met && missing.empty()},
+              {"state", stateText(record, goal)},
+              {"missing", missing}};
     json["parts"] = Json::array();
     for (const BarPart& part : goal.parts)
       json["parts"].push_back({{"part", nameOf(part)}, {"bar", number(part.bar)}, {"seeds", part.seeds}});
@@ -125,9 +142,11 @@ std::string goalsText(const CheckRecord& record, double percent) {
       fmt::format("\nbars of --of at {:g} %, {}", percent, base::counted(record.runs.caseOf.size(), "run"));
   if (record.cases.seeded) text += fmt::format(", intervals read at {} seeds", fmt::join(record.looks.seeds, ", "));
   text += "\n";
-  if (record.goals.empty()) text += "  the first runs have not all ended; the same call again goes on\n";
+  if (record.goals.empty()) text += "  some of the first runs have not ended; run the same command again to continue\n";
   for (std::size_t g = 0; g < record.goals.size(); ++g) text += lineOf(record, record.goals[g], record.toReach[g]);
-  return text + missingText(record);
+  if (const std::vector<std::string> missing = missingCases(record); !missing.empty())
+    text += fmt::format("  missing from these bars: {}\n", fmt::join(missing, ", "));
+  return text;
 }
 
 } // namespace grouser::sweeps

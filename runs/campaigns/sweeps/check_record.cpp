@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/campaigns/sweeps/check_record.hpp"
 
+#include "base/counted.hpp"
 #include "base/math.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/jobs/study_place.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,15 +50,21 @@ CaseStatus statusOf(const CheckRecord& record, std::size_t aCase) {
     return {"left out", "beyond the budget"};
   const bool has = std::find(record.runs.caseOf.begin(), record.runs.caseOf.end(), aCase) != record.runs.caseOf.end();
   if (!has && !record.looks.seeds.empty()) return {"left out", "not needed for the bars of --of"};
-  CaseStatus status{"not begun", ""};
+  std::size_t runs = 0, ended = 0, failed = 0;
+  std::string failure;
   for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {
     if (record.runs.caseOf[r] != aCase) continue;
     const SweepOutcome& outcome = record.outcomes[r];
-    if (outcome.status == RunStatus::failed) return {"failed", outcome.message};
     if (outcome.status == RunStatus::incomplete) return {"incomplete", outcome.message};
-    if (outcome.status == RunStatus::finished) status.word = "finished";
+    ++runs;
+    if (output::hasEnded(outcome.status)) ++ended;
+    if (outcome.status != RunStatus::failed) continue;
+    if (++failed == 1) failure = outcome.message;
   }
-  return status;
+  if (failed > 0 && ended > 0)
+    return {"partly failed", fmt::format("{} of {} failed: {}", failed, base::counted(runs, "run"), failure)};
+  if (failed > 0) return {"failed", failure};
+  return {ended > 0 ? "finished" : "not begun", ""};
 }
 
 } // namespace grouser::sweeps

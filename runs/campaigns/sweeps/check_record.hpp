@@ -35,8 +35,8 @@ struct CheckRecord {
 /// [cases] from the manifests of the runs.
 std::vector<CaseCost> costsOf(const CheckRecord& record);
 
-/// "finished", "incomplete", "failed", "refused", "left out", "not begun", with the message behind it where there is
-/// one.
+/// "finished", "incomplete", "failed" (all runs), "partly failed", "refused", "left out" or "not begun", with the
+/// message behind it where there is one.
 struct CaseStatus {
   std::string word, message;
 };

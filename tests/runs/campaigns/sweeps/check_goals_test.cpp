@@ -137,6 +137,8 @@ TEST(CheckGoals, LooksDoubleAndShareTheFivePercent) {
   EXPECT_DOUBLE_EQ(looks.levels.value, 0.05 / 4);
   EXPECT_DOUBLE_EQ(looks.levels.change, 0.1 / 4); // one side alone is missed
   EXPECT_EQ(looksUpTo(8, true).seeds, (std::vector{3, 6, 8}));
+  EXPECT_EQ(looksUpTo(9, true).seeds, (std::vector{3, 6, 9}));
+  EXPECT_EQ(looksUpTo(25, true).seeds, (std::vector{3, 6, 12, 25})) << "a look at 24 would only cost level";
   EXPECT_EQ(looksUpTo(2, true).seeds, (std::vector{2}));
   EXPECT_EQ(looksUpTo(8, false).seeds, (std::vector{1}));
   EXPECT_EQ(looks.after(0), 3);
@@ -230,10 +232,13 @@ TEST(CheckGoals, WhatTheMostSeedsDoNotReachIsNotBegun) {
   cases.seeded = true, cases.cases.resize(1);
   // Deviation s needs about (1.96 s / 0.05)^2 seeds, more for the levels of the looks.
   Goal known = goal;
-  known.parts[0].deviation = 0.1, known.wanted = 0.05;
+  known.parts[0].deviation = 0.09, known.wanted = 0.05;
   const std::vector<int> seeds = seedsToReach(cases, known, {3}, looks);
   ASSERT_EQ(seeds.size(), 1u);
   EXPECT_EQ(seeds[0], 24);
+  // Student's quantile at 24 seeds is 2.40 at the level of two looks, which would do, and 2.71 at that of four.
+  known.parts[0].deviation = 0.1;
+  EXPECT_EQ(seedsToReach(cases, known, {3}, looks), (std::vector{48}));
   known.parts[0].deviation = 10;
   EXPECT_TRUE(seedsToReach(cases, known, {3}, looks).empty());
 }

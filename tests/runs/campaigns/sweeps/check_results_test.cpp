@@ -2,11 +2,13 @@
 // What a check makes of runs, from runs that are written by hand.
 #include "runs/campaigns/sweeps/check_results.hpp"
 
+#include "runs/campaigns/sweeps/check_goals_text.hpp"
 #include "runs/campaigns/sweeps/check_report.hpp"
 #include "runs/campaigns/sweeps/check_series.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -94,8 +96,24 @@ TEST_F(CheckResults, ASeedThatFailedIsLeftOutOfItsPair) {
   const AxisError e = errorBy(depth(), CheckAxis::width);
   EXPECT_EQ(e.seeds, 2);
   EXPECT_NEAR(e.change.value, 0.1, 1e-12);
-  EXPECT_EQ(statusOf(record_, 1).word, "failed");
-  EXPECT_EQ(statusOf(record_, 1).message, "it broke");
+  EXPECT_EQ(statusOf(record_, 1).word, "partly failed");
+  EXPECT_EQ(statusOf(record_, 1).message, "1 of 3 runs failed: it broke");
+  add(CheckAxis::floor, "lower", 0, {NAN, NAN, NAN});
+  EXPECT_EQ(statusOf(record_, 2).word, "failed");
+}
+
+TEST_F(CheckResults, ABarWithoutAFailedCaseIsNotCalledMet) {
+  add(CheckAxis::base, "base", 0, {10, 11, 12});
+  record_.looks.seeds = {3};
+  Goal goal;
+  goal.figure = "depth [m]", goal.value = 11, goal.bar = 1, goal.wanted = 2, goal.state = GoalState::met;
+  record_.goals = {goal}, record_.toReach = {{}};
+  EXPECT_TRUE(goalsJson(record_)[0].at("met"));
+  EXPECT_NE(goalsText(record_, 20).find("  met"), std::string::npos);
+  add(CheckAxis::floor, "lower", 0, {10, NAN, 12});
+  EXPECT_FALSE(goalsJson(record_)[0].at("met"));
+  EXPECT_EQ(goalsJson(record_)[0].at("missing"), nlohmann::ordered_json({"lower (partly failed)"}));
+  EXPECT_NE(goalsText(record_, 20).find("inconclusive"), std::string::npos);
 }
 
 TEST_F(CheckResults, TheStepsOrderIsOfBothSides) {
