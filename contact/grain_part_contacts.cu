@@ -136,11 +136,11 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   energyHeld_ = base::Array<std::int64_t>(exec);
   std::vector<Crushing> crushing;
   for (std::size_t m = 0; crushes_ && m < materials.laws.size(); ++m)
-    crushing.push_back(crushingOf(materials.crushing[m], materials.laws[m]));
+    crushing.push_back(crushingOf(materials.crushing[m % materials.crushing.size()], materials.laws[m]));
   crushing_ = base::Array<Crushing>(exec, crushing);
   std::vector<bool> isMet(sets.size()); // the table of another is never asked
   for (const GrainPart& part : parts)
-    if (part.meets) isMet[static_cast<std::size_t>(part.surface)] = true;
+    if (part.meets && part.surface >= 0) isMet[static_cast<std::size_t>(part.surface)] = true;
   std::vector<SurfaceGridView> views;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const double edge = sets[s]->spacing > 0.006 ? 0.75 * sets[s]->spacing : 0.0045;
@@ -150,9 +150,12 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   }
   for (GrainPart& part : parts) {
     Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-    for (const base::SetSphere& s : sets[static_cast<std::size_t>(part.surface)]->spheres) {
-      const double r = s.radius + s.flat;
-      low = base::min(low, s.centre - Vec3d{r, r, r}), high = base::max(high, s.centre + Vec3d{r, r, r});
+    if (part.surface < 0) high = halfExtent(part.shape), low = -high;
+    for (std::size_t s = 0; part.surface >= 0 && s < sets[static_cast<std::size_t>(part.surface)]->spheres.size();
+         ++s) {
+      const base::SetSphere& sphere = sets[static_cast<std::size_t>(part.surface)]->spheres[s];
+      const double r = sphere.radius + sphere.flat;
+      low = base::min(low, sphere.centre - Vec3d{r, r, r}), high = base::max(high, sphere.centre + Vec3d{r, r, r});
     }
     constexpr double kFarAway = 1e100; // its square is a number
     if (!part.meets) low = high = {kFarAway, kFarAway, kFarAway};

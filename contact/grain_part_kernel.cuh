@@ -76,9 +76,11 @@ template <unsigned kFeatures> struct GrainPartForces {
   /// Whether any disc of the part is within reach of the grain.
   GROUSER_HD bool isNear(int e) const {
     const PartMotion& part = motion[partOf(e)];
-    const SurfaceGridView& grid = grids[parts[partOf(e)].surface];
+    const GrainPart& of = parts[partOf(e)];
     const Ball ball = ballOf(static_cast<int>(slot[e]));
     const base::Vec3d c = part.toPart(ball.x);
+    if (of.surface < 0) return gapTo(of.shape, c).distance < ball.radius;
+    const SurfaceGridView& grid = grids[of.surface];
     const std::int64_t cell = grid.cellAt(c);
     if (cell < 0) return false;
     for (std::uint32_t k = grid.start[cell]; k < grid.start[cell + 1]; ++k)
@@ -107,7 +109,10 @@ private:
     const PartMotion part = motion[p];
     const Ball ball = ballOf(i);
     TouchedPatch patches[kPatches];
-    const int found = findPatches(grids[parts[p].surface], part.toPart(ball.x), ball.radius, group, patches);
+    const GrainPart& of = parts[p];
+    const base::Vec3d c = part.toPart(ball.x);
+    const int found = of.surface < 0 ? touchShape(of.shape, c, ball.radius, patches)
+                                     : findPatches(grids[of.surface], c, ball.radius, group, patches);
     if (group.rank != 0) return; // the rest is for one thread
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
     int former[kPatches];
@@ -122,7 +127,7 @@ private:
       fresh[k] = {patches[k].normal, former[k] < 0 ? base::Vec3f{} : held[former[k]].shear};
       if (rolls() && former[k] >= 0) freshAngle[k] = heldAngle[former[k]];
       if (crushes() && former[k] >= 0) freshDent[k] = heldDent[former[k]];
-      apply(part, ball, patches[k], {fresh[k].shear, freshAngle[k], freshDent[k]}, sum);
+      apply(part, of.firstLaw + ball.material, ball, patches[k], {fresh[k].shear, freshAngle[k], freshDent[k]}, sum);
     }
     for (int k = 0; k < kPatches; ++k) {
       held[k] = fresh[k];
@@ -132,7 +137,7 @@ private:
     const float share = sum.onGrain.deepest / static_cast<float>(ball.radius);
     if (crushes()) {
       energyHeld[e] = model.energy.quantise(sum.elastic);
-      if (share >= 1 && mayCrush(ball)) {
+      if (share >= 1 && mayCrush(of.firstLaw + ball.material, ball)) {
         // Crushed to its middle: the host takes it out before the next step.
         sum.onGrain.deepest = -sum.onGrain.deepest;
         base::atomicAdd64(&partLoad[endedAt].force.x, 1);
@@ -180,8 +185,8 @@ private:
 
   GROUSER_HD bool rolls() const { return (kFeatures & (kGeneral | kRollingFriction)) && angle; }
   GROUSER_HD bool crushes() const { return (kFeatures & kGeneral) && crushing; }
-  GROUSER_HD bool mayCrush(const Ball& ball) const {
-    return crushes() && !ball.fixed && crushing[ball.material].strength > 0;
+  GROUSER_HD bool mayCrush(int lawIndex, const Ball& ball) const {
+    return crushes() && !ball.fixed && crushing[lawIndex].strength > 0;
   }
 
   GROUSER_HD Ball ballOf(int i) const {
@@ -204,6 +209,17 @@ private:
     base::atomicAdd64(&target.x, value.x);
     base::atomicAdd64(&target.y, value.y);
     base::atomicAdd64(&target.z, value.z);
+  }
+
+  /// A convex shape has one nearest point.
+  GROUSER_HD static int touchShape(const SurfaceGeometry& shape, const base::Vec3d& c, double ballRadius,
+                                   TouchedPatch* patches) {
+    const SurfaceGap gap = gapTo(shape, c);
+    const float overlap = static_cast<float>(ballRadius - gap.distance);
+    if (overlap <= 0) return 0;
+    const base::Vec3f normal = gap.normal.template as<float>();
+    patches[0] = {normal, normal, overlap};
+    return 1;
   }
 
   /// The deepest contact first, then the deepest that belongs to none of the patches so far.
@@ -286,10 +302,10 @@ private:
   }
 
   /// Force of one patch, in the part's frame as the history is, then quantised in the world.
-  GROUSER_HD void apply(const PartMotion& part, const Ball& ball, const TouchedPatch& patch, const Springs& springs,
-                        PairLoad& sum) const {
+  GROUSER_HD void apply(const PartMotion& part, int lawIndex, const Ball& ball, const TouchedPatch& patch,
+                        const Springs& springs, PairLoad& sum) const {
     if (patch.overlap > sum.onGrain.deepest) sum.onGrain.deepest = patch.overlap;
-    const BasicLaw<float>* law = laws + ball.material;
+    const BasicLaw<float>* law = laws + lawIndex;
     const base::Vec3d outward = part.rotation * patch.normal.template as<double>();
     const base::Vec3d arm = outward * -(ball.radius - static_cast<double>(patch.overlap));
     const base::Vec3d point = ball.x + arm;
@@ -299,9 +315,9 @@ private:
     ContactGeometry touch{-patch.normal, patch.overlap, transposedTimes(part.rotation, relative).template as<float>(),
                           mass, radius};
     BasicLaw<float> yielding;
-    if (mayCrush(ball)) {
+    if (mayCrush(lawIndex, ball)) {
       yielding = *law;
-      if (!crush(crushing[ball.material], touch, springs, dt, yielding, sum)) return;
+      if (!crush(crushing[lawIndex], touch, springs, dt, yielding, sum)) return;
       law = &yielding;
     }
     const Reaction reaction = contactForce<kFeatures>(*law, touch, dt, springs.shear);

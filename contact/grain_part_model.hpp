@@ -5,6 +5,7 @@
 #include "base/position.hpp"
 #include "base/vec.hpp"
 #include "contact/contact_law.hpp"
+#include "contact/surface_geometry.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -24,9 +25,11 @@ struct PatchMemory {
 
 /// A rigid part, for contacts with grains.
 struct GrainPart {
-  int surface{};               ///< index of its unique sphere set
+  int surface{};               ///< index of its unique sphere set; of a shape in closed form -1
   base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]; far away where grains do not meet it
   bool meets{true};            ///< whether grains meet it
+  int firstLaw{};              ///< place of its laws: those of the grains' materials against its own follow each other
+  SurfaceGeometry shape{};     ///< in closed form, where it has no sphere set
 };
 
 /// What the contacts of grains with parts are summed into: whole numbers, those of energies and forces in quanta.
@@ -60,7 +63,7 @@ struct GrainPartModel {
 
 /// Where grains differ: by material, their law against the parts (instead of the model's) and mass over radius^3.
 struct GrainPartMaterials {
-  std::vector<ContactLaw> laws;
+  std::vector<ContactLaw> laws;    ///< of all grains' materials against the first material of parts, then the next
   std::vector<double> massPerCube; ///< [kg/m3]
   std::vector<double> crushing{};  ///< crushing strength [Pa], 0: does not crush; empty: no material does
 

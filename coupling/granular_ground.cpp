@@ -19,18 +19,18 @@ GroundTraits GranularGround::traits() const {
 }
 
 LoadQuanta GranularGround::meet(const PartsOnGround& parts) {
-  onVehicle_ = std::make_unique<GrainsOnVehicle>(parts, *setup_.grains, grains(), exec_);
-  return onVehicle_->quanta();
+  onParts_ = std::make_unique<GrainsOnParts>(parts, *setup_.grains, grains(), exec_);
+  return onParts_->quanta();
 }
 
 /// Walls and floor; without a vehicle there is nothing that they could run beside.
 void GranularGround::beginUncoupled() {
-  if (onVehicle_) grains().beginBoundaries();
+  if (onParts_) grains().beginBoundaries();
 }
 
 void GranularGround::compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double*,
                              contact::PartLoad* loads) {
-  onVehicle_->contacts().computeOn(exec, grains().view(), motion, loads);
+  onParts_->contacts().computeOn(exec, grains().view(), motion, loads);
 }
 
 void GranularGround::setGravity(const base::Vec3d& gravity) {
@@ -46,7 +46,7 @@ std::vector<double> GranularGround::surfaceNow() const {
 }
 
 void GranularGround::restartMeans() {
-  if (onVehicle_) onVehicle_->forgetPressed();
+  if (onParts_) onParts_->forgetPressed();
 }
 
 void GranularGround::save(SimulationState& state) const {

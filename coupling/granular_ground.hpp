@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/grains_on_vehicle.hpp"
+#include "coupling/grains_on_parts.hpp"
 #include "coupling/ground.hpp"
 #include "coupling/laid_ground.hpp"
 
@@ -20,28 +20,28 @@ public:
   double clearance(const vehicle::Assembly& assembly) const override;
   GroundTraits traits() const override;
   LoadQuanta meet(const PartsOnGround& parts) override;
-  void restoreContacts(const VehicleState& state) override { onVehicle_->restore(state); }
+  void restoreContacts(const ContactsState& state) override { onParts_->restore(state); }
   bool refreshLists() override { return grains().refreshNeighbours(); }
-  void refreshContacts(const base::Array<contact::PartMotion>& motion) override { onVehicle_->refresh(motion); }
+  void refreshContacts(const base::Array<contact::PartMotion>& motion) override { onParts_->refresh(motion); }
   void beginUncoupled() override;
   const void* buffer() const override { return grains().view().position; }
   void compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double* travelled,
                contact::PartLoad* loads) override;
-  void collect(const contact::PartLoad& own) override { onVehicle_->countEnded(own.force.x); }
-  void beginStep() override { grains().beginStep(onVehicle_ ? &onVehicle_->loads() : onMeshes_); }
+  void collect(const contact::PartLoad& own) override { onParts_->countEnded(own.force.x); }
+  void beginStep() override { grains().beginStep(onParts_ ? &onParts_->loads() : onMeshes_); }
   void endStep() override { grains().endStep(); }
   void setGravity(const base::Vec3d& gravity) override;
   void addTo(Ledger& ledger) override;
-  void addContactsTo(ContactLedger& ledger) const override { onVehicle_->addTo(ledger); }
-  ListedContacts listed() const override { return {0, onVehicle_->contacts().pairs()}; }
+  void addContactsTo(ContactLedger& ledger) const override { onParts_->addTo(ledger); }
+  ListedContacts listed() const override { return {0, onParts_->contacts().pairs()}; }
   std::vector<double> surfaceNow() const override;
   void restartMeans() override;
   void save(SimulationState& state) const override;
-  void saveContacts(VehicleState& state) const override { onVehicle_->save(state); }
+  void saveContacts(ContactsState& state) const override { onParts_->save(state); }
 
   // What other kinds of ground do not have.
   terrain::Grains& grains() const { return *laid_.grains; }
-  GrainsOnVehicle* onVehicle() const { return onVehicle_.get(); } ///< null without a vehicle
+  GrainsOnParts* onParts() const { return onParts_.get(); } ///< null without a vehicle
   /// Loads of the meshes among the scene's surfaces, which outlive it; null without meshes.
   void meetMeshes(const contact::GrainLoadsView* loads) { onMeshes_ = loads; }
 
@@ -49,7 +49,7 @@ private:
   LaidGround& laid_;
   const GroundSetup& setup_;
   base::Exec exec_;
-  std::unique_ptr<GrainsOnVehicle> onVehicle_;
+  std::unique_ptr<GrainsOnParts> onParts_;
   const contact::GrainLoadsView* onMeshes_{nullptr};
 };
 

@@ -23,11 +23,11 @@ struct Assembly;
 
 namespace grouser::coupling {
 
-class VehicleParts;
 struct ContactLedger;
+struct ContactParts;
+struct ContactsState;
 struct Ledger;
 struct SimulationState;
-struct VehicleState;
 
 /// Constants of a ground that the vehicle's assembly depends on.
 struct GroundTraits {
@@ -39,14 +39,13 @@ struct GroundTraits {
   bool hasMomentum = false; ///< whether the ledger includes the momentum of the ground; true only for grains
 };
 
-/// The parts of a vehicle as a ground meets them. `assembly` and `parts` outlive the ground's steps.
+/// The parts of a vehicle and of bodies as a ground meets them. What it refers to outlives the ground's steps.
 struct PartsOnGround {
-  const vehicle::Assembly& assembly; ///< its spec.contact holds the vehicle's contact parameters
-  const VehicleParts& parts;         ///< sphere sets; contact part c is part parts.partOf(c) of the assembly
-  contact::PatchQuanta quanta;       ///< of the vehicle's other contacts: its weight fits many thousand times
-  double timeStep{};                 ///< [s]
-  double margin{};                   ///< how far parts move at most between two calls of refreshContacts() [m]
-  bool shoesOnly{};                  ///< whether the scene lets the soil meet no other part
+  const ContactParts& parts;        ///< their surfaces and contact parameters
+  const vehicle::Assembly* vehicle; ///< null without
+  contact::PatchQuanta quanta;      ///< of their other contacts: the weight of all fits many thousand times
+  double timeStep{};                ///< [s]
+  double margin{};                  ///< how far parts move at most between two calls of refreshContacts() [m]
 };
 
 /// Units of the integer sums in which a ground returns its loads on parts.
@@ -89,7 +88,7 @@ public:
   /// no memory is used for it. Returns the units of compute()'s sums.
   virtual LoadQuanta meet(const PartsOnGround& parts) = 0;
   /// Puts back the history of contacts with the parts that saveContacts() wrote.
-  virtual void restoreContacts(const VehicleState&) {}
+  virtual void restoreContacts(const ContactsState&) {}
 
   // One step, in this order.
 
@@ -144,7 +143,7 @@ public:
   /// Writes the ground's own state: grains into `grains`, another kind as plain numbers into `ground`.
   virtual void save(SimulationState&) const {}
   /// Writes the history of contacts with the parts: `ground` or `bed`; another kind may keep it in save().
-  virtual void saveContacts(VehicleState&) const {}
+  virtual void saveContacts(ContactsState&) const {}
 };
 
 } // namespace grouser::coupling

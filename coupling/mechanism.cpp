@@ -30,12 +30,22 @@ constexpr double kTurnDigits = 1e-6;
 
 } // namespace
 
-Mechanism::Mechanism(const MechanismSetup& setup, double timeStep)
-    : timeStep_(timeStep), largestTurn_(setup.largestTurn), model_(setup.model), state_(multibody::makeState(model_)),
-      loads_(multibody::makeLoads(model_)), solver_(model_, setup.solver),
-      startBlow_(beginMotion(setup, solver_, state_, loads_)) {
+Mechanism::Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec, Ground* ground)
+    : timeStep_(timeStep), largestTurn_(setup.largestTurn), model_(setup.model), solver_(model_, setup.solver) {
+  state_ = multibody::makeState(model_), loads_ = multibody::makeLoads(model_);
+  startBlow_ = beginMotion(setup, solver_, state_, loads_);
   if (setup.control) controller_ = std::make_unique<StepController>(*setup.control, setup.largestTurn);
   for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
+  if (setup.shapes.empty() || !ground) return;
+  touching_ = contactPartsOf(setup);
+  contacts_ =
+      std::make_unique<PartContacts>(touching_, nullptr, std::vector<Obstacle>{}, exec, timeStep_, ground, nullptr);
+}
+
+std::vector<bool> Mechanism::touchingBodies() const {
+  std::vector<bool> all(model_.bodies().size());
+  for (const ContactPart& part : touching_.parts) all[part.body] = true;
+  return all;
 }
 
 void Mechanism::fail(base::Cause cause, const std::string& message) const {
@@ -54,6 +64,7 @@ void Mechanism::require(const Input& input) const {
 
 void Mechanism::command(const Inputs& inputs, const base::Vec3d& gravity) {
   loads_.gravity = gravity;
+  if (contacts_) return applied_.set(inputs); // beside the contacts, in each step
   for (multibody::Wrench& wrench : loads_.external) wrench = {};
   for (const Input& i : inputs.acting())
     if (i.kind == InputKind::bodyLoad)
@@ -67,6 +78,7 @@ void Mechanism::advance() {
     ++steps_;
     return;
   }
+  if (contacts_) applied_.add(state_, loads_);
   try {
     solver_.step(state_, loads_, timeStep_);
   } catch (const base::SimulationError& error) {
@@ -77,6 +89,7 @@ void Mechanism::advance() {
     fail(base::Cause::growingSwings, error.what());
   }
   ++steps_;
+  if (contacts_) applied_.book(state_, timeStep_), contacts_->trackTravel(state_);
   watchDrift();
   if (!overTension_) watchTension();
   if (steps_ % kJudgeInterval == 0) judge();
@@ -175,8 +188,8 @@ double Mechanism::axisSpringForce(int index) const {
 
 void Mechanism::addTo(Ledger& l) const {
   multibody::Balance bodies = bodiesBalance();
-  bodies.driveWork += bodies.externalWork;
-  enterBodies(l, bodies);
+  bodies.driveWork += contacts_ ? applied_.work() : bodies.externalWork;
+  enter(l, bodies);
   l.potential += bodies.now.gravity, l.elastic += bodies.now.elastic;
 }
 
@@ -192,22 +205,33 @@ std::vector<std::uint32_t> MechanismState::words() const {
   if (!control.empty() && control.front() > 0) all.push_back(control.front());
   std::vector<std::uint32_t> words(2 * all.size());
   if (!all.empty()) std::memcpy(words.data(), all.data(), all.size() * sizeof(double));
+  if (!touching) return words;
+  const std::vector<std::uint32_t> contacts = touching->contactWords();
+  words.insert(words.end(), contacts.begin(), contacts.end());
   return words;
 }
 
 MechanismState Mechanism::save() const {
   const StepController::Record steps = controller_ ? controller_->record() : StepController::Record{};
-  return {
+  MechanismState s{
       state_.save(),
       {worst_.position, static_cast<double>(worst_.iterations), static_cast<double>(worst_.singularSteps)},
       {static_cast<double>(steps_), boundedTension_, overTension_ ? 1.0 : 0.0, swings_.save()[0], swings_.save()[1]},
       {steps.next, static_cast<double>(steps.taken), static_cast<double>(steps.rejected), steps.smallest,
-       steps.largest}};
+       steps.largest},
+      {}};
+  if (!contacts_) return s;
+  MechanismState::Touching& t = s.touching.emplace();
+  contacts_->save(t);
+  t.forces = rowMeans_.sums, t.meanSteps = rowMeans_.steps;
+  t.appliedWork = applied_.save();
+  return s;
 }
 
 void Mechanism::restore(const MechanismState& saved) {
   state_.restore(saved.bodies);
-  if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5)
+  if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5 ||
+      saved.touching.has_value() != touches())
     throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
   steps_ = static_cast<std::int64_t>(saved.judged[0]);
@@ -218,6 +242,10 @@ void Mechanism::restore(const MechanismState& saved) {
   const std::vector<double>& c = saved.control;
   if (controller_)
     controller_->restore({c[0], static_cast<std::int64_t>(c[1]), static_cast<std::int64_t>(c[2]), c[3], c[4]});
+  if (!saved.touching) return;
+  contacts_->restore(*saved.touching);
+  rowMeans_ = {saved.touching->forces, saved.touching->meanSteps};
+  applied_.restore(saved.touching->appliedWork);
 }
 
 } // namespace grouser::coupling

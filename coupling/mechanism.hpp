@@ -2,13 +2,14 @@
 #pragma once
 
 #include "base/math.hpp"
+#include "coupling/applied_loads.hpp"
+#include "coupling/bodies_in_contact.hpp"
 #include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/mechanism_setup.hpp"
 #include "coupling/mechanism_state.hpp"
 #include "coupling/step_controller.hpp"
 #include "coupling/swing_growth.hpp"
-#include "multibody/readings.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 
@@ -20,11 +21,15 @@
 namespace grouser::coupling {
 
 /// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
-class Mechanism {
+class Mechanism : public BodiesInContact {
 public:
-  Mechanism(const MechanismSetup& setup, double timeStep);
-  Mechanism(const Mechanism&) = delete;
-  Mechanism& operator=(const Mechanism&) = delete;
+  /// `ground`: what the bodies' shapes touch, which outlives it; null: nothing.
+  Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec = base::cpuExec(1),
+            Ground* ground = nullptr);
+
+  bool touches() const { return contacts_ != nullptr; }
+  std::vector<bool> touchingBodies() const; ///< [body] whether it has a shape that touches something
+  void collectLoads() override { collectInto({&rowMeans_}); }
 
   /// Throws base::InputError where the mechanism has nothing that the input could set.
   void require(const Input& input) const;
@@ -33,11 +38,10 @@ public:
 
   /// One step. Throws base::SimulationError, also where the motion has become too quick for the step: at every
   /// kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.
-  void advance();
+  void advance() override;
   static constexpr std::int64_t kJudgeInterval = 50;
 
   const multibody::Model& model() const { return model_; }
-  const multibody::State& state() const { return state_; }
   const multibody::Solver& solver() const { return solver_; }
 
   /// What a drive does now.
@@ -76,7 +80,10 @@ public:
     int singularSteps = 0; ///< steps through a singular position since then
   };
   Drift drift() const;
-  void restartMeans() { worst_ = {}; }
+  void restartMeans() { worst_ = {}, rowMeans_.restart(); }
+
+  /// [body] force of all contacts, mean since restartMeans() [N]; zero without.
+  std::vector<base::Vec3d> contactForces() const { return meanForces(rowMeans_, model_.bodies().size()); }
 
   /// What its steps were; null where they are fixed.
   const StepController* controller() const { return controller_.get(); }
@@ -96,8 +103,6 @@ private:
 
   const double timeStep_, largestTurn_;
   const multibody::Model model_;
-  multibody::State state_;
-  multibody::Loads loads_;
   multibody::Solver solver_;
   double startBlow_;
   Drift worst_;
@@ -108,6 +113,8 @@ private:
   SwingGrowth swings_;
   std::unique_ptr<StepController> controller_; ///< null: fixed steps
   std::vector<double> startTurn_;              ///< of each body in the first step [rad]
+  AppliedLoads applied_;                       ///< from outside, where bodies touch something
+  ForceMeans rowMeans_;
 };
 
 } // namespace grouser::coupling

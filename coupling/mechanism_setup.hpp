@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/contact_parts.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace grouser::coupling {
@@ -16,6 +18,15 @@ struct StepControl {
   double longest = 0;   ///< that drives allow [s]
 };
 
+/// A surface by which a body touches grains.
+struct BodyShape {
+  std::size_t body{};             ///< of the model
+  base::Pose pose_B;              ///< of the shape's frame in the body's
+  contact::SurfaceGeometry shape; ///< in closed form
+  int material{};                 ///< among those of the bodies' shapes
+  std::string place;              ///< of its body in messages: "scene.toml:14: body.0"
+};
+
 /// A mechanism as its solver takes it.
 struct MechanismSetup {
   multibody::Model model;
@@ -24,8 +35,12 @@ struct MechanismSetup {
   double largestTurn;                 ///< of a body in a step [rad]
   std::optional<StepControl> control; ///< empty: fixed steps
   std::vector<std::optional<base::Vec3d>>
-      boxes; ///< edges of each body as it is drawn [m]; empty: as its inertia has it
+      boxes;                     ///< edges of each body as it is drawn [m]; empty: as its inertia has it
+  std::vector<BodyShape> shapes; ///< empty: the bodies touch nothing
 };
+
+/// The bodies' shapes as contacts see them.
+ContactParts contactPartsOf(const MechanismSetup& setup);
 
 /// Brings `state`, as the model says it, and `loads` to the start: gravity, and velocities that fit joints and drives.
 /// Returns the kinetic energy that the drives gave in an impact, since the velocities did not fit theirs [J].

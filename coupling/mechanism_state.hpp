@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/contacts_state.hpp"
+
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace grouser::coupling {
@@ -13,6 +16,14 @@ struct MechanismState {
   std::vector<double> judged; ///< what the next judgement of the pull in joints goes on from
 
   std::vector<double> control; ///< error-controlled steps: the next [s], how many, rejected, smallest, largest [s]
+
+  /// Of bodies that touch something.
+  struct Touching : ContactsState {
+    std::vector<base::Vec3l> forces; ///< by shape and surface, since the last row, in quanta
+    std::int64_t meanSteps{};        ///< of that sum
+    std::vector<double> appliedWork; ///< AppliedLoads::save()
+  };
+  std::optional<Touching> touching;
 
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const;

@@ -14,46 +14,44 @@ namespace grouser::coupling {
 using base::Vec3d;
 using terrain::RigidContacts;
 
-std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const vehicle::Assembly& assembly, const VehicleParts& parts,
+std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& parts,
                                                          const std::vector<Obstacle>& obstacles,
                                                          const terrain::HeightField* hullOn, const Model& model,
                                                          const base::Comm& comm, SphereSets* kept) {
   if (obstacles.empty() && !hullOn) return nullptr;
   std::unique_ptr<ObstacleContacts> made(new ObstacleContacts);
   std::vector<PartCut> cuts;
-  for (const Obstacle& o : obstacles) {
-    if (!o.surface.mesh) continue;
-    cuts.push_back(meshCut(o.surface, VehicleParts::contactSize(assembly.spec)));
-  }
+  for (const Obstacle& o : obstacles)
+    if (o.surface.mesh) cuts.push_back(meshCut(o.surface, parts.contactSize));
   made->sets_ = cutParts(cuts, kept, comm, &made->cutReports_);
   std::vector<const base::SphereSet*> meshes;
   for (const base::SphereSet& set : made->sets_) meshes.push_back(&set);
-  const std::vector<int> setOfPart = parts.setOfContactPart();
-  const int count = static_cast<int>(setOfPart.size());
+  const int count = static_cast<int>(parts.count());
   int nextMesh = 0;
 
-  const vehicle::ContactSpec& spec = assembly.spec.contact;
   std::vector<RigidContacts::Surface> surfaces;
   std::vector<RigidContacts::Pair> pairs;
+  std::vector<int> touching;
   using Kind = RigidContacts::Surface::Kind;
+  const auto meet = [&](int part) {
+    pairs.push_back({part, static_cast<int>(surfaces.size()) - 1});
+    touching.push_back(part);
+  };
   for (const Obstacle& o : obstacles) {
-    const int index = static_cast<int>(surfaces.size());
     surfaces.push_back({o.surface.mesh ? Kind::mesh : Kind::shape, o.surface.geometry, o.surface.mesh ? nextMesh++ : -1,
-                        count + index, o.friction});
+                        count + static_cast<int>(surfaces.size()), o.friction});
     made->motions_.push_back(startingPose(o.surface).motion);
-    for (int part = 0; part < count; ++part) pairs.push_back({part, index});
+    for (int part = 0; part < count; ++part) meet(part);
   }
   if (hullOn) {
-    const int index = static_cast<int>(surfaces.size());
-    surfaces.push_back({Kind::field, {}, -1, count + index, spec.frictionGround});
+    surfaces.push_back({Kind::field, {}, -1, count + static_cast<int>(surfaces.size()), parts.foundation.friction});
     made->motions_.push_back({{}, base::Mat3d::identity(), {}, {}, {}});
     for (int part = 0; part < count; ++part)
-      if (assembly.parts[parts.partOf(static_cast<std::size_t>(part))].kind == vehicle::PartKind::kChassis)
-        pairs.push_back({part, index});
+      if (parts.parts[static_cast<std::size_t>(part)].isHull) meet(part);
   }
-  const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, 0, spec.tangentialRatio};
-  made->contacts_ = std::make_unique<RigidContacts>(RigidContacts::Model{law, model.quanta, model.timeStep},
-                                                    parts.points(pairs), setOfPart, surfaces, pairs, meshes, hullOn);
+  made->contacts_ =
+      std::make_unique<RigidContacts>(RigidContacts::Model{parts.foundation, model.quanta, model.timeStep},
+                                      parts.pointsOf(touching), parts.surfaceOfPart(), surfaces, pairs, meshes, hullOn);
   return made;
 }
 
@@ -71,17 +69,14 @@ struct Placed {
   std::string name;
 };
 
-std::vector<Placed> placedParts(const vehicle::Assembly& assembly, const VehicleParts& parts) {
-  const std::vector<const base::SphereSet*> sets = parts.sets();
-  const std::vector<int> setOfPart = parts.setOfContactPart();
+std::vector<Placed> placedParts(const multibody::Model& model, const ContactParts& parts) {
   std::vector<double> reach;
-  for (const base::SphereSet* set : sets) reach.push_back(contact::enclosingRadius(*set));
+  for (const base::SphereSet* set : parts.surfaces) reach.push_back(contact::enclosingRadius(*set));
   std::vector<Placed> placed;
-  for (std::size_t c = 0; c < setOfPart.size(); ++c) {
-    const vehicle::Part& part = assembly.parts[parts.partOf(c)];
-    const base::Pose& body = assembly.model.bodies()[static_cast<std::size_t>(part.body)].pose;
-    const auto set = static_cast<std::size_t>(setOfPart[c]);
-    placed.push_back({multibody::compose(body, part.pose_B), sets[set], reach[set], part.name});
+  for (const ContactPart& part : parts.parts) {
+    const auto set = static_cast<std::size_t>(part.surface);
+    placed.push_back(
+        {multibody::compose(model.bodies()[part.body].pose, part.pose_B), parts.surfaces[set], reach[set], part.name});
   }
   return placed;
 }
@@ -101,10 +96,10 @@ double depthIn(const Placed& part, const SurfaceSetup& surface, double lift) {
 
 } // namespace
 
-double liftOffObstacles(const vehicle::Assembly& assembly, const VehicleParts& parts,
+double liftOffObstacles(const multibody::Model& model, const ContactParts& parts,
                         const std::vector<Obstacle>& obstacles) {
   if (obstacles.empty()) return 0;
-  const std::vector<Placed> placed = placedParts(assembly, parts);
+  const std::vector<Placed> placed = placedParts(model, parts);
   double lift = 0;
   for (int tries = 0; tries < kMostTries; ++tries) {
     double most = 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/contact_parts.hpp"
 #include "coupling/ground_setup.hpp"
 #include "coupling/sphere_sets.hpp"
-#include "coupling/vehicle_parts.hpp"
+#include "multibody/model.hpp"
 #include "terrain/rigid_contacts.hpp"
-#include "vehicle/assembly.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -23,8 +23,7 @@ public:
   };
   /// `kept`: where sphere sets of meshes come from; null: they are cut. `hullOn`: rigid ground for the hull; may be
   /// null. Null where there is nothing to meet.
-  static std::unique_ptr<ObstacleContacts> make(const vehicle::Assembly& assembly, const VehicleParts& parts,
-                                                const std::vector<Obstacle>& obstacles,
+  static std::unique_ptr<ObstacleContacts> make(const ContactParts& parts, const std::vector<Obstacle>& obstacles,
                                                 const terrain::HeightField* hullOn, const Model& model,
                                                 const base::Comm& comm, SphereSets* kept);
 
@@ -52,7 +51,7 @@ private:
 
 /// How much higher a vehicle has to be set down so that no part stands in an obstacle [m]: 0 where none does. Throws
 /// InputError, at the obstacle's place in the scene, where that would be more than 10 cm.
-double liftOffObstacles(const vehicle::Assembly& assembly, const VehicleParts& parts,
+double liftOffObstacles(const multibody::Model& model, const ContactParts& parts,
                         const std::vector<Obstacle>& obstacles);
 
 } // namespace grouser::coupling

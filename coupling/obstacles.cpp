@@ -76,6 +76,7 @@ double topOf(const SurfaceSetup& surface, double x, double y) {
     cutSlab(p.z, d.z, half.z, low, high), cutRound(p, d, half.x, low, high);
     break;
   case terrain::SurfaceShape::tube:
+  case terrain::SurfaceShape::capsule: // bodies alone have that
     return kNoTop;
   }
   if (low > high) return kNoTop;

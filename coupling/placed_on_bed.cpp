@@ -87,23 +87,26 @@ struct Deepest {
   Row grain{};
 };
 
-Deepest deepestIn(const SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
-  const SurfaceBounds b = boundsOf(surface);
-  const bool plane = surface.geometry.shape == terrain::SurfaceShape::plane && !surface.mesh;
+/// Of all ranks the grain that is deepest, of equal ones the first. `depthOf` a row [m].
+template <class DepthOf>
+Deepest deepestOf(const std::vector<Row>& rows, const base::Comm& comm, const DepthOf& depthOf) {
   Deepest deepest;
-  for (const Row& g : rows) {
-    bool near = true;
-    for (int a = 0; a < 3 && !plane; ++a)
-      near = near && g.position[a] + g.radius > b.low[a] && g.position[a] - g.radius < b.high[a];
-    if (!near) continue;
-    const double depth = startingOverlap(surface, g.position, g.radius);
-    if (depth > deepest.share * g.radius) deepest = {depth / g.radius, depth, g};
-  }
-  // Of all ranks: the deepest, of equal ones the first.
+  for (const Row& g : rows)
+    if (const double depth = depthOf(g); depth > deepest.share * g.radius) deepest = {depth / g.radius, depth, g};
   for (const Deepest& other : comm.gatherValue(deepest))
     if (other.share > deepest.share || (other.share == deepest.share && other.grain.id < deepest.grain.id))
       deepest = other;
   return deepest;
+}
+
+Deepest deepestIn(const SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
+  const SurfaceBounds b = boundsOf(surface);
+  const bool plane = surface.geometry.shape == terrain::SurfaceShape::plane && !surface.mesh;
+  return deepestOf(rows, comm, [&](const Row& g) {
+    for (int a = 0; a < 3 && !plane; ++a)
+      if (g.position[a] + g.radius <= b.low[a] || g.position[a] - g.radius >= b.high[a]) return kNoGrain;
+    return startingOverlap(surface, g.position, g.radius);
+  });
 }
 
 void requireRoomInBed(const SurfaceSetup& surface, const std::vector<Row>& rows, const base::Comm& comm) {
@@ -264,6 +267,22 @@ void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const bas
   for (const SurfaceSetup& s : scene.surfaces)
     if (s.placedLater) requireRoomInBed(s, rows, comm);
   for (const PlacedGrains& p : scene.grains->onBed) requireRoomFor(p, scene);
+}
+
+void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const base::Comm& comm) {
+  const std::vector<Row> rows = rowsOf(grains);
+  const double most = grains.model().maxEntryOverlap;
+  for (const BodyShape& s : mechanism.shapes) {
+    const multibody::Body& body = mechanism.model.bodies()[s.body];
+    const base::Pose pose = multibody::compose(body.pose, s.pose_B);
+    const Deepest d = deepestOf(
+        rows, comm, [&](const Row& g) { return g.radius - contact::gapTo(s.shape, pose.toBody(g.position)).distance; });
+    if (d.share > most)
+      throw base::InputError(
+          fmt::format("{}: body \"{}\" stands {:.3g} m deep in grain {} of radius {:g} m at {} at the "
+                      "start, more than {:g} of its radius (run.max_overlap); move the body",
+                      s.place, body.name, d.depth, d.grain.id, d.grain.radius, pointOf(d.grain.position), most));
+  }
 }
 
 void takeIntoScene(LaidGround& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/mechanism_setup.hpp"
 #include "coupling/settled_ground.hpp"
 #include "terrain/grain_state.hpp"
 
@@ -20,6 +21,9 @@ void lift(GroundSetup& scene, const std::vector<double>& lifts);
 /// Throws InputError where a surface or mesh would stand in a grain of the settled bed, or a placed grain in a mesh or
 /// wall: with the numbers, and what helps. All ranks call it.
 void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const base::Comm& comm);
+
+/// Throws InputError where a body of a mechanism stands in a grain at the start. All ranks call it.
+void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const base::Comm& comm);
 
 /// Gives the grains of a settled bed the walls, surfaces, materials and radii of the whole scene: `ground` holds the
 /// bed alone before, and the same grains as the scene knows them after, where they lie and with the springs of their

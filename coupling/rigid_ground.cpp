@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/rigid_ground.hpp"
 
+#include "coupling/contact_parts.hpp"
+#include "coupling/contacts_state.hpp"
 #include "coupling/ledger_entries.hpp"
-#include "coupling/vehicle_parts.hpp"
-#include "coupling/vehicle_state.hpp"
 
 namespace grouser::coupling {
 
@@ -15,21 +15,21 @@ GroundTraits RigidGround::traits() const {
 }
 
 LoadQuanta RigidGround::meet(const PartsOnGround& on) {
-  const vehicle::ContactSpec& spec = on.assembly.spec.contact;
-  const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, 0, spec.tangentialRatio};
   using Contacts = terrain::RigidContacts;
-  const Contacts::Surface field{Contacts::Surface::Kind::field, {}, -1, -1, spec.frictionGround};
+  const Contacts::Surface field{Contacts::Surface::Kind::field, {}, -1, -1, on.parts.foundation.friction};
   std::vector<Contacts::Pair> pairs;
-  for (const int part : on.assembly.groundParts) pairs.push_back({on.parts.contactIndex(part), 0});
-  shoes_ = std::make_unique<Contacts>(Contacts::Model{law, on.quanta, on.timeStep}, on.parts.points(pairs),
-                                      on.parts.setOfContactPart(), std::vector{field}, pairs,
-                                      std::vector<const base::SphereSet*>{}, &*laid_.rigid);
+  std::vector<int> feet;
+  for (std::size_t c = 0; c < on.parts.count(); ++c)
+    if (on.parts.parts[c].meetsGround) feet.push_back(static_cast<int>(c)), pairs.push_back({feet.back(), 0});
+  feet_ = std::make_unique<Contacts>(Contacts::Model{on.parts.foundation, on.quanta, on.timeStep},
+                                     on.parts.pointsOf(feet), on.parts.surfaceOfPart(), std::vector{field}, pairs,
+                                     std::vector<const base::SphereSet*>{}, &*laid_.rigid);
   return {on.quanta.force, on.quanta.torque};
 }
 
-void RigidGround::addContactsTo(ContactLedger& ledger) const { ledger.rigid += shoes_->ledger(); }
+void RigidGround::addContactsTo(ContactLedger& ledger) const { ledger.rigid += feet_->ledger(); }
 
-void RigidGround::saveContacts(VehicleState& state) const { state.ground = shoes_->save(); }
-void RigidGround::restoreContacts(const VehicleState& state) { shoes_->restore(state.ground); }
+void RigidGround::saveContacts(ContactsState& state) const { state.ground = feet_->save(); }
+void RigidGround::restoreContacts(const ContactsState& state) { feet_->restore(state.ground); }
 
 } // namespace grouser::coupling

@@ -7,7 +7,8 @@
 
 namespace grouser::coupling {
 
-/// Rigid ground that follows a height-map: an elastic foundation under each shoe. The hull meets it with the obstacles.
+/// Rigid ground that follows a height-map: an elastic foundation under shoes and bodies. The hull meets it with the
+/// obstacles.
 class RigidGround : public Ground {
 public:
   /// `laid`, which has a rigid height-field, outlives it.
@@ -17,15 +18,15 @@ public:
   GroundTraits traits() const override;
   LoadQuanta meet(const PartsOnGround& parts) override;
   void computeOnHost(const contact::PartMotion* motion, contact::PartLoad* loads) override {
-    shoes_->compute(motion, loads);
+    feet_->compute(motion, loads);
   }
   void addContactsTo(ContactLedger& ledger) const override;
-  void saveContacts(VehicleState& state) const override;
-  void restoreContacts(const VehicleState& state) override;
+  void saveContacts(ContactsState& state) const override;
+  void restoreContacts(const ContactsState& state) override;
 
 private:
   const LaidGround& laid_;
-  std::unique_ptr<terrain::RigidContacts> shoes_; ///< null without a vehicle
+  std::unique_ptr<terrain::RigidContacts> feet_; ///< null where nothing touches it
 };
 
 } // namespace grouser::coupling

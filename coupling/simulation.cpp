@@ -38,8 +38,9 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
     laid_ = buildGround(setup_.ground, exec, comm);
   }
   makeActingGround();
+  if (laid_.grains && setup_.mechanism) requireRoom(*laid_.grains, *setup_.mechanism, comm);
   if (setup_.vehicle) makeVehicle(spheres);
-  if (setup_.mechanism) mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
+  if (setup_.mechanism) makeMechanism();
   if (laid_.grains) laid_.grains->setSteps(0);
   makeSurfaces(nullptr);
   if (isPutOnBed()) putGrains(laid_, setup_.ground);
@@ -63,16 +64,16 @@ void Simulation::step(StepObserver* observer) {
   const auto done = [observer](Stage stage) {
     if (observer) observer->after(stage);
   };
-  if (vehicle_) vehicle_->setSurfacePoses();
+  if (touching_) touching_->setSurfacePoses();
   done(Stage::surfacePoses);
   const bool listsEnded = ground_ && ground_->refreshLists();
   done(Stage::neighbourList);
-  if (vehicle_) vehicle_->refreshLists(listsEnded);
+  if (touching_) touching_->refreshLists(listsEnded);
   done(Stage::partLists);
   if (ground_) ground_->beginUncoupled();
   done(Stage::boundaries);
-  if (vehicle_) vehicle_->computeContacts(observer);
-  if (vehicle_) base::synchronize(exec_), vehicle_->collectLoads();
+  if (touching_) touching_->computeContacts(observer);
+  if (touching_) base::synchronize(exec_), touching_->collectLoads();
   done(Stage::partLoads);
   if (surfaces_) surfaces_->computeContacts(*laid_.grains, steps_, listsEnded);
   if (ground_) ground_->beginStep();
@@ -165,6 +166,12 @@ void Simulation::makeVehicle(SphereSets* spheres, std::optional<double> lift) {
   const auto bare = ground_ ? ground_->surface() : std::function<double(double, double)>{};
   vehicle_ = std::make_unique<VehicleRig>(setup_, exec_, ground_.get(), withObstacles(bare, setup_.ground.obstacles),
                                           spheres, lift);
+  touching_ = vehicle_.get();
+}
+
+void Simulation::makeMechanism() {
+  mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep, exec_, ground_.get());
+  if (mechanism_->touches()) touching_ = mechanism_.get();
 }
 
 /// Makes the surfaces and gives the grains their poses of this step. The grains were built with the poses of t = 0, so
@@ -197,11 +204,11 @@ void Simulation::addGrains() {
 /// contacts with parts held is dissipated; all else that they had the ledger goes on counting as it was.
 void Simulation::takeOutCrushed() {
   if (!setup_.crushes()) return;
-  GrainsOnVehicle* onVehicle = granular_->onVehicle();
-  const std::vector<std::uint32_t> ids = onVehicle ? onVehicle->endedGrains() : surfaces_->endedGrains();
+  GrainsOnParts* onParts = granular_->onParts();
+  const std::vector<std::uint32_t> ids = onParts ? onParts->endedGrains() : surfaces_->endedGrains();
   if (ids.empty()) return;
-  if (onVehicle)
-    onVehicle->takeOut(ids);
+  if (onParts)
+    onParts->takeOut(ids);
   else
     surfaces_->takeOut(ids);
   const Ledger before = wholeLedger();
@@ -239,14 +246,14 @@ PressedGrain Simulation::pressed(std::uint32_t grain) {
   PressedGrain pressed = pressedGrain(
       *laid_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
   std::vector<std::pair<std::string, double>> parts;
-  if (vehicle_) parts = granular_->onVehicle()->pressing(grain);
+  if (touching_) parts = granular_->onParts()->pressing(grain);
   if (surfaces_) parts = surfaces_->meshesPressing(grain);
   for (const auto& [name, overlap] : parts) pressed.by.insert(pressed.by.begin(), {name, overlap, {}, true});
   return pressed;
 }
 
 std::optional<PressedMost> Simulation::pressedMost() const {
-  if (granular_ && vehicle_) return granular_->onVehicle()->pressedMost();
+  if (granular_ && touching_) return granular_->onParts()->pressedMost();
   return surfaces_ ? surfaces_->pressedMost() : std::nullopt;
 }
 
@@ -299,7 +306,7 @@ void Simulation::afterStep() {
 }
 
 double Simulation::partsElastic() const {
-  return (vehicle_ ? vehicle_->contacts().ledger().elastic() : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
+  return (touching_ ? touching_->contacts().ledger().elastic() : 0.0) + (surfaces_ ? surfaces_->meshElastic() : 0.0);
 }
 
 void Simulation::checkEnergy() {

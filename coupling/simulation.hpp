@@ -111,6 +111,7 @@ private:
   PressedGrain pressed(std::uint32_t grain);
   std::string impactNote(const Ledger& now) const;
   void makeActingGround();
+  void makeMechanism();
   void makeVehicle(SphereSets* spheres, std::optional<double> lift = {});
   void makeSurfaces(const SurfaceStates* former);
   void makeMeshContacts(SphereSets* spheres);
@@ -131,7 +132,8 @@ private:
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
-  std::unique_ptr<StepsAhead> ahead_; ///< of steps that can be launched ahead; made by the first
+  BodiesInContact* touching_{nullptr}; ///< vehicle, or mechanism with shapes; null without
+  std::unique_ptr<StepsAhead> ahead_;  ///< of steps that can be launched ahead; made by the first
   EnergyGuard guard_;
   Inputs inputs_;       ///< from outside
   base::Vec3d gravity_; ///< now [m/s2]

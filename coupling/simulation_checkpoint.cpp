@@ -70,7 +70,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
     vehicle_->restore(*state.vehicle);
   }
   if (setup_.mechanism) {
-    mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep);
+    makeMechanism();
     mechanism_->restore(*state.mechanism);
   }
   inputs_.restore(state.inputs);

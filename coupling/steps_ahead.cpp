@@ -6,7 +6,7 @@
 namespace grouser::coupling {
 
 StepsAhead::StepsAhead(const base::Exec& exec, GranularGround& ground, VehicleRig& vehicle)
-    : grains_(ground.grains()), onVehicle_(*ground.onVehicle()), vehicle_(vehicle), gate_(exec), graph_(exec) {}
+    : grains_(ground.grains()), onParts_(*ground.onParts()), vehicle_(vehicle), gate_(exec), graph_(exec) {}
 
 StepsAhead::~StepsAhead() {
   try {
@@ -16,10 +16,10 @@ StepsAhead::~StepsAhead() {
 }
 
 void StepsAhead::launch() {
-  VehicleContacts& contacts = vehicle_.stepContacts();
+  PartContacts& contacts = vehicle_.stepContacts();
   if (listings_ != contacts.listings()) graph_.forget();
   listings_ = contacts.listings();
-  graph_.from(grains_.view().position).run([&] { contacts.launchAhead(gate_, grains_, onVehicle_); });
+  graph_.from(grains_.view().position).run([&] { contacts.launchAhead(gate_, grains_, onParts_); });
   grains_.exchangeBuffers();
   ++launched_;
 }

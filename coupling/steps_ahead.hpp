@@ -46,7 +46,7 @@ private:
   void launch();
 
   terrain::GrainsAhead grains_;
-  GrainsOnVehicle& onVehicle_;
+  GrainsOnParts& onParts_;
   VehicleRig& vehicle_;
   base::Gate gate_;
   base::DoubleBufferedGraph graph_;

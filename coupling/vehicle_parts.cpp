@@ -92,28 +92,35 @@ void VehicleParts::cut(const std::vector<std::size_t>& meshes, std::size_t hull,
   }
 }
 
-std::vector<const base::SphereSet*> VehicleParts::sets() const {
-  std::vector<const base::SphereSet*> sets;
-  for (const base::SphereSet& set : sets_) sets.push_back(&set);
-  return sets;
-}
-
-std::vector<int> VehicleParts::setOfContactPart() const {
-  std::vector<int> sets;
-  for (std::size_t c = 0; c < contactParts_.size(); ++c) sets.push_back(static_cast<int>(meshOfPart_[partOf(c)]));
-  return sets;
-}
-
-std::vector<contact::PointTree> VehicleParts::points(const std::vector<terrain::RigidContacts::Pair>& pairs) const {
-  std::vector<contact::PointTree> points(sets_.size());
-  for (const terrain::RigidContacts::Pair& pair : pairs) {
-    const std::size_t part = partOf(static_cast<std::size_t>(pair.part)), set = meshOfPart_[part];
-    if (!points[set].nodes().empty()) continue;
-    const bool byShapes = shapes_ && setFigures_[set].mesh == spec_.shoe.mesh;
-    points[set] = contact::PointTree(byShapes ? vehicle::shoePoints(spec_, pointSpacing_)
-                                              : contact::surfaceSamplesOf(sets_[set]));
+ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoesAlone) const {
+  ContactParts all;
+  for (const base::SphereSet& set : sets_) all.surfaces.push_back(&set);
+  for (std::size_t c = 0; c < contactParts_.size(); ++c) {
+    const vehicle::Part& part = assembly.parts[partOf(c)];
+    const bool isShoe = part.kind == vehicle::PartKind::kShoe;
+    all.parts.push_back({.name = part.name,
+                         .body = static_cast<std::size_t>(part.body),
+                         .pose_B = part.pose_B,
+                         .surface = static_cast<int>(meshOfPart_[partOf(c)]),
+                         .reach = reach_[c],
+                         .meetsGrains = isShoe || !shoesAlone,
+                         .isHull = part.kind == vehicle::PartKind::kChassis,
+                         .shown = partOf(c)});
   }
-  return points;
+  for (const int part : assembly.groundParts)
+    all.parts[static_cast<std::size_t>(contactIndex(part))].meetsGround = true;
+  all.points = [this](int surface) { return points(static_cast<std::size_t>(surface)); };
+  const vehicle::ContactSpec& spec = assembly.spec.contact;
+  all.foundation = {spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
+  all.contactSize = contactSize(assembly.spec);
+  all.weight = assembly.mass * 9.81;
+  return all;
+}
+
+contact::PointTree VehicleParts::points(std::size_t set) const {
+  const bool byShapes = shapes_ && setFigures_[set].mesh == spec_.shoe.mesh;
+  return contact::PointTree(byShapes ? vehicle::shoePoints(spec_, pointSpacing_)
+                                     : contact::surfaceSamplesOf(sets_[set]));
 }
 
 std::size_t VehicleParts::totalSpheres() const {

@@ -3,9 +3,9 @@
 
 #include "base/comm.hpp"
 #include "base/sphere_set.hpp"
+#include "coupling/contact_parts.hpp"
 #include "coupling/sphere_sets.hpp"
 #include "coupling/vehicle_setup.hpp"
-#include "terrain/rigid_contacts.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <cstddef>
@@ -46,17 +46,14 @@ public:
   std::size_t partOf(std::size_t contactPart) const { return static_cast<std::size_t>(contactParts_[contactPart]); }
   /// Of a part of the assembly among the contact parts; -1 for a hull that touches nothing.
   int contactIndex(int part) const { return contactIndex_[static_cast<std::size_t>(part)]; }
-  /// Farthest point of its surface from its body's centre of mass [m].
-  double reach(std::size_t contactPart) const { return reach_[contactPart]; }
-  std::vector<const base::SphereSet*> sets() const;
-  /// [contact part] its place among the sets.
-  std::vector<int> setOfContactPart() const;
+  /// The contact parts of `assembly`, which refer to this object. `shoesAlone`: grains meet no other part.
+  ContactParts touching(const vehicle::Assembly& assembly, bool shoesAlone) const;
   /// Returns true if gear contacts use part shapes instead of mesh samples.
   bool shapes() const { return shapes_; }
-  /// Returns the surface points of the parts in `pairs` for contact with rigid surfaces, indexed by set.
-  std::vector<contact::PointTree> points(const std::vector<terrain::RigidContacts::Pair>& pairs) const;
 
 private:
+  /// Surface points of a set for contact with rigid surfaces.
+  contact::PointTree points(std::size_t set) const;
   void addContactPart(std::size_t part);
   /// `hull`: its mesh, of which contacts need the surface only.
   void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const VehicleSetup& setup, double contactSize,

@@ -4,7 +4,6 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
-#include "coupling/ledger_entries.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,7 +45,8 @@ double liftFor(const SimulationSetup& setup, const Ground* ground, const Vehicle
   double lift = 0;
   if (vehicle.onTerrain && ground) lift = ground->clearance(assembled(vehicle, surfaceHeight, 0));
   if (setup.ground.obstacles.empty()) return lift;
-  return lift + liftOffObstacles(assembled(vehicle, surfaceHeight, lift), parts, setup.ground.obstacles);
+  const vehicle::Assembly assembly = assembled(vehicle, surfaceHeight, lift);
+  return lift + liftOffObstacles(assembly.model, parts.touching(assembly, false), setup.ground.obstacles);
 }
 
 /// The first shoe that is not `within` [m] inside the terrain, and where; null while all are.
@@ -110,25 +110,17 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
                                             shapesAlone(setup))),
       lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
       assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
-      solver_(std::make_unique<multibody::Solver>(assembly_.model)), state_(multibody::makeState(assembly_.model)),
-      loads_(multibody::makeLoads(assembly_.model)), driver_(setup.vehicle->driver),
+      solver_(std::make_unique<multibody::Solver>(assembly_.model)), driver_(setup.vehicle->driver),
       thickestStone_(setup.vehicle->thickestStone), heading_(setup.vehicle->place.heading),
       observer_(std::make_unique<vehicle::Observer>(assembly_, observerOptions())),
-      blows_(assembly_.mass * norm(gravity_)) {
-  contacts_ = std::make_unique<VehicleContacts>(assembly_, *parts_, setup.ground.obstacles, exec, timeStep_, ground,
-                                                setup.vehicle->soilMeetsShoesAlone, kept);
+      blows_(assembly_.mass * norm(gravity_)), gear_{assembly_, *parts_} {
+  state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
+  touching_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
+  contacts_ = std::make_unique<PartContacts>(touching_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
 
-void VehicleRig::collectLoads() {
-  contacts_->collect(loads_);
-  for (ForceMeans* means : {&rowMeans_, &alarmMeans_, watch_ ? &watch_->forces : nullptr}) {
-    if (!means) continue;
-    means->sums.resize(parts_->contactParts() + contacts_->surfaces());
-    for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);
-    ++means->steps;
-  }
-}
+void VehicleRig::collectLoads() { collectInto({&rowMeans_, &alarmMeans_, watch_ ? &watch_->forces : nullptr}); }
 
 /// What the driver asks for in this step; without a course and without engines a function of time alone.
 vehicle::Controls VehicleRig::controls() {
@@ -157,13 +149,8 @@ void VehicleRig::advance() {
 
 vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
   vehicle::GroundLoads loads;
-  if (!contacts_->onGround() && contacts_->surfaces() == 0) return loads;
-  loads.force.resize(assembly_.model.bodies().size());
-  const double share = means.steps > 0 ? 1 / static_cast<double>(means.steps) : 0.0;
-  for (std::size_t c = 0; c < std::min(means.sums.size(), parts_->contactParts()); ++c) {
-    const auto body = static_cast<std::size_t>(assembly_.parts[parts_->partOf(c)].body);
-    loads.force[body] += contacts_->groundForceQuantum().value(means.sums[c]) * share;
-  }
+  if (contacts_->onGround() || contacts_->surfaces() > 0)
+    loads.force = meanForces(means, assembly_.model.bodies().size());
   return loads;
 }
 
@@ -206,7 +193,7 @@ Vec3d VehicleRig::groundForce(const ForceMeans& means) const {
 }
 
 Vec3d VehicleRig::meanForceOn(std::size_t obstacle) const {
-  const std::size_t place = parts_->contactParts() + obstacle;
+  const std::size_t place = touching_.count() + obstacle;
   if (rowMeans_.steps == 0 || place >= rowMeans_.sums.size()) return {};
   return contacts_->groundForceQuantum().value(rowMeans_.sums[place]) * (1 / static_cast<double>(rowMeans_.steps));
 }
@@ -300,15 +287,9 @@ base::Alarm VehicleRig::alarm(std::int64_t step) {
 
 void VehicleRig::addTo(Ledger& ledger) const {
   multibody::Balance bodies = bodiesBalance();
-  const ContactLedger contacts = contacts_->ledger();
   bodies.driveWork += (towing_ ? towing_->work() : 0) + applied_.work();
-  // The grains' own residual still lacks what the parts gave them.
-  bodies.linearLeftOver -= contacts.bed.impulseOnGrains, bodies.angularLeftOver += contacts.angularOnParts;
-  enterBodies(ledger, bodies);
-  enterGrainParts(ledger, contacts.bed);
-  ledger.potential += bodies.potentialGain, ledger.elastic += bodies.elasticGain + contacts.elastic();
-  ledger.dissipated.parts += contacts.rigid.dissipated, ledger.patches += contacts.rigid.patches;
-  ledger.impulseResidual += contacts.impulseOnParts + contacts.bed.impulseOnGrains;
+  enter(ledger, bodies);
+  ledger.potential += bodies.potentialGain, ledger.elastic += bodies.elasticGain;
 }
 
 VehicleState VehicleRig::save() const {
@@ -333,7 +314,7 @@ VehicleState VehicleRig::save() const {
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  const std::size_t most = parts_->contactParts() + contacts_->surfaces(), swings = swings_.save().size();
+  const std::size_t most = touching_.count() + contacts_->surfaces(), swings = swings_.save().size();
   if (s.groundForces.size() > most || s.alarmForces.size() > most ||
       (s.judged.size() != swings && s.judged.size() != swings + vehicle::BlowMeter::kNumbers))
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");

@@ -3,12 +3,12 @@
 
 #include "base/cause.hpp"
 #include "coupling/applied_loads.hpp"
+#include "coupling/bodies_in_contact.hpp"
 #include "coupling/inputs.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/simulation_setup.hpp"
 #include "coupling/swing_growth.hpp"
 #include "coupling/towing.hpp"
-#include "coupling/vehicle_contacts.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "coupling/vehicle_state.hpp"
 #include "multibody/readings.hpp"
@@ -26,7 +26,7 @@
 namespace grouser::coupling {
 
 /// The vehicle of a scene: its bodies and joints, its driver, what its parts touch, and what is observed of it.
-class VehicleRig {
+class VehicleRig : public BodiesInContact {
 public:
   /// Reads the meshes, cuts them into spheres, places the vehicle above the ground: `lift` [m] higher than its surface
   /// asks for; where not given, so high that it touches nothing. `ground` outlives it; null where the vehicle hangs.
@@ -34,21 +34,12 @@ public:
   VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Ground* ground,
              const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
              std::optional<double> lift = {});
-  VehicleRig(const VehicleRig&) = delete;
-  VehicleRig& operator=(const VehicleRig&) = delete;
 
-  // One step, in this order; see VehicleContacts.
-  void setSurfacePoses() { contacts_->setPoses(state_); }
-  void refreshLists(bool groundListsEnded) { contacts_->refreshLists(groundListsEnded); }
-  void computeContacts(StepObserver* observer) { contacts_->compute(observer); }
-  void collectLoads();                                   ///< once the device has them
-  void advance();                                        ///< multibody step
-  VehicleContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
+  void collectLoads() override;
+  void advance() override;
 
   const vehicle::Assembly& assembly() const { return assembly_; }
-  const multibody::State& state() const { return state_; }
   const VehicleParts& parts() const { return *parts_; }
-  const VehicleContacts& contacts() const { return *contacts_; }
 
   /// Throws base::InputError where this vehicle has nothing that the input could set.
   void require(const Input& input) const;
@@ -89,13 +80,6 @@ public:
   void restore(const VehicleState& state);
 
 private:
-  /// Sums over steps of the ground's force on each contact part, then of that on each surface: whole quanta, so that a
-  /// checkpoint keeps them exactly.
-  struct ForceMeans {
-    std::vector<base::Vec3l> sums;
-    std::int64_t steps{0};
-    void restart() { sums.assign(sums.size(), {}), steps = 0; }
-  };
   /// For who steps from outside.
   struct Watch {
     vehicle::Observer observer;
@@ -121,8 +105,6 @@ private:
   double lift_; ///< [m]
   vehicle::Assembly assembly_;
   std::unique_ptr<multibody::Solver> solver_;
-  multibody::State state_;
-  multibody::Loads loads_;
   vehicle::Driver driver_;
   vehicle::Commands commands_; ///< from outside
   AppliedLoads applied_;       ///< the same
@@ -132,7 +114,7 @@ private:
   std::unique_ptr<vehicle::Observer> observer_;
   std::optional<Watch> watch_;
   vehicle::BlowMeter blows_;
-  std::unique_ptr<VehicleContacts> contacts_;
+  PartContacts::RunningGear gear_;
   ForceMeans rowMeans_, alarmMeans_;
   SwingGrowth swings_;          ///< of track and arms
   std::int64_t stalledSteps_{}; ///< for which driven tracks have not moved the hull

@@ -10,22 +10,23 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <map>
 
 namespace grouser::coupling {
 
-std::vector<std::uint32_t> VehicleState::words() const {
+namespace {
+
+void addWords(std::vector<std::uint32_t>& words, const double* numbers, std::size_t count) {
+  const std::size_t from = words.size();
+  words.resize(from + 2 * count);
+  if (count > 0) std::memcpy(&words[from], numbers, count * sizeof(double));
+}
+
+} // namespace
+
+std::vector<std::uint32_t> ContactsState::contactWords() const {
   std::vector<std::uint32_t> words;
-  const auto add = [&](const std::vector<double>& numbers, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      std::uint32_t raw[2];
-      std::memcpy(raw, &numbers[i], sizeof raw);
-      words.insert(words.end(), raw, raw + 2);
-    }
-  };
-  add(bodies, bodies.empty() ? 0 : bodies.size() - multibody::State::kBooks);
-  add(driver, driver.size());
-  add(hitch, hitch.size());
   for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
     words.insert(words.end(), more.begin(), more.end());
   // Of surfaces those patches that are in touch: what is out of reach is no part of the state.
@@ -33,9 +34,19 @@ std::vector<std::uint32_t> VehicleState::words() const {
     const contact::PatchState& s = surfaces.states[k];
     if (s.stiffness == 0) continue;
     words.push_back(static_cast<std::uint32_t>(k));
-    const std::vector<double> numbers{s.shear.x, s.shear.y, s.shear.z, s.stiffness};
-    add(numbers, numbers.size());
+    const double numbers[] = {s.shear.x, s.shear.y, s.shear.z, s.stiffness};
+    addWords(words, numbers, std::size(numbers));
   }
+  return words;
+}
+
+std::vector<std::uint32_t> VehicleState::words() const {
+  std::vector<std::uint32_t> words;
+  addWords(words, bodies.data(), bodies.empty() ? 0 : bodies.size() - multibody::State::kBooks);
+  addWords(words, driver.data(), driver.size());
+  addWords(words, hitch.data(), hitch.size());
+  const std::vector<std::uint32_t> contacts = contactWords();
+  words.insert(words.end(), contacts.begin(), contacts.end());
   return words;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "contact/saved_contacts.hpp"
+#include "coupling/contacts_state.hpp"
 
 #include <cstdint>
 #include <string>
@@ -14,17 +14,13 @@ struct Assembly;
 namespace grouser::coupling {
 
 /// All of a vehicle on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
-struct VehicleState {
-  double lift{};                  ///< with which it was set down; see VehicleRig
-  std::vector<double> bodies;     ///< multibody::State::save()
-  std::vector<double> observers;  ///< vehicle::Observer::save()
-  std::vector<double> driver;     ///< vehicle::Driver::save()
-  std::vector<double> asked;      ///< vehicle::Handover::save() of the last step: from which a branch goes on
-  std::vector<double> hitch;      ///< vehicle::Hitch::save(); empty without one
-  contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
-  contact::SavedPatches ground;   ///< of shoes with rigid ground; empty without it
-  contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them
-  contact::SavedPatches surfaces; ///< of all parts with surfaces at rest, and of the hull with rigid ground
+struct VehicleState : ContactsState {
+  double lift{};                 ///< with which it was set down; see VehicleRig
+  std::vector<double> bodies;    ///< multibody::State::save()
+  std::vector<double> observers; ///< vehicle::Observer::save()
+  std::vector<double> driver;    ///< vehicle::Driver::save()
+  std::vector<double> asked;     ///< vehicle::Handover::save() of the last step: from which a branch goes on
+  std::vector<double> hitch;     ///< vehicle::Hitch::save(); empty without one
 
   // Sums for output and alarm, in quanta of force.
   std::vector<base::Vec3l> groundForces; ///< by part and surface, since the last row
@@ -35,8 +31,6 @@ struct VehicleState {
   std::vector<double> hitchBooks;        ///< Towing::books()
   std::vector<double> appliedWork;       ///< AppliedLoads::save()
   std::int64_t stalledSteps{};           ///< for which driven tracks have not moved the hull
-  base::Vec3l impulseOnParts;            ///< since the start, over the time step
-  base::Vec3d angularOnParts;            ///< since the start [N m s]
 
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const;

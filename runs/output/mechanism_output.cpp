@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "multibody/readings.hpp"
+#include "runs/output/surface_mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -85,6 +86,13 @@ void addBar(base::TriangleMesh& mesh, const Vec3d& to, double thickness) {
   addBox(mesh, along.position, along.orientation.matrix(), {thickness, thickness, length});
 }
 
+void addShape(base::TriangleMesh& mesh, const coupling::BodyShape& s) {
+  const base::TriangleMesh shape = shapeMesh(s.shape);
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Vec3d& v : shape.vertices) mesh.vertices.push_back(s.pose_B.toWorld(v));
+  for (const std::uint32_t i : shape.indices) mesh.indices.push_back(first + i);
+}
+
 /// Edges of the uniform box of a body's mass and principal inertia along its axes [m].
 Vec3d boxOf(const multibody::Body& body, double least, double greatest) {
   const auto& I = body.inertia_B.m;
@@ -108,8 +116,9 @@ double sizeOf(const multibody::Model& model) {
 /// The columns of one mechanism, kind by kind.
 class MechanismColumns {
 public:
-  MechanismColumns(const multibody::Model& model, const std::vector<std::string>& record)
-      : model_(model), record_(record) {
+  MechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
+                   const std::vector<std::string>& record)
+      : model_(model), touching_(touching), record_(record) {
     addBodies(), addJoints(), addSprings(), addBushings(), addDrives(), addCouplings(), addWhole();
   }
   const Columns<MechanismReading>& all() const { return columns_; }
@@ -148,6 +157,10 @@ private:
       columns_.add(path + "velocity", "m/s", "of the centre of mass", [=](const Reading& r) { return twist(r).v; });
       columns_.add(path + "spin", "rad/s", "angular velocity, world components",
                    [=](const Reading& r) { return twist(r).w; });
+      if (touching_[i])
+        addOfStep(path + "contact_force", "N",
+                  "of all contacts of its shapes, mean since the last row, world components",
+                  [i](const Reading& r) { return r.contacts[i]; });
     });
   }
 
@@ -240,6 +253,7 @@ private:
   }
 
   const multibody::Model& model_;
+  const std::vector<bool>& touching_;
   const std::vector<std::string>& record_;
   Columns<MechanismReading> columns_;
 };
@@ -247,10 +261,12 @@ private:
 } // namespace
 
 MechanismReading::MechanismReading(const coupling::Mechanism& m)
-    : mechanism(m), reactions(m.solver().reactions(m.state())), now(m.bodiesBalance().now), drift(m.drift()) {}
+    : mechanism(m), reactions(m.solver().reactions(m.state())), now(m.bodiesBalance().now), drift(m.drift()),
+      contacts(m.contactForces()) {}
 
-Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<std::string>& record) {
-  const MechanismColumns columns(model, record);
+Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
+                                           const std::vector<std::string>& record) {
+  const MechanismColumns columns(model, touching, record);
   return columns.all();
 }
 
@@ -303,8 +319,11 @@ std::vector<FramePart> mechanismParts(const coupling::MechanismSetup& setup) {
     const Vec3d fallback =
         isSmall ? Vec3d{1, 1, 1} * (kCentre * size) : boxOf(body, kLeastEdge * size, kGreatestEdge * size);
     const std::optional<Vec3d>& box = setup.boxes[b];
-    addBox(part.mesh, {}, base::Mat3d::identity(), box.value_or(fallback));
-    if (!box)
+    for (const coupling::BodyShape& s : setup.shapes)
+      if (s.body == b) addShape(part.mesh, s);
+    const bool isShaped = !part.mesh.vertices.empty();
+    if (!isShaped) addBox(part.mesh, {}, base::Mat3d::identity(), box.value_or(fallback));
+    if (!box && !isShaped)
       for (const Vec3d& end : ends) addBar(part.mesh, end, kBar * size);
     parts.push_back(std::move(part));
   }

@@ -18,9 +18,12 @@ struct MechanismReading {
   std::vector<multibody::JointReaction> reactions;
   multibody::Totals now;
   coupling::Mechanism::Drift drift;
+  std::vector<base::Vec3d> contacts; ///< [body] [N]
 };
 /// `record`: names of the bodies, joints, springs and drives that are written; empty: all.
-Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<std::string>& record);
+/// `touching`: [body] whether contacts act on it.
+Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
+                                           const std::vector<std::string>& record);
 
 /// "RATTLE of order 2, springs implicit".
 std::string integratorText(const multibody::SolverOptions& options);

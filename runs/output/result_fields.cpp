@@ -119,9 +119,10 @@ std::vector<FileField> resultFields() {
   for (const BedCurve& c : kBedCurves) fields.push_back(fieldOf(c.curve, "[n]"));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfHull()) add(fields, channelOf(q));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfTrack("SIDE", 2, 0, true)) add(fields, channelOf(q));
-  for (const auto& channels : {terrainColumns().channels(), surfaceColumns("NAME", true).channels(),
-                               obstacleColumns("NAME").channels(), hitchColumns().channels(), gearColumns().channels(),
-                               ledgerColumns().channels(), mechanismColumns(modelOfAll(), {}).channels()})
+  for (const auto& channels :
+       {terrainColumns().channels(), surfaceColumns("NAME", true).channels(), obstacleColumns("NAME").channels(),
+        hitchColumns().channels(), gearColumns().channels(), ledgerColumns().channels(),
+        mechanismColumns(modelOfAll(), std::vector<bool>(modelOfAll().bodies().size(), true), {}).channels()})
     for (const Channel& c : channels) add(fields, c);
   return fields;
 }

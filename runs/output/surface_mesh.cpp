@@ -53,20 +53,52 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
   return mesh;
 }
 
+/// Rings of latitude, pushed apart along z by the segment.
+TriangleMesh capsuleMesh(double radius, double half) {
+  constexpr int kSides = 48, kRings = 12; // of each cap
+  TriangleMesh mesh;
+  const auto place = [&](int ring, int side) {
+    const double up = base::kPi * (0.5 - static_cast<double>(ring) / (2 * kRings)),
+                 angle = 2 * base::kPi * side / kSides;
+    const double across = radius * base::cos(up), z = radius * base::sin(up);
+    return Vec3d{across * base::cos(angle), across * base::sin(angle), z + (ring <= kRings ? half : -half)};
+  };
+  for (int ring = 0; ring < 2 * kRings; ++ring)
+    for (int side = 0; side < kSides; ++side) {
+      const int belt = ring == kRings ? 1 : 0; // between the caps
+      const Vec3d a = place(ring, side), b = place(ring, side + 1), c = place(ring + 1, side),
+                  d = place(ring + 1, side + 1);
+      if (belt && half > 0) {
+        const Vec3d down{0, 0, -2 * half};
+        addFace(mesh, {a, a + down, b + down, b});
+        addFace(mesh, {a + down, c, d, b + down});
+      } else {
+        addFace(mesh, {a, c, d, b});
+      }
+    }
+  return mesh;
+}
+
 } // namespace
 
-TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::SurfaceSetup& surface, bool endless) {
-  if (surface.mesh) return surface.mesh->mesh();
-  const Vec3d& half = surface.geometry.half;
-  switch (surface.geometry.shape) {
+TriangleMesh shapeMesh(const contact::SurfaceGeometry& shape) {
+  switch (shape.shape) {
   case SurfaceShape::box:
-    return boxMesh(half);
+    return boxMesh(shape.half);
   case SurfaceShape::cylinder:
   case SurfaceShape::tube:
-    return roundMesh(half.x, half.z, surface.geometry.shape == SurfaceShape::tube);
+    return roundMesh(shape.half.x, shape.half.z, shape.shape == SurfaceShape::tube);
+  case SurfaceShape::capsule:
+    return capsuleMesh(shape.half.x, shape.half.z);
   case SurfaceShape::plane:
     break;
   }
+  return {};
+}
+
+TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::SurfaceSetup& surface, bool endless) {
+  if (surface.mesh) return surface.mesh->mesh();
+  if (surface.geometry.shape != SurfaceShape::plane) return shapeMesh(surface.geometry);
   TriangleMesh mesh = endless ? floorMesh(planes, surface.number) : planeMesh(planes, surface.number);
   for (Vec3d& v : mesh.vertices) {
     v = surface.start.toBody(v);

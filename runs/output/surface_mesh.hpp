@@ -7,6 +7,9 @@
 
 namespace grouser::output {
 
+/// A box, cylinder, tube or capsule in its own frame; empty of a plane.
+base::TriangleMesh shapeMesh(const contact::SurfaceGeometry& shape);
+
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
 /// cylinder shows its inside. `endless`: a floor goes on as far as one sees.
 base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::SurfaceSetup& surface,

@@ -49,6 +49,9 @@ enum class SoilMeets {
 /// Of the world.
 enum class Axis { x, y, z };
 
+/// Surface of a body.
+enum class ShapeKind { sphere, box, cylinder, capsule };
+
 /// Of a surface beside a bed that settles first: whether the bed is laid around it, or settles without it.
 enum class PlacedWhen { before, afterSettling };
 
@@ -103,6 +106,11 @@ template <> struct EnumWords<scene::SoilMeets> {
 template <> struct EnumWords<scene::Axis> {
   using E = scene::Axis;
   static constexpr EnumWord<E> list[] = {{E::x, "x"}, {E::y, "y"}, {E::z, "z"}};
+};
+template <> struct EnumWords<scene::ShapeKind> {
+  using E = scene::ShapeKind;
+  static constexpr EnumWord<E> list[] = {
+      {E::sphere, "sphere"}, {E::box, "box"}, {E::cylinder, "cylinder"}, {E::capsule, "capsule"}};
 };
 template <> struct EnumWords<scene::PlacedWhen> {
   using E = scene::PlacedWhen;

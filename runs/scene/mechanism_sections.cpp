@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Keys and checks of [[body]], [[joint]], [[spring]], [[bushing]], [[drive]] and [[coupling]].
+#include "runs/scene/detail/section_checks.hpp"
 #include "runs/scene/detail/section_lists.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace grouser::scene::detail {
 
@@ -31,6 +34,21 @@ Table<BodySection> bodyTable() {
   t.add("spin", &S::spin, "rad/s", "angular velocity at the start, world components");
   t.add("fixed", &S::fixed, "", "never moves");
   t.add("point", &S::point, "", "a mass without extent or inertia, for spherical and distance joints and springs");
+  t.add("material", &S::material, "", "name of the material of its shapes; required with [[body.shape]]");
+  return t;
+}
+
+Table<ShapeSection> shapeTable() {
+  using S = ShapeSection;
+  Table<S> t("[body.shape]", "Surface by which the body above it touches grains; a body may have several");
+  t.add("kind", &S::kind, "", "sphere, box, cylinder or capsule").required();
+  t.add("size", &S::size, "m", "edges of a box").above(0).atMost(1e5);
+  t.add("radius", &S::radius, "m", "of a sphere, cylinder or capsule").above(0).atMost(1e5);
+  t.add("length", &S::length, "m", "of a cylinder; of a capsule without its caps").above(0).atMost(1e5);
+  t.add("position", &S::position, "m", "of its centre, in the body's frame").atLeast(-1e5).atMost(1e5);
+  t.add("axis", &S::axis, "-",
+        "of a cylinder or capsule, in the body's frame, z where not given; with angle: about which a box is turned");
+  t.add("angle", &S::angle, "deg", "of a box about axis, right-handed").atLeast(-3600).atMost(3600);
   return t;
 }
 
@@ -136,29 +154,111 @@ Table<CouplingSection> couplingTable() {
   return t;
 }
 
-/// Free bodies touch nothing else of a scene.
-void checkBody(const Section& section, BodySection&, const Scene& scene) {
-  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain", "vehicle"})
-    if (scene.document->root().has(other))
-      section.fail("", fmt::format("stands beside {}, but free bodies touch neither ground nor grains nor a vehicle; "
-                                   "give the mechanism a scene of its own",
+/// Sections that a scene with bodies cannot have: those at all, and those where no body has a shape.
+void checkCompany(const Section& section, const Scene& scene) {
+  const Section root = scene.document->root();
+  const auto touches = [](const Section& body) { return body.has("shape"); };
+  const std::vector<Section> bodies = root.list("body");
+  const bool anyTouches = std::any_of(bodies.begin(), bodies.end(), touches);
+  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "terrain"})
+    if (root.has(other) && !anyTouches)
+      section.fail("", fmt::format("stands beside {}, but no body has a shape by which it could touch anything; add "
+                                   "[[body.shape]], or give the mechanism a scene of its own",
                                    other));
+  for (const char* other : {"mesh", "vehicle"})
+    if (root.has(other))
+      section.fail("", fmt::format("stands beside {0}, which bodies do not touch; remove one of them", other));
+  if (scene.terrain && !scene.terrain->granular())
+    section.fail("", "stands beside rigid [terrain], which bodies do not touch; use a granular terrain");
+}
+
+void checkShape(const Section& section, const ShapeSection& s) {
+  const bool isBox = s.kind == ShapeKind::box, isRound = s.kind != ShapeKind::box;
+  const bool isLong = s.kind == ShapeKind::cylinder || s.kind == ShapeKind::capsule;
+  const std::string kind(base::wordOf(s.kind));
+  const auto need = [&](bool needed, bool given, const char* key, const char* example) {
+    if (needed && !given)
+      section.fail(key, fmt::format("[m] is missing, which a {} needs; add e.g. {}", kind, example));
+    if (!needed && given) section.fail(key, fmt::format("has no meaning for a {}; remove it", kind));
+  };
+  need(isBox, s.size.has_value(), "size", "size = [0.2, 0.2, 0.1]");
+  need(isRound, s.radius.has_value(), "radius", "radius = 0.1");
+  need(isLong, s.length.has_value(), "length", "length = 0.2");
+  if (s.axis && norm(*s.axis) == 0) section.fail("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
+  if (s.axis && s.kind == ShapeKind::sphere) section.fail("axis", "has no meaning for a sphere; remove it");
+  if (s.angle && !isBox) section.fail("angle", fmt::format("has no meaning for a {}; remove it", kind));
+  if (isBox && s.axis.has_value() != s.angle.has_value())
+    section.fail("axis", "and angle turn a box together; give both or neither");
+}
+
+void checkBody(const Section& section, BodySection& body, const Scene& scene) {
+  checkCompany(section, scene);
+  for (const Section& shape : section.list("shape")) {
+    body.shapes.push_back(shape.read(shapeTable()));
+    checkShape(shape, body.shapes.back());
+  }
+  if (body.shapes.empty() && !body.material.empty())
+    section.fail("material", "has no effect without a shape; add [[body.shape]], or remove it");
+  if (body.shapes.empty()) return;
+  if (body.material.empty()) section.fail("material", "is missing, which [[body.shape]] needs; add the name of one");
+  requireMaterial(scene, section, "material", body.material);
+  if (scene.run.tolerance)
+    scene.fail("run", "tolerance", "controls the steps of a mechanism alone; remove it, or the shapes of the bodies");
+}
+
+/// Contact forces stay the same over a step. Symplectic Euler takes them as it takes those of grains; RATTLE would move
+/// bodies by them twice, and a stiff contact would gain energy in each step.
+void setIntegrator(const Section& root, Scene& scene) {
+  if (!scene.mechanism.touches()) return;
+  if (root.section("run").has("integrator") && scene.run.integrator == multibody::Integrator::kRattle)
+    root.section("run").fail("integrator", "adds energy to stiff contacts of bodies; choose \"symplectic_euler\", or "
+                                           "remove it: with [[body.shape]] that is the default");
+  scene.run.integrator = multibody::Integrator::kSymplecticEuler;
+}
+
+/// [[body]] with its [[body.shape]]s.
+SectionEntry bodies() {
+  const Table<BodySection> table = bodyTable().leaveOutEmpty();
+  const Table<ShapeSection> shapes = shapeTable();
+  SectionEntry entry;
+  entry.name = "body";
+  entry.read = [table](const Section& root, Scene& scene) {
+    for (const Section& section : root.list("body"))
+      scene.mechanism.bodies.push_back(readChecked<BodySection>(section, table, checkBody, scene, {"shape"}));
+    setIntegrator(root, scene);
+  };
+  entry.write = [table, shapes](const Scene& scene) {
+    std::string text;
+    for (const BodySection& body : scene.mechanism.bodies) {
+      text += written<BodySection>("[[body]]", table, body);
+      for (const ShapeSection& shape : body.shapes) text += written<ShapeSection>("[[body.shape]]", shapes, shape);
+    }
+    return text;
+  };
+  entry.describe = [table, shapes] { return base::describe(table) + "\n" + base::describe(shapes); };
+  entry.renameKeys = [table](base::Document& document) { document.renameKeys("body", table.formerKeys()); };
+  entry.keys = fullKeys("body", table);
+  for (const std::string& key : fullKeys("body.shape", shapes)) entry.keys.push_back(key);
+  return entry;
 }
 
 /// One kind of part of a mechanism. A text or list that is empty was not given, and is not written.
-template <class Part> SectionEntry part(const std::string& name, std::vector<Part> MechanismSections::*parts,
-                                        base::Table<Part> table, CheckOf<Part> check = {}) {
+template <class Part>
+SectionEntry part(const std::string& name, std::vector<Part> MechanismSections::*parts, base::Table<Part> table) {
   const auto where = [parts](auto& scene) -> auto& { return scene.mechanism.*parts; };
-  return list<Part>(name, where, table.leaveOutEmpty(), check);
+  return list<Part>(name, where, table.leaveOutEmpty());
 }
 
 } // namespace
 
 SectionList mechanismSections() {
   using M = MechanismSections;
-  return {part("body", &M::bodies, bodyTable(), checkBody), part("joint", &M::joints, jointTable()),
-          part("spring", &M::springs, springTable()),       part("bushing", &M::bushings, bushingTable()),
-          part("drive", &M::drives, driveTable()),          part("coupling", &M::couplings, couplingTable())};
+  return {bodies(),
+          part("joint", &M::joints, jointTable()),
+          part("spring", &M::springs, springTable()),
+          part("bushing", &M::bushings, bushingTable()),
+          part("drive", &M::drives, driveTable()),
+          part("coupling", &M::couplings, couplingTable())};
 }
 
 } // namespace grouser::scene::detail

@@ -4,6 +4,7 @@
 #include "base/vec.hpp"
 #include "runs/scene/choices.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -12,6 +13,17 @@
 /// What a scene file says of a mechanism: plain structs, one a section. Keys, units, ranges and meanings stand in
 /// mechanism_sections.cpp.
 namespace grouser::scene {
+
+/// [[body.shape]]: a surface by which a body touches grains.
+struct ShapeSection {
+  ShapeKind kind = ShapeKind::sphere;
+  std::optional<base::Vec3d> size;      ///< [m] edges of a box
+  std::optional<double> radius, length; ///< [m]
+  base::Vec3d position;                 ///< [m] of its centre, in the body's frame
+  std::optional<base::Vec3d> axis;      ///< of cylinder and capsule; of a box that which angle turns about
+  std::optional<double> angle;          ///< [deg]
+  bool operator==(const ShapeSection&) const = default;
+};
 
 /// [[body]]
 struct BodySection {
@@ -25,7 +37,9 @@ struct BodySection {
   std::vector<double> orientation; ///< w, x, y, z instead; empty: not given
   base::Vec3d velocity, spin;      ///< [m/s], [rad/s], world components
   bool fixed = false;
-  bool point = false; ///< a mass without extent
+  bool point = false;               ///< a mass without extent
+  std::string material;             ///< of its shapes
+  std::vector<ShapeSection> shapes; ///< empty: it touches nothing
   bool operator==(const BodySection&) const = default;
 };
 
@@ -98,6 +112,10 @@ struct MechanismSections {
   std::vector<DriveSection> drives;
   std::vector<CouplingSection> couplings;
   bool empty() const { return bodies.empty(); }
+  /// Whether a body has a shape, by which it touches grains.
+  bool touches() const {
+    return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) { return !b.shapes.empty(); });
+  }
   /// Nor anything that would need a body.
   bool nothing() const {
     return bodies.empty() && joints.empty() && springs.empty() && bushings.empty() && drives.empty() &&

@@ -208,10 +208,10 @@ output::Frame Recorder::currentFrame() const {
   if (const coupling::VehicleRig* rig = simulation_.vehicle())
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p)
       frame.partPoses.push_back(vehicle::partPose(rig->assembly().parts[p], rig->state()));
+  if (const coupling::Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
   if (const coupling::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));
   for (const coupling::Obstacle& o : drawnObstacles()) frame.partPoses.push_back(o.surface.start);
-  if (const coupling::Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
   return frame;
 }
 

@@ -12,7 +12,8 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
   const bool grains = simulation.ground().grains != nullptr;
   const coupling::VehicleRig* rig = simulation.vehicle();
   if (simulation.mechanism())
-    add(output::mechanismColumns(simulation.mechanism()->model(), output.record),
+    add(output::mechanismColumns(simulation.mechanism()->model(), simulation.mechanism()->touchingBodies(),
+                                 output.record),
         [&s = simulation](const Now&) { return output::MechanismReading(*s.mechanism()); });
   if (rig) addVehicle(output.shoeForces);
   if (grains)
@@ -27,10 +28,10 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
       return output::HitchReading{s.vehicle()->towing()->observe(), now.vehicle.drawbarPull};
     });
   if (rig && grains && output.gearContacts)
-    add(output::gearColumns(),
-        [&s = simulation](const Now&) { return s.granularGround()->onVehicle()->gearContacts(); });
-  // Nothing touches a mechanism, so there are no impulses to balance.
-  add(output::ledgerColumns(!simulation.mechanism()), [](const Now& now) { return now.ledger; });
+    add(output::gearColumns(), [&s = simulation](const Now&) { return s.granularGround()->onParts()->gearContacts(); });
+  // Where nothing touches a mechanism there are no impulses to balance.
+  add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches()),
+      [](const Now& now) { return now.ledger; });
 }
 
 output::Row RowColumns::row() const {

@@ -3,6 +3,8 @@
 
 #include "runs/scene/scene.hpp"
 
+#include <fmt/format.h>
+
 namespace grouser::setup {
 
 ContactPairs::ContactPairs(const scene::Scene& scene) : kinds(grainKinds(scene)), surfaces(surfacesOf(scene)) {
@@ -26,6 +28,9 @@ ContactPairs::ContactPairs(const scene::Scene& scene) : kinds(grainKinds(scene))
   if (terrain)
     partners.push_back({Kind::floor, terrain->granular() ? terrain->groundMaterial : terrain->material, "the floor"});
   if (scene.vehicle) partners.push_back({Kind::vehicle, scene.vehicle->material, "the vehicle"});
+  for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b)
+    if (const scene::BodySection& body = scene.mechanism.bodies[b]; !body.shapes.empty())
+      partners.push_back({Kind::body, body.material, fmt::format("body \"{}\"", body.name), b});
 }
 
 bool ContactPairs::isPlane(const ContactPartner& partner) const {

@@ -14,11 +14,11 @@ namespace grouser::setup {
 /// Something that grains can touch.
 struct ContactPartner {
   /// Planes that move or have a name are surfaces, as are boxes, cylinders and meshes.
-  enum class Kind { grains, bedWalls, plane, surface, floor, vehicle };
+  enum class Kind { grains, bedWalls, plane, surface, floor, vehicle, body };
   Kind kind{};
   std::string material;             ///< empty: the grain's own, of a vehicle without one
   std::string name;                 ///< "the floor", "box drum"; of grains their material
-  std::size_t number = 0;           ///< of a plane in the scene, of a surface among `surfaces`
+  std::size_t number = 0;           ///< of a plane or body in the scene, of a surface among `surfaces`
   std::optional<double> friction{}; ///< otherwise than the materials have it [-]
 
   const std::string& materialAgainst(const std::string& grain) const { return material.empty() ? grain : material; }
@@ -31,7 +31,8 @@ struct ContactPartner {
 struct ContactPairs {
   GrainKinds kinds;
   std::vector<SceneSurface> surfaces;
-  /// Grains by their kind, walls of the bed, planes in the order of the file, the other surfaces, floor, vehicle.
+  /// Grains by their kind, walls of the bed, planes in the order of the file, the other surfaces, floor, vehicle,
+  /// bodies with shapes.
   std::vector<ContactPartner> partners;
 
   explicit ContactPairs(const scene::Scene& scene);

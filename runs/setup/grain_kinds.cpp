@@ -43,7 +43,7 @@ GrainKinds grainKinds(const scene::Scene& scene) {
 }
 
 bool crushes(const scene::Scene& scene, const GrainKinds& kinds) {
-  if (!scene.vehicle && scene.meshes.empty()) return false;
+  if (!scene.vehicle && scene.meshes.empty() && !scene.mechanism.touches()) return false;
   return std::any_of(kinds.material.begin(), kinds.material.end(),
                      [&](const std::string& name) { return scene.material(name).crushingStrength.has_value(); });
 }

@@ -61,7 +61,7 @@ double bytesAtBoundaries(const Traits& traits) {
 } // namespace
 
 KernelTraits kernelTraits(const scene::Scene& scene, const ContactPairs& pairs) {
-  const bool parts = scene.vehicle || !scene.meshes.empty();
+  const bool parts = scene.vehicle || !scene.meshes.empty() || scene.mechanism.touches();
   std::optional<terrain::HeightField> anyFloor; // features do not depend on its shape
   if (scene.terrain) anyFloor = terrain::HeightField::flat({0, 1, 0, 1}, 0);
   const Traits traits = traitsOf(scene, pairs, anyFloor);

@@ -9,6 +9,7 @@
 #include "runs/setup/grain_model.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/laws.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/obstacles.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/placement.hpp"
@@ -176,18 +177,25 @@ coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, 
   return bed;
 }
 
-/// The laws between each material of the grains and the parts that they meet: the vehicle's, or meshes.
+/// The laws between each material of the grains and the parts that they meet: the vehicle's, meshes or bodies.
 contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds& kinds, double grainMass) {
   contact::GrainPartMaterials all;
-  if (!scene.vehicle && scene.meshes.empty()) return all;
+  const std::optional<VehicleSurface> ofSoil = vehicleSurface(scene);
+  std::vector<std::string> parts = shapeMaterials(scene);
+  if (scene.vehicle)
+    parts = {scene.vehicle->material};
+  else if (!scene.meshes.empty())
+    parts = {scene.meshes.front().material};
+  if (parts.empty()) return all;
   // Of one mass, damping is a constant; of many it follows from each contact's.
   const std::optional<double> mass = kinds.many() ? std::nullopt : std::optional(grainMass);
-  const std::optional<VehicleSurface> ofSoil = vehicleSurface(scene);
+  for (const std::string& part : parts)
+    for (const std::string& soil : kinds.material) {
+      // Patches on parts keep springs, but no plastic state.
+      const contact::ContactLaw law = pairLaw(scene, soil, ofSoil ? soil : part, mass).elastic();
+      all.laws.push_back(ofSoil ? ofSoil->with(law) : law);
+    }
   for (const std::string& soil : kinds.material) {
-    const std::string& part = !scene.vehicle ? scene.meshes.front().material : ofSoil ? soil : scene.vehicle->material;
-    // Patches on parts keep springs, but no plastic state.
-    const contact::ContactLaw law = pairLaw(scene, soil, part, mass).elastic();
-    all.laws.push_back(ofSoil ? ofSoil->with(law) : law);
     all.massPerCube.push_back(base::sphereMass(scene.material(soil).density, 1));
     all.crushing.push_back(scene.material(soil).crushingStrength.value_or(0));
   }

@@ -7,6 +7,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/mechanism_model.hpp"
 #include "runs/setup/time_scales.hpp"
+#include "runs/support/orientation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -160,10 +161,56 @@ multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   return options;
 }
 
+std::vector<std::string> shapeMaterials(const scene::Scene& scene) {
+  std::vector<std::string> all;
+  for (const scene::BodySection& body : scene.mechanism.bodies)
+    if (!body.shapes.empty() && std::find(all.begin(), all.end(), body.material) == all.end())
+      all.push_back(body.material);
+  return all;
+}
+
+namespace {
+
+contact::SurfaceGeometry geometryOf(const scene::ShapeSection& s) {
+  using contact::SurfaceShape;
+  switch (s.kind) {
+  case scene::ShapeKind::box:
+    return {SurfaceShape::box, *s.size * 0.5};
+  case scene::ShapeKind::cylinder:
+    return {SurfaceShape::cylinder, {*s.radius, 0, 0.5 * *s.length}};
+  case scene::ShapeKind::capsule:
+    return {SurfaceShape::capsule, {*s.radius, 0, 0.5 * *s.length}};
+  case scene::ShapeKind::sphere:
+    break;
+  }
+  return {SurfaceShape::capsule, {*s.radius, 0, 0}};
+}
+
+/// The shapes of all bodies, in the order of the file.
+std::vector<coupling::BodyShape> shapesOf(const scene::Scene& scene) {
+  const std::vector<std::string> materials = shapeMaterials(scene);
+  std::vector<coupling::BodyShape> all;
+  for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
+    const scene::BodySection& body = scene.mechanism.bodies[b];
+    for (const scene::ShapeSection& s : body.shapes) {
+      const bool isBox = s.kind == scene::ShapeKind::box;
+      const base::Quat turn = isBox    ? support::orientationOf(s.axis, s.angle, {})
+                              : s.axis ? support::turnFromZ(base::normalized(*s.axis))
+                                       : base::Quat{};
+      const auto material = std::find(materials.begin(), materials.end(), body.material) - materials.begin();
+      all.push_back({b, {s.position, turn}, geometryOf(s), static_cast<int>(material), scene.placeOf("body", b)});
+    }
+  }
+  return all;
+}
+
+} // namespace
+
 coupling::MechanismSetup mechanismSetup(const scene::Scene& scene) {
   coupling::MechanismSetup setup{
-      buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, largestTurn(scene.run), {}, {}};
+      buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, largestTurn(scene.run), {}, {}, {}};
   for (const scene::BodySection& body : scene.mechanism.bodies) setup.boxes.push_back(body.box);
+  setup.shapes = shapesOf(scene);
   if (scene.run.tolerance)
     setup.control = {*scene.run.tolerance, kLongestStep, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod)};
   return setup;

@@ -4,6 +4,7 @@
 #include "coupling/mechanism_setup.hpp"
 
 #include <string>
+#include <vector>
 
 namespace grouser::scene {
 struct RunSettings;
@@ -14,6 +15,9 @@ namespace grouser::setup {
 
 /// Throws SectionFault where the sections make no mechanism: loading has made sure that they do.
 coupling::MechanismSetup mechanismSetup(const scene::Scene& scene);
+
+/// Materials of the bodies' shapes, each once, in the order of the file.
+std::vector<std::string> shapeMaterials(const scene::Scene& scene);
 
 /// The solver's options as a scene's [run] gives them.
 multibody::SolverOptions solverOptions(const scene::RunSettings& run);

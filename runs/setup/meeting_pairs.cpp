@@ -73,7 +73,7 @@ std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
     for (std::size_t b = a; b < kinds.size(); ++b)
       pairs.add(kinds[a], kinds[b].material, Kind::grains, "grain on grain", 0.5);
   const std::optional<VehicleSurface> ofVehicle = vehicleSurface(scene);
-  for (const Kind shown : {Kind::floor, Kind::surface, Kind::plane, Kind::vehicle})
+  for (const Kind shown : {Kind::floor, Kind::surface, Kind::plane, Kind::vehicle, Kind::body})
     for (const ContactPartner& p : all.partners) {
       if (p.kind != shown) continue;
       const bool rigid = p.kind == Kind::floor && !scene.terrain->granular();

@@ -25,7 +25,7 @@ namespace {
 /// Whether grains are of this material, or what they touch but the vehicle: those have a say in the layout.
 bool isOfBed(const ContactPairs& pairs, const std::string& material) {
   return std::any_of(pairs.partners.begin(), pairs.partners.end(), [&](const ContactPartner& p) {
-    return p.material == material && p.kind != ContactPartner::Kind::vehicle;
+    return p.material == material && p.kind != ContactPartner::Kind::vehicle && p.kind != ContactPartner::Kind::body;
   });
 }
 

@@ -94,12 +94,12 @@ void considerModes(StepLimit& limit, const GrainContact& c) {
 }
 
 /// How many grains may lie on a surface at once: a dense layer on its largest face, all of them on a plane.
-double mostTouching(const scene::Scene& scene, const SceneSurface& surface, double radius) {
-  const Vec3d& h = surface.geometry.half;
+double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g, double radius) {
+  const Vec3d h = g.shape == contact::SurfaceShape::plane ? Vec3d{} : halfExtent(g);
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
   const auto all = static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene)));
-  if (surface.geometry.shape == terrain::SurfaceShape::plane) return all;
-  if (surface.geometry.shape != terrain::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
+  if (g.shape == contact::SurfaceShape::plane) return all;
+  if (g.shape != contact::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
   return std::clamp(area / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
 }
 
@@ -111,11 +111,41 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Con
       const double mass = base::sphereMass(scene.material(material).density, radius);
       const contact::ContactLaw law = pairLaw(scene, material, s.section.material, mass);
       const auto c = contact::stiffest(law, mass, radius, scene.run.impactSpeed);
-      const double springs = 1 / mass + mostTouching(scene, s, radius) / *s.section.mass;
-      considerBoth(
-          limit, c.normalStiffness * springs, c.damping * springs,
-          fmt::format("{} of {:g} kg on up to {:.0f} grains", s.name, *s.section.mass, mostTouching(scene, s, radius)),
-          fmt::format("raise {}.{}.mass", s.list(), s.number));
+      const double springs = 1 / mass + mostTouching(scene, s.geometry, radius) / *s.section.mass;
+      considerBoth(limit, c.normalStiffness * springs, c.damping * springs,
+                   fmt::format("{} of {:g} kg on up to {:.0f} grains", s.name, *s.section.mass,
+                               mostTouching(scene, s.geometry, radius)),
+                   fmt::format("raise {}.{}.mass", s.list(), s.number));
+    }
+  }
+}
+
+/// A body on the springs of all grains that its shapes may touch at once: a dense layer on the largest face of each.
+/// Springs all over a face shift it by sum k / m and turn it by sum k r^2 / I, with r^2 a third of the largest.
+void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs) {
+  if (!scene.mechanism.touches()) return;
+  const coupling::MechanismSetup mechanism = mechanismSetup(scene);
+  for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
+    const multibody::Body& body = mechanism.model.bodies()[b];
+    if (body.fixed) continue;
+    const auto& I = body.inertia_B.m;
+    const double least = body.point ? 0 : std::min({I[0][0], I[1][1], I[2][2]});
+    for (const auto& [material, radius, largest] : pairs.kinds.kinds) {
+      double touching = 0, turning = 0;
+      for (const coupling::BodyShape& s : mechanism.shapes) {
+        if (s.body != b) continue;
+        const double most = mostTouching(scene, s.shape, radius), reach = norm(halfExtent(s.shape));
+        touching += most;
+        if (least > 0) turning += most * (norm2(s.pose_B.position) + reach * reach / 3) / least;
+      }
+      if (touching == 0) continue;
+      const double mass = base::sphereMass(scene.material(material).density, radius);
+      const contact::ContactLaw law = pairLaw(scene, material, scene.mechanism.bodies[b].material, mass);
+      const auto c = contact::stiffest(law, mass, radius, scene.run.impactSpeed);
+      const double springs = 1 / mass + touching / body.mass + turning;
+      considerBoth(limit, c.normalStiffness * springs, c.damping * springs,
+                   fmt::format("body \"{}\" of {:g} kg on up to {:.0f} grains", body.name, body.mass, touching),
+                   fmt::format("raise body.{}.mass or its inertia", b));
     }
   }
 }
@@ -194,6 +224,7 @@ StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const 
     considerModes(limit, c);
   }
   considerFreeSurfaces(limit, scene, pairs);
+  considerBodies(limit, scene, pairs);
   limit.vehicle.clear();
   if (!scene.vehicle) return limit;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
@@ -260,7 +291,7 @@ StepLimit stepLimit(const scene::Scene& scene) {
 double shortestContact(const scene::Scene& scene) { return shortestOf(grainContacts(scene, ContactPairs(scene))); }
 
 double chooseTimeStep(const scene::Scene& scene) {
-  if (!scene.mechanism.empty()) return mechanismTimeStep(scene);
+  if (!scene.mechanism.empty() && !scene.mechanism.touches()) return mechanismTimeStep(scene);
   const ContactPairs pairs(scene);
   checkSoftness(scene, pairs);
   const std::vector<GrainContact> contacts = grainContacts(scene, pairs);
@@ -274,6 +305,7 @@ double chooseTimeStep(const scene::Scene& scene) {
     automatic =
         std::min(automatic, coarser * kRayleighShare * contact::rayleighTimeOf(scene.material(material), radius));
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
+  if (!scene.mechanism.empty()) automatic = std::min(automatic, mechanismTimeStep(scene));
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
   if (!scene.run.timeStep) return automatic;

@@ -45,6 +45,16 @@ template <class Archive, class Settled> void exchangeSettled(Archive& archive, S
   archive("/settled/mean_height", s.meanHeight);
 }
 
+template <class Archive, class State> void exchangeContacts(Archive& archive, const std::string& where, State& s) {
+  const auto each = [&](const char* name, auto& field) { archive((where + name).c_str(), field); };
+  each("/track/states", s.track.states), each("/track/sums", s.track.sums);
+  each("/ground/states", s.ground.states), each("/ground/sums", s.ground.sums);
+  each("/surfaces/states", s.surfaces.states), each("/surfaces/sums", s.surfaces.sums);
+  each("/bed/memories", s.bed.memories), each("/bed/angles", s.bed.angles), each("/bed/dents", s.bed.dents);
+  each("/bed/sums", s.bed.sums), each("/bed/deepest", s.bed.deepest);
+  each("/impulse_on_parts", s.impulseOnParts), each("/angular_on_parts", s.angularOnParts);
+}
+
 /// The one list of what is stored, and under which name; the grains' columns say theirs. `archive` writes or reads. On
 /// several ranks all have the same of everything but grains and contacts, of which each has its block of rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
@@ -72,6 +82,12 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/mechanism/worst", s.mechanism->worst);
     archive("/mechanism/judged", s.mechanism->judged);
     archive("/mechanism/control", s.mechanism->control);
+    if (archive.present("/mechanism/touching", s.mechanism->touching)) {
+      auto& t = *s.mechanism->touching;
+      exchangeContacts(archive, "/mechanism/touching", t);
+      archive("/mechanism/touching/forces", t.forces), archive("/mechanism/touching/mean_steps", t.meanSteps);
+      archive("/mechanism/touching/applied_work", t.appliedWork);
+    }
   }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;
@@ -105,25 +121,13 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/hitch", v.hitch);
     archive("/vehicle/hitch_books", v.hitchBooks);
     archive("/vehicle/applied_work", v.appliedWork);
-    archive("/vehicle/track/states", v.track.states);
-    archive("/vehicle/track/sums", v.track.sums);
-    archive("/vehicle/ground/states", v.ground.states);
-    archive("/vehicle/ground/sums", v.ground.sums);
-    archive("/vehicle/surfaces/states", v.surfaces.states);
-    archive("/vehicle/surfaces/sums", v.surfaces.sums);
-    archive("/vehicle/bed/memories", v.bed.memories);
-    archive("/vehicle/bed/angles", v.bed.angles);
-    archive("/vehicle/bed/dents", v.bed.dents);
-    archive("/vehicle/bed/sums", v.bed.sums);
-    archive("/vehicle/bed/deepest", v.bed.deepest);
+    exchangeContacts(archive, "/vehicle", v);
     archive("/vehicle/ground_forces", v.groundForces);
     archive("/vehicle/mean_steps", v.meanSteps);
     archive("/vehicle/alarm_forces", v.alarmForces);
     archive("/vehicle/alarm_steps", v.alarmSteps);
     archive("/vehicle/judged", v.judged);
     archive("/vehicle/stalled_steps", v.stalledSteps);
-    archive("/vehicle/impulse_on_parts", v.impulseOnParts);
-    archive("/vehicle/angular_on_parts", v.angularOnParts);
   }
 }
 

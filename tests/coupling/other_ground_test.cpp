@@ -40,11 +40,10 @@ public:
     return [](double, double) { return 0.0; };
   }
   LoadQuanta meet(const PartsOnGround& on) override {
-    const vehicle::ShoeSpec& spec = on.assembly.spec.shoe;
-    for (const int shoe : on.assembly.groundParts)
+    const vehicle::ShoeSpec& spec = on.vehicle->spec.shoe;
+    for (std::size_t part = 0; part < on.parts.count(); ++part)
       for (const double x : kEdges)
-        edges_.push_back(
-            {static_cast<std::size_t>(on.parts.contactIndex(shoe)), {x, 0, spec.padBottom - spec.grouserHeight}});
+        if (on.parts.parts[part].meetsGround) edges_.push_back({part, {x, 0, spec.padBottom - spec.grouserHeight}});
     // Per edge: contact flag, x and y of the touchdown [m]; at the end the dissipated energy [J].
     const std::size_t numbers = 3 * edges_.size() + 1;
     if (!state_.empty() && state_.size() != numbers)

@@ -40,7 +40,7 @@ TEST(GearContacts, OnABedAreThePairsInTouch) {
       setup::simulationSetup(setup::loadScene(testScene("coupled.toml"))), testExec(), [](double, double) {}, {},
       sharedBeds(), sharedSpheres());
   while (simulation.steps() < 1500) simulation.step();
-  const GearContacts c = simulation.granularGround()->onVehicle()->gearContacts();
+  const GearContacts c = simulation.granularGround()->onParts()->gearContacts();
   const std::int64_t patches = simulation.ledger().partContacts;
   const std::int64_t pairs = c.shoes + c.sprockets + c.roadWheels + c.rollers + c.idlers + c.hull;
   EXPECT_GT(c.shoes, 20);

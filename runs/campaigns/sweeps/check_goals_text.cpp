@@ -32,12 +32,6 @@ const char* wordOf(GoalState state) {
   }
 }
 
-/// " m" of "sinkage mean [m]".
-std::string unitOf(const std::string& figure) {
-  const std::size_t from = figure.find(" ["), to = figure.find(']');
-  return to == std::string::npos || from > to ? "" : " " + figure.substr(from + 2, to - from - 2);
-}
-
 std::string nameOf(const BarPart& part) {
   return part.axis == CheckAxis::base ? "seeds" : std::string(base::wordOf(part.axis));
 }
@@ -86,7 +80,7 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
 std::string remedy(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
   const BarPart& worst = *goal.largest();
   if (goal.state == GoalState::limited)
-    return fmt::format("{} alone changes it by {:+.3g}{}, which no number of seeds reduces: change the scene",
+    return fmt::format("{} alone changes it by {:+.3g} {}, which no number of seeds reduces: change the scene",
                        nameOf(worst), worst.change, unitOf(goal.figure));
   if (!record.isWhole) return "run the same command again to continue";
   if (!record.cases.seeded) return "a finer step than those run would be needed";

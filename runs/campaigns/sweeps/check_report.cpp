@@ -97,7 +97,7 @@ Json caseJson(const CheckRecord& record, std::size_t c) {
 
 /// "-0.0004 +- 0.0031", with a sign.
 std::string changeText(const support::Estimate& change) {
-  return (change.value < 0 ? "" : "+") + jobs::valueText(change);
+  return fmt::format("{}{}", change.value < 0 ? "" : "+", jobs::valueText(change));
 }
 
 /// "-0.5 +- 4.2 %"; empty where the value may as well be zero.

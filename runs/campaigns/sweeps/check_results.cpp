@@ -208,12 +208,6 @@ private:
   CheckFigure figure_;
 };
 
-/// "m" of "depth [m] at the end"; empty where there is none.
-std::string unitOf(const std::string& name) {
-  const std::size_t from = name.rfind('['), to = name.find(']', from);
-  return from == std::string::npos || to == std::string::npos ? "" : name.substr(from + 1, to - from - 1);
-}
-
 /// To each figure the largest value among those of its unit.
 void findScales(std::vector<CheckFigure>& figures) {
   std::map<std::string, double> largest;
@@ -274,6 +268,11 @@ std::vector<std::vector<std::size_t>> RunsByCase::sharing(const std::vector<std:
 CheckFigure checkFigure(const CheckCases& cases, const RunsByCase& runs, const SweepFigures& figures,
                         std::size_t column, const CheckResults& asked) {
   return FigureMaker(cases, Values(runs, figures, column), asked).make(figures.columns[column]);
+}
+
+std::string unitOf(const std::string& name) {
+  const std::size_t from = name.rfind('['), to = name.find(']', from);
+  return from == std::string::npos || to == std::string::npos ? "" : name.substr(from + 1, to - from - 1);
 }
 
 CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,

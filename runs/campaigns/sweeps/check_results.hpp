@@ -78,6 +78,9 @@ struct CheckResults {
   std::string doubt; ///< why all figures are inconclusive, as where no run drove two teeth; empty where they are not
 };
 
+/// "m" of "depth [m] at the end"; empty where there is none.
+std::string unitOf(const std::string& figure);
+
 /// `folder`: that of the runs' folders. A figure is kept where a base run has it.
 CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
                           const std::filesystem::path& folder, double percent, const SeedLevels& levels = {});

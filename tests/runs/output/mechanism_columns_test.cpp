@@ -31,7 +31,7 @@ public:
 
   void advance(int steps) {
     for (int i = 0; i < steps; ++i) mechanism_.advance();
-    const Columns<MechanismReading> columns = mechanismColumns(mechanism_.model(), {});
+    const Columns<MechanismReading> columns = mechanismColumns(mechanism_.model(), mechanism_.touchingBodies(), {});
     std::vector<double> values;
     columns.append(MechanismReading(mechanism_), values);
     std::size_t at = 0;

@@ -5,13 +5,13 @@
 #include "base/device_graph.hpp"
 #include "base/gate.hpp"
 #include "contact/patch_contacts.hpp"
+#include "coupling/contacts_state.hpp"
 #include "coupling/ground.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/obstacle_contacts.hpp"
 #include "coupling/shaped_gear.hpp"
 #include "coupling/step_observer.hpp"
 #include "coupling/vehicle_parts.hpp"
-#include "coupling/vehicle_state.hpp"
 #include "multibody/state.hpp"
 #include "vehicle/assembly.hpp"
 
@@ -24,20 +24,25 @@ class GrainsAhead;
 
 namespace grouser::coupling {
 
-class GrainsOnVehicle;
+class GrainsOnParts;
 
-/// What the parts of a vehicle touch: shoes the running gear, all parts the ground and the surfaces at rest of the
-/// scene. The device, if any, computes contacts with grains and, in the samples model, gear contacts. The host
-/// computes gear contacts from shapes and all contacts with rigid surfaces at the same time. A ground that is divided
-/// among MPI ranks is computed in parts; every rank repeats all other contacts.
-class VehicleContacts {
+/// What the parts of a vehicle and of bodies touch: shoes the running gear, all parts the ground and the surfaces at
+/// rest of the scene. The device, if any, computes contacts with grains and, in the samples model, gear contacts. The
+/// host computes gear contacts from shapes and all contacts with rigid surfaces at the same time. A ground that is
+/// divided among MPI ranks is computed in parts; every rank repeats all other contacts.
+class PartContacts {
 public:
-  /// `assembly`, `parts` and `ground` outlive it. `ground`: meets the parts; null where the vehicle hangs.
-  /// `shoesAlone`: soil meets no other part. `kept` as in VehicleParts.
-  VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts, const std::vector<Obstacle>& obstacles,
-                  const base::Exec& exec, double timeStep, Ground* ground, bool shoesAlone, SphereSets* kept);
-  VehicleContacts(const VehicleContacts&) = delete;
-  VehicleContacts& operator=(const VehicleContacts&) = delete;
+  /// A vehicle whose first contact parts are these.
+  struct RunningGear {
+    const vehicle::Assembly& assembly;
+    const VehicleParts& parts;
+  };
+  /// `parts`, `gear` and `ground` outlive it. `gear`: the running gear whose parts touch each other; null without.
+  /// `ground`: meets the parts; null without. `kept` as in VehicleParts.
+  PartContacts(const ContactParts& parts, const RunningGear* gear, const std::vector<Obstacle>& obstacles,
+               const base::Exec& exec, double timeStep, Ground* ground, SphereSets* kept);
+  PartContacts(const PartContacts&) = delete;
+  PartContacts& operator=(const PartContacts&) = delete;
 
   // One step, in this order.
   void setPoses(const multibody::State& state);
@@ -54,7 +59,7 @@ public:
   // A step on grains that is launched ahead of its poses; see StepsAhead.
   /// Queues walls, floor and the grains without a listed part; behind the gate the part contacts, then the other
   /// grains; tells the loads, then the flags of the grains.
-  void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnVehicle& onGrains);
+  void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnParts& onGrains);
   /// Before the gate opens: what the device reads beside the poses.
   void noteTravel();
   /// After the gate opens: computes the host contacts.
@@ -74,16 +79,15 @@ public:
   ContactLedger ledger() const;
   ListedContacts listed() const; ///< as near now
 
-  void save(VehicleState& state) const;
+  void save(ContactsState& state) const;
   /// Marks the lists as outdated: the next step makes them anew.
-  void restore(const VehicleState& state);
+  void restore(const ContactsState& state);
 
 private:
-  friend std::vector<spheredecomp::CutReport> obstacleReports(const VehicleContacts& contacts);
+  friend std::vector<spheredecomp::CutReport> obstacleReports(const PartContacts& contacts);
 
-  void makeTrack(bool shapes);
+  void makeTrack();
   void makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept);
-  contact::PartMotion motionOf(std::size_t contactPart, const multibody::State& state) const;
 
   // Whether parts have moved beyond what the lists hold.
   bool trackHasLeft() const;
@@ -100,12 +104,12 @@ private:
   void downloadLoads();
   contact::PartLoad* groundLoads(); ///< of all contact parts, and the ground's own
 
-  const vehicle::Assembly& assembly_;
-  const VehicleParts& parts_;
+  const ContactParts& parts_;
+  const RunningGear* running_; ///< null without
   base::Exec exec_;
   base::SideStream side_;
   base::DoubleBufferedGraph graph_; ///< of a step's contacts, by the ground's buffer
-  Ground* ground_;                  ///< null where the vehicle hangs
+  Ground* ground_;                  ///< null where the parts touch none
   GroundTraits traits_;
   double timeStep_;
 
@@ -131,6 +135,6 @@ private:
 };
 
 /// How meshes that the vehicle meets as obstacles were cut.
-std::vector<spheredecomp::CutReport> obstacleReports(const VehicleContacts& contacts);
+std::vector<spheredecomp::CutReport> obstacleReports(const PartContacts& contacts);
 
 } // namespace grouser::coupling

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coupling/vehicle_contacts.hpp"
+#include "coupling/part_contacts.hpp"
 
 #include "base/carry.hpp"
 #include "base/error.hpp"
-#include "coupling/grains_on_vehicle.hpp"
+#include "coupling/grains_on_parts.hpp"
 #include "terrain/grains_ahead.hpp"
 
 #include <algorithm>
@@ -22,23 +22,24 @@ constexpr double kAhead = 0.0005;       // [m] that parts may move in a step lau
 
 } // namespace
 
-VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const VehicleParts& parts,
-                                 const std::vector<Obstacle>& obstacles, const base::Exec& exec, double timeStep,
-                                 Ground* ground, bool shoesAlone, SphereSets* kept)
-    : assembly_(assembly), parts_(parts), exec_(exec), side_(exec, true), graph_(exec), ground_(ground),
+PartContacts::PartContacts(const ContactParts& parts, const RunningGear* gear, const std::vector<Obstacle>& obstacles,
+                           const base::Exec& exec, double timeStep, Ground* ground, SphereSets* kept)
+    : parts_(parts), running_(gear), exec_(exec), side_(exec, true), graph_(exec), ground_(ground),
       timeStep_(timeStep) {
   if (ground_) traits_ = ground_->traits();
-  const std::size_t n = parts.contactParts();
+  const std::size_t n = parts.count();
   travelled_ = base::Mirrored<double>(exec_, 2);
-  // Ten thousand times the vehicle's weight on one part is beyond anything that could still be driven.
-  const double largest = 1e4 * assembly_.mass * 9.81;
+  // Ten thousand times the weight of all on one part is beyond anything that could still be driven.
+  const double largest = 1e4 * parts.weight;
   quanta_.force = base::fixedPointFor(largest, 46);
   quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
   quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums are of one step only
   quanta_.area = base::fixedPointFor(1, 40);
   groundQuanta_ = {quanta_.force, quanta_.torque};
-  makeTrack(parts.shapes());
-  if (ground_) groundQuanta_ = ground_->meet({assembly_, parts_, quanta_, timeStep_, kGroundMargin, shoesAlone});
+  if (running_) makeTrack();
+  if (ground_)
+    groundQuanta_ =
+        ground_->meet({parts_, running_ ? &running_->assembly : nullptr, quanta_, timeStep_, kGroundMargin});
   makeObstacles(obstacles, kept);
   motion_ = base::Mirrored<contact::PartMotion>(exec_, n + surfaces());
   if (obstacles_) std::copy(obstacles_->motions().begin(), obstacles_->motions().end(), motion_.host() + n);
@@ -48,44 +49,38 @@ VehicleContacts::VehicleContacts(const vehicle::Assembly& assembly, const Vehicl
   surfaceLoads_.resize(obstacles_ ? n + surfaces() : 0);
 }
 
-void VehicleContacts::makeTrack(bool shapes) {
-  const vehicle::ContactSpec& spec = assembly_.spec.contact;
+void PartContacts::makeTrack() {
+  const auto& [assembly, surfaces] = *running_;
+  const vehicle::ContactSpec& spec = assembly.spec.contact;
   const contact::PatchLaw law{spec.foundationModulus, spec.relaxationTime, spec.frictionInside, spec.tangentialRatio};
-  if (shapes) {
-    gear_ = std::make_unique<ShapedGear>(assembly_, parts_, ShapedGear::Model{law, quanta_, timeStep_});
+  if (surfaces.shapes()) {
+    gear_ = std::make_unique<ShapedGear>(assembly, surfaces, ShapedGear::Model{law, quanta_, timeStep_});
     return;
   }
   std::vector<contact::PartPair> pairs;
-  for (const vehicle::PartPair& pair : assembly_.pairs)
-    pairs.push_back({parts_.contactIndex(pair.shoe), parts_.contactIndex(pair.other)});
+  for (const vehicle::PartPair& pair : assembly.pairs)
+    pairs.push_back({surfaces.contactIndex(pair.shoe), surfaces.contactIndex(pair.other)});
   track_ = std::make_unique<contact::PartPartContacts>(
-      exec_, contact::PartPartContacts::Model{law, quanta_, timeStep_, kTrackMargin}, parts_.sets(),
-      parts_.setOfContactPart(), pairs);
+      exec_, contact::PartPartContacts::Model{law, quanta_, timeStep_, kTrackMargin}, parts_.surfaces,
+      parts_.surfaceOfPart(), pairs);
 }
 
-void VehicleContacts::makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept) {
-  const bool hullTouches = parts_.contactIndex(0) >= 0; // the hull stands first among the parts
-  obstacles_ = ObstacleContacts::make(assembly_, parts_, obstacles, hullTouches ? traits_.hullMeets : nullptr,
+void PartContacts::makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept) {
+  const bool hullTouches =
+      std::any_of(parts_.parts.begin(), parts_.parts.end(), [](const ContactPart& part) { return part.isHull; });
+  obstacles_ = ObstacleContacts::make(parts_, obstacles, hullTouches ? traits_.hullMeets : nullptr,
                                       {quanta_, timeStep_}, traits_.comm, kept);
 }
 
-contact::PartMotion VehicleContacts::motionOf(std::size_t c, const multibody::State& state) const {
-  const vehicle::Part& part = assembly_.parts[parts_.partOf(c)];
-  const base::Pose pose = vehicle::partPose(part, state);
-  const auto body = static_cast<std::size_t>(part.body);
-  return {pose.position, pose.orientation.matrix(), state.pose[body].position, state.twist[body].v,
-          state.twist[body].w};
-}
-
-void VehicleContacts::setPoses(const multibody::State& state) {
-  for (std::size_t c = 0; c < parts_.contactParts(); ++c) motion_.host()[c] = motionOf(c, state);
+void PartContacts::setPoses(const multibody::State& state) {
+  for (std::size_t c = 0; c < parts_.count(); ++c) motion_.host()[c] = parts_.motionOf(c, state);
 }
 
 /// Two parts approach each other at most as fast as both move relative to the hull.
-bool VehicleContacts::trackHasLeft() const { return track_ && 2 * relativeTravel_ > kTrackMargin; }
-bool VehicleContacts::groundHasLeft() const { return ground_ && !traits_.onHost && absoluteTravel_ > kGroundMargin; }
+bool PartContacts::trackHasLeft() const { return track_ && 2 * relativeTravel_ > kTrackMargin; }
+bool PartContacts::groundHasLeft() const { return ground_ && !traits_.onHost && absoluteTravel_ > kGroundMargin; }
 
-void VehicleContacts::refreshLists(bool groundListsEnded) {
+void PartContacts::refreshLists(bool groundListsEnded) {
   const bool trackIsDue = trackHasLeft(),
              groundIsDue = groundHasLeft() || (ground_ && !traits_.onHost && groundListsEnded);
   if (!trackIsDue && !groundIsDue) return;
@@ -101,7 +96,7 @@ void VehicleContacts::refreshLists(bool groundListsEnded) {
   absoluteTravel_ = 0;
 }
 
-void VehicleContacts::compute(StepObserver* observer) {
+void PartContacts::compute(StepObserver* observer) {
   noteTravel();
   if (observer) return computeInParts(*observer);
   if (usesDevice())
@@ -118,7 +113,7 @@ void VehicleContacts::compute(StepObserver* observer) {
 }
 
 /// The same one after another, without graph and side stream, so that an observer can time each.
-void VehicleContacts::computeInParts(StepObserver& observer) {
+void PartContacts::computeInParts(StepObserver& observer) {
   if (usesDevice()) uploadPoses();
   observer.after(Stage::posesUploaded);
   computeTrack();
@@ -130,49 +125,46 @@ void VehicleContacts::computeInParts(StepObserver& observer) {
   if (usesDevice()) downloadLoads();
 }
 
-void VehicleContacts::computeOnHost() {
+void PartContacts::computeOnHost() {
   computeGear();
   computeRigid();
 }
 
 /// Writes the travel into the pinned memory that uploadPoses() copies from. Not within the graph, whose host code runs
 /// only when it is recorded.
-void VehicleContacts::noteTravel() {
-  travelled_.host()[0] = 2 * relativeTravel_, travelled_.host()[1] = absoluteTravel_;
-}
+void PartContacts::noteTravel() { travelled_.host()[0] = 2 * relativeTravel_, travelled_.host()[1] = absoluteTravel_; }
 
-void VehicleContacts::uploadPoses() {
+void PartContacts::uploadPoses() {
   base::carry(exec_, std::array{base::Parcel{motion_.device().data(), motion_.host(), motion_.bytes()},
                                 base::Parcel{travelled_.device().data(), travelled_.host(), travelled_.bytes()},
                                 base::Parcel{loadSums_.device().data(), nullptr, loadSums_.bytes()}});
 }
 
-void VehicleContacts::downloadLoads() {
+void PartContacts::downloadLoads() {
   base::carry(exec_, std::array{base::Parcel{loadSums_.host(), loadSums_.device().data(), loadSums_.bytes()}});
 }
 
 /// Shoes against sprocket, wheels, rollers, idler: samples on the device.
-void VehicleContacts::computeTrack() {
+void PartContacts::computeTrack() {
   if (!track_) return;
   traits_.replicated.run(
       [this] { track_->compute(motion_.device(), travelled_.device().data(), loadSums_.device().data()); });
 }
 
 /// Computes gear contacts from part shapes on the host.
-void VehicleContacts::computeGear() {
+void PartContacts::computeGear() {
   if (!gear_) return;
   std::fill(gearLoads_.begin(), gearLoads_.end(), contact::PartLoad{});
   traits_.replicated.run([this] { gear_->compute(motion_.host(), gearLoads_.data()); });
 }
 
-void VehicleContacts::computeGround(const base::Exec& exec) {
+void PartContacts::computeGround(const base::Exec& exec) {
   if (!ground_ || traits_.onHost) return;
-  ground_->compute(exec, motion_.device(), travelled_.device().data() + 1,
-                   loadSums_.device().data() + parts_.contactParts());
+  ground_->compute(exec, motion_.device(), travelled_.device().data() + 1, loadSums_.device().data() + parts_.count());
 }
 
 /// Computes contacts with rigid ground and fixed surfaces on the host, including those of the hull.
-void VehicleContacts::computeRigid() {
+void PartContacts::computeRigid() {
   std::fill(groundLoads_.begin(), groundLoads_.end(), contact::PartLoad{});
   std::fill(surfaceLoads_.begin(), surfaceLoads_.end(), contact::PartLoad{});
   traits_.replicated.run([this] {
@@ -181,9 +173,9 @@ void VehicleContacts::computeRigid() {
   });
 }
 
-void VehicleContacts::collect(multibody::Loads& loads) {
-  const std::size_t n = parts_.contactParts();
-  const contact::PartLoad* track = gear_ ? gearLoads_.data() : loadSums_.host();
+void PartContacts::collect(multibody::Loads& loads) {
+  const std::size_t n = parts_.count();
+  const contact::PartLoad* track = gear_ ? gearLoads_.data() : track_ ? loadSums_.host() : nullptr;
   const contact::PartLoad* surfaces = obstacles_ ? surfaceLoads_.data() : nullptr;
   contact::PartLoad* const ground = groundLoads();
   // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
@@ -193,15 +185,15 @@ void VehicleContacts::collect(multibody::Loads& loads) {
   if (ground_) ground_->collect(ground[n]);
   for (multibody::Wrench& wrench : loads.external) wrench = {};
   for (std::size_t c = 0; c < n; ++c) {
-    multibody::Wrench& wrench = loads.external[static_cast<std::size_t>(assembly_.parts[parts_.partOf(c)].body)];
-    wrench.force += quanta_.force.checked(track[c].force, "forces on a part") +
-                    groundQuanta_.force.checked(ground[c].force, "forces on a part");
-    wrench.torque += quanta_.torque.checked(track[c].torque, "torques on a part") +
-                     groundQuanta_.torque.checked(ground[c].torque, "torques on a part");
-    if (surfaces) {
-      wrench.force += quanta_.force.checked(surfaces[c].force, "forces on a part");
-      wrench.torque += quanta_.torque.checked(surfaces[c].torque, "torques on a part");
-    }
+    multibody::Wrench& wrench = loads.external[parts_.parts[c].body];
+    const auto add = [&wrench](const base::FixedPoint& force, const base::FixedPoint& torque,
+                               const contact::PartLoad& load) {
+      wrench.force += force.checked(load.force, "forces on a part");
+      wrench.torque += torque.checked(load.torque, "torques on a part");
+    };
+    if (track) add(quanta_.force, quanta_.torque, track[c]);
+    add(groundQuanta_.force, groundQuanta_.torque, ground[c]);
+    if (surfaces) add(quanta_.force, quanta_.torque, surfaces[c]);
     impulseOnParts_ += ground[c].force;
     angularOnParts_ += (groundQuanta_.torque.value(ground[c].torque) +
                         cross(motion_.host()[c].centre, groundQuanta_.force.value(ground[c].force))) *
@@ -209,33 +201,37 @@ void VehicleContacts::collect(multibody::Loads& loads) {
   }
 }
 
-contact::PartLoad* VehicleContacts::groundLoads() {
-  return traits_.onHost ? groundLoads_.data() : loadSums_.host() + parts_.contactParts();
+contact::PartLoad* PartContacts::groundLoads() {
+  return traits_.onHost ? groundLoads_.data() : loadSums_.host() + parts_.count();
 }
 
-base::Vec3l VehicleContacts::inGroundQuanta(const base::Vec3l& force) const {
+base::Vec3l PartContacts::inGroundQuanta(const base::Vec3l& force) const {
   return groundQuanta_.force.quantise(quanta_.force.value(force));
 }
 
-base::Vec3l VehicleContacts::groundForce(std::size_t index) const {
-  const std::size_t n = parts_.contactParts();
+base::Vec3l PartContacts::groundForce(std::size_t index) const {
+  const std::size_t n = parts_.count();
   base::Vec3l force{};
   if (index < n) force = traits_.onHost ? groundLoads_[index].force : (loadSums_.host() + n + index)->force;
   if (obstacles_) force += inGroundQuanta(surfaceLoads_[index].force);
   return force;
 }
 
-void VehicleContacts::trackTravel(const multibody::State& state) {
-  const auto hull = static_cast<std::size_t>(assembly_.chassis);
-  const Vec3d hullPosition = state.pose[hull].position;
-  const multibody::Twist& hullTwist = state.twist[hull];
-  double relative = 0, absolute = 0;
-  for (std::size_t c = 0; c < parts_.contactParts(); ++c) {
-    const auto body = static_cast<std::size_t>(assembly_.parts[parts_.partOf(c)].body);
-    const multibody::Twist& twist = state.twist[body];
-    const Vec3d carried = hullTwist.v + cross(hullTwist.w, state.pose[body].position - hullPosition);
-    relative = std::max(relative, norm(twist.v - carried) + norm(twist.w - hullTwist.w) * parts_.reach(c));
-    absolute = std::max(absolute, norm(twist.v) + norm(twist.w) * parts_.reach(c));
+void PartContacts::trackTravel(const multibody::State& state) {
+  const auto speedOf = [&](std::size_t c, const multibody::Twist& twist) {
+    return norm(twist.v) + norm(twist.w) * parts_.parts[c].reach;
+  };
+  double absolute = 0, relative = 0;
+  for (std::size_t c = 0; c < parts_.count(); ++c)
+    absolute = std::max(absolute, speedOf(c, state.twist[parts_.parts[c].body]));
+  if (track_) {
+    const auto hull = static_cast<std::size_t>(running_->assembly.chassis);
+    const multibody::Twist& carrier = state.twist[hull];
+    for (std::size_t c = 0; c < parts_.count(); ++c) {
+      const std::size_t body = parts_.parts[c].body;
+      const Vec3d carried = carrier.v + cross(carrier.w, state.pose[body].position - state.pose[hull].position);
+      relative = std::max(relative, speedOf(c, {state.twist[body].v - carried, state.twist[body].w - carrier.w}));
+    }
   }
   lastRelative_ = relative * timeStep_, lastAbsolute_ = absolute * timeStep_;
   relativeTravel_ += lastRelative_;
@@ -243,16 +239,16 @@ void VehicleContacts::trackTravel(const multibody::State& state) {
 }
 
 /// Ahead a part may go four times as far as in the step before.
-bool VehicleContacts::listsHold(bool ahead) const {
+bool PartContacts::listsHold(bool ahead) const {
   if (!ahead) return !trackHasLeft() && !groundHasLeft();
   const bool track = !track_ || 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin;
   return track && absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kGroundMargin;
 }
 
-void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnVehicle& onGrains) {
+void PartContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnParts& onGrains) {
   contact::GrainPartContacts& bed = onGrains.contacts();
   const base::Watch watch = grains.flagsBefore();
-  contact::PartLoad *const track = loadSums_.device().data(), *const ground = track + parts_.contactParts();
+  contact::PartLoad *const track = loadSums_.device().data(), *const ground = track + parts_.count();
   grains.launchUncoupled(onGrains.loads());
   side_.fork();
   gate.carryBefore(side_.exec(), watch,
@@ -274,9 +270,10 @@ void VehicleContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains
   gate.tell(exec_, base::Gate::kSecond, std::array{grains.flagsAfter()});
 }
 
-ContactLedger VehicleContacts::ledger() const {
+ContactLedger PartContacts::ledger() const {
   ContactLedger ledger;
-  ledger.rigid = track_ ? track_->ledger() : gear_->ledger();
+  if (track_) ledger.rigid = track_->ledger();
+  if (gear_) ledger.rigid = gear_->ledger();
   if (ground_) ground_->addContactsTo(ledger);
   if (obstacles_) ledger.rigid += obstacles_->ledger();
   if (traits_.hasMomentum) {
@@ -286,25 +283,24 @@ ContactLedger VehicleContacts::ledger() const {
   return ledger;
 }
 
-ListedContacts VehicleContacts::listed() const {
+ListedContacts PartContacts::listed() const {
   ListedContacts listed = ground_ ? ground_->listed() : ListedContacts{};
   if (track_) listed.samples += track_->samplesListed();
   return listed;
 }
 
-void VehicleContacts::save(VehicleState& s) const {
-  s.track = track_ ? track_->save() : gear_->save();
+void PartContacts::save(ContactsState& s) const {
+  if (track_) s.track = track_->save();
+  if (gear_) s.track = gear_->save();
   if (ground_) ground_->saveContacts(s);
   if (obstacles_) s.surfaces = obstacles_->save();
   s.impulseOnParts = impulseOnParts_;
   s.angularOnParts = angularOnParts_;
 }
 
-void VehicleContacts::restore(const VehicleState& s) {
-  if (track_)
-    track_->restore(s.track);
-  else
-    gear_->restore(s.track);
+void PartContacts::restore(const ContactsState& s) {
+  if (track_) track_->restore(s.track);
+  if (gear_) gear_->restore(s.track);
   if (ground_) ground_->restoreContacts(s);
   if (obstacles_) obstacles_->restore(s.surfaces);
   impulseOnParts_ = s.impulseOnParts;
@@ -312,7 +308,7 @@ void VehicleContacts::restore(const VehicleState& s) {
   relativeTravel_ = absoluteTravel_ = kNeverListed;
 }
 
-std::vector<spheredecomp::CutReport> obstacleReports(const VehicleContacts& contacts) {
+std::vector<spheredecomp::CutReport> obstacleReports(const PartContacts& contacts) {
   return contacts.obstacles_ ? contacts.obstacles_->cutReports() : std::vector<spheredecomp::CutReport>{};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/grain_part_contacts.hpp"
+#include "coupling/contact_parts.hpp"
 #include "coupling/gear_contacts.hpp"
 #include "coupling/ground.hpp"
 #include "coupling/ground_setup.hpp"
@@ -14,15 +15,15 @@
 
 namespace grouser::coupling {
 
-/// Contacts of grains with the parts of a vehicle. On several ranks each computes those of its own grains.
-class GrainsOnVehicle {
+/// Contacts of grains with the parts of a vehicle and of bodies. On several ranks each computes those of its own
+/// grains.
+class GrainsOnParts {
 public:
   /// `grains` outlive it, and it outlives their steps: on several ranks it registers with their migration, as
   /// MeshContacts does.
-  GrainsOnVehicle(const PartsOnGround& parts, const GrainsSetup& setup, terrain::Grains& grains,
-                  const base::Exec& exec);
-  GrainsOnVehicle(const GrainsOnVehicle&) = delete;
-  GrainsOnVehicle& operator=(const GrainsOnVehicle&) = delete;
+  GrainsOnParts(const PartsOnGround& parts, const GrainsSetup& setup, terrain::Grains& grains, const base::Exec& exec);
+  GrainsOnParts(const GrainsOnParts&) = delete;
+  GrainsOnParts& operator=(const GrainsOnParts&) = delete;
 
   contact::GrainPartContacts& contacts() { return contacts_; }
   const LoadQuanta& quanta() const { return quanta_; }
@@ -43,14 +44,14 @@ public:
   void forgetPressed() { contacts_.forgetPressed(); }
 
   void addTo(ContactLedger& ledger) const;
-  void save(VehicleState& state) const;
-  void restore(const VehicleState& state);
+  void save(ContactsState& state) const;
+  void restore(const ContactsState& state);
 
 private:
-  std::size_t partOf(int contactPart) const;
+  const ContactPart& part(int index) const { return parts_.parts[static_cast<std::size_t>(index)]; }
 
-  const vehicle::Assembly& assembly_;
-  const VehicleParts& parts_;
+  const vehicle::Assembly* vehicle_; ///< null without
+  const ContactParts& parts_;
   terrain::Grains& grains_;
   LoadQuanta quanta_;
   contact::GrainPartContacts contacts_;

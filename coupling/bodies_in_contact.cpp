@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/bodies_in_contact.hpp"
+
+#include "coupling/ledger_entries.hpp"
+
+#include <algorithm>
+
+namespace grouser::coupling {
+
+using base::Vec3d;
+
+void BodiesInContact::collectInto(std::initializer_list<ForceMeans*> all) {
+  contacts_->collect(loads_);
+  for (ForceMeans* means : all) {
+    if (!means) continue;
+    means->sums.resize(touching_.count() + contacts_->surfaces());
+    for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);
+    ++means->steps;
+  }
+}
+
+std::vector<Vec3d> BodiesInContact::meanForces(const ForceMeans& means, std::size_t bodies) const {
+  std::vector<Vec3d> forces(bodies);
+  const double share = means.steps > 0 ? 1 / static_cast<double>(means.steps) : 0.0;
+  for (std::size_t c = 0; c < std::min(means.sums.size(), touching_.count()); ++c)
+    forces[touching_.parts[c].body] += contacts_->groundForceQuantum().value(means.sums[c]) * share;
+  return forces;
+}
+
+void BodiesInContact::enter(Ledger& ledger, multibody::Balance bodies) const {
+  const ContactLedger contacts = contacts_ ? contacts_->ledger() : ContactLedger{};
+  // The grains' own residual still lacks what the parts gave them.
+  bodies.linearLeftOver -= contacts.bed.impulseOnGrains, bodies.angularLeftOver += contacts.angularOnParts;
+  enterBodies(ledger, bodies);
+  enterGrainParts(ledger, contacts.bed);
+  ledger.elastic += contacts.elastic();
+  ledger.dissipated.parts += contacts.rigid.dissipated, ledger.patches += contacts.rigid.patches;
+  ledger.impulseResidual += contacts.impulseOnParts + contacts.bed.impulseOnGrains;
+}
+
+} // namespace grouser::coupling

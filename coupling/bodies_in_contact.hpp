@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "coupling/contact_parts.hpp"
+#include "coupling/ledger.hpp"
+#include "coupling/part_contacts.hpp"
+#include "coupling/step_observer.hpp"
+#include "multibody/readings.hpp"
+#include "multibody/state.hpp"
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// Bodies whose parts may touch grains, ground and surfaces: those of a vehicle, or of a mechanism with shapes.
+class BodiesInContact {
+public:
+  BodiesInContact() = default;
+  BodiesInContact(const BodiesInContact&) = delete;
+  BodiesInContact& operator=(const BodiesInContact&) = delete;
+  virtual ~BodiesInContact() = default;
+
+  // One step, in this order; see PartContacts.
+  void setSurfacePoses() { contacts_->setPoses(state_); }
+  void refreshLists(bool groundListsEnded) { contacts_->refreshLists(groundListsEnded); }
+  void computeContacts(StepObserver* observer) { contacts_->compute(observer); }
+  virtual void collectLoads() = 0; ///< once the device has them
+  virtual void advance() = 0;      ///< multibody step
+
+  const multibody::State& state() const { return state_; }
+  const PartContacts& contacts() const { return *contacts_; }
+  PartContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
+
+protected:
+  /// Sums over steps of the force of ground and surfaces on each contact part, then of that on each surface: whole
+  /// quanta, so that a checkpoint keeps them exactly.
+  struct ForceMeans {
+    std::vector<base::Vec3l> sums;
+    std::int64_t steps{0};
+    void restart() { sums.assign(sums.size(), {}), steps = 0; }
+  };
+
+  /// Puts the loads on the bodies, and adds them to the means that are not null.
+  void collectInto(std::initializer_list<ForceMeans*> all);
+  /// [body] mean force on its parts [N].
+  std::vector<base::Vec3d> meanForces(const ForceMeans& means, std::size_t bodies) const;
+  /// Adds the bodies' energies and momenta but for potential and elastic ones, and all of the contacts. `bodies`: with
+  /// the work of all else that acts on them as drive work.
+  void enter(Ledger& ledger, multibody::Balance bodies) const;
+
+  multibody::State state_;
+  multibody::Loads loads_;
+  ContactParts touching_;
+  std::unique_ptr<PartContacts> contacts_; ///< null where the bodies touch nothing
+};
+
+} // namespace grouser::coupling

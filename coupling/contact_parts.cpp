@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/contact_parts.hpp"
+
+namespace grouser::coupling {
+
+std::vector<int> ContactParts::surfaceOfPart() const {
+  std::vector<int> all;
+  for (const ContactPart& part : parts) all.push_back(part.surface);
+  return all;
+}
+
+std::vector<contact::PointTree> ContactParts::pointsOf(const std::vector<int>& touching) const {
+  std::vector<contact::PointTree> all(surfaces.size());
+  for (const int part : touching) {
+    const int surface = parts[static_cast<std::size_t>(part)].surface;
+    contact::PointTree& tree = all[static_cast<std::size_t>(surface)];
+    if (tree.nodes().empty()) tree = points(surface);
+  }
+  return all;
+}
+
+contact::PartMotion ContactParts::motionOf(std::size_t part, const multibody::State& state) const {
+  const ContactPart& p = parts[part];
+  const base::Pose pose = multibody::compose(state.pose[p.body], p.pose_B);
+  return {pose.position, pose.orientation.matrix(), state.pose[p.body].position, state.twist[p.body].v,
+          state.twist[p.body].w};
+}
+
+} // namespace grouser::coupling

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/math.hpp"
+#include "base/sphere_set.hpp"
+#include "contact/part_motion.hpp"
+#include "contact/patch_law.hpp"
+#include "contact/point_tree.hpp"
+#include "contact/surface_geometry.hpp"
+#include "multibody/state.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// A rigid surface fixed to a body, as contacts see it: a part of a vehicle, or a shape of a [[body]].
+struct ContactPart {
+  std::string name;                 ///< in messages: "left shoe 12"
+  std::size_t body{};               ///< of the multibody model
+  base::Pose pose_B;                ///< of its frame P in that of its body: X_BP
+  int surface{};                    ///< among ContactParts::surfaces; of a shape in closed form -1
+  contact::SurfaceGeometry shape{}; ///< then
+  int material{};                   ///< among those of the parts, by which grains have their laws
+  double reach{};                   ///< farthest point of the surface from its body's centre of mass [m]
+  bool meetsGrains = true;          ///< whether it touches grains
+  bool meetsGround{};               ///< whether it touches rigid ground as a foot; a hull does so among the obstacles
+  bool isHull{};                    ///< whether it touches rigid ground with the obstacles
+  std::size_t shown{};              ///< its place among the parts of the results' frames
+};
+
+/// All parts that touch something, with their surfaces. Outlives the contacts that are made of it.
+struct ContactParts {
+  std::vector<ContactPart> parts;
+  std::vector<const base::SphereSet*> surfaces;
+  /// Surface points of a surface, for contact with rigid ground and obstacles.
+  std::function<contact::PointTree(int surface)> points;
+  /// Elastic foundation of the parts: its friction is that on rigid ground.
+  contact::PatchLaw foundation;
+  double contactSize{}; ///< smallest feature at which parts and obstacles meet [m]
+  double weight{};      ///< of the whole [N]: the scale of the loads
+
+  std::size_t count() const { return parts.size(); }
+  /// [part] index of its surface.
+  std::vector<int> surfaceOfPart() const;
+  /// [surface] points of those that a part of `touching` has; the others are empty.
+  std::vector<contact::PointTree> pointsOf(const std::vector<int>& touching) const;
+  contact::PartMotion motionOf(std::size_t part, const multibody::State& state) const;
+};
+
+} // namespace grouser::coupling

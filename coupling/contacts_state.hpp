@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "contact/saved_contacts.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// History of all contacts of the parts of a vehicle or of bodies, as PartContacts saves it.
+struct ContactsState {
+  contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
+  contact::SavedPatches ground;   ///< of feet with rigid ground; empty without it
+  contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them
+  contact::SavedPatches surfaces; ///< of all parts with surfaces at rest, and of the hull with rigid ground
+  base::Vec3l impulseOnParts;     ///< since the start, over the time step
+  base::Vec3d angularOnParts;     ///< since the start [N m s]
+
+  /// For the hash: what the next step depends on.
+  std::vector<std::uint32_t> contactWords() const;
+};
+
+} // namespace grouser::coupling

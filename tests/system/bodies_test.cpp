@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies of mechanisms that touch grains: closed forms, books, and what is refused.
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "contact/surface_geometry.hpp"
+#include "coupling/simulation.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "tests/message_of.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace grouser::coupling {
+namespace {
+
+using base::Vec3d;
+
+std::string head(const std::string& run, const std::string& more = {}) {
+  return "version = 1\n[run]\nduration = 1.0\nprecision = \"double\"\nthreads = 1\n" + run +
+         "\n[material.glass]\nstiffness = 1e5\nrestitution = 0.5\nfriction = 0.4\n" + more;
+}
+
+std::string grain(const std::string& position, const std::string& more = {}) {
+  return fmt::format("[[grain]]\nposition = {}\nradius = 0.01\nmaterial = \"glass\"\n{}\n", position, more);
+}
+
+/// A free cube of 0.1 m.
+std::string cube(const std::string& position, double mass, const std::string& more = {}) {
+  return fmt::format("[[body]]\nname = \"cube\"\nmass = {}\nbox = [0.1, 0.1, 0.1]\nposition = {}\nmaterial = "
+                     "\"glass\"\n{}\n[[body.shape]]\nkind = \"box\"\nsize = [0.1, 0.1, 0.1]\n",
+                     mass, position, more);
+}
+
+std::unique_ptr<Simulation> made(const std::string& text) {
+  return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, "bodies.toml")), base::cpuExec(1),
+                                      [](double, double) {});
+}
+
+void advanceTo(Simulation& s, double time) {
+  while (s.time() < time - 0.5 * s.timeStep()) s.step();
+}
+
+/// Four fixed grains in a square, on which a cube can lie.
+std::string feet() {
+  std::string all;
+  for (const char* place : {"[-0.03, -0.03, 0]", "[0.03, -0.03, 0]", "[-0.03, 0.03, 0]", "[0.03, 0.03, 0]"})
+    all += grain(place, "fixed = true");
+  return all;
+}
+
+TEST(ShapeGap, CapsuleIsTheNearestPointOfItsSegment) {
+  const contact::SurfaceGeometry capsule{contact::SurfaceShape::capsule, {0.3, 0, 0.5}};
+  std::mt19937 dice(1);
+  std::uniform_real_distribution<double> any(-1.5, 1.5);
+  for (int k = 0; k < 200; ++k) {
+    const Vec3d p{any(dice), any(dice), any(dice)};
+    const contact::SurfaceGap gap = gapTo(capsule, p);
+    double nearest = 1e9; // of points on the segment; the finest mesh of it is 1e-3 apart
+    for (int i = -500; i <= 500; ++i) nearest = std::min(nearest, norm(p - Vec3d{0, 0, i * 1e-3}));
+    EXPECT_NEAR(gap.distance, nearest - 0.3, 1e-5);
+    EXPECT_NEAR(norm(gap.normal), 1, 1e-12);
+    // The surface point lies on the surface.
+    EXPECT_NEAR(gapTo(capsule, p - gap.normal * gap.distance).distance, 0, 1e-12);
+  }
+}
+
+TEST(Bodies, WeightIsTheMeanContactForceAtRest) {
+  const auto s = made(head("time_step = 2e-5") + feet() + cube("[0, 0, 0.0599]", 2));
+  advanceTo(*s, 0.5);
+  s->restartMeans();
+  advanceTo(*s, 0.6);
+  const Vec3d force = s->mechanism()->contactForces()[0];
+  EXPECT_NEAR(force.z, 2 * 9.81, 1e-3 * 2 * 9.81);
+  EXPECT_LT(std::hypot(force.x, force.y), 1e-3 * 2 * 9.81);
+  // Each foot bears a quarter: overlap = m g / (4 k).
+  EXPECT_NEAR(s->mechanism()->state().pose[0].position.z, 0.06 - 2 * 9.81 / 4e5, 1e-7);
+}
+
+/// A ball as a body against a grain, both free: e of the law between the two masses.
+TEST(Bodies, ABallBouncesOffAGrainAsTheLawSays) {
+  const double radius = 0.01, mass = 2500 * 4.0 / 3 * base::kPi * radius * radius * radius;
+  const auto rebound = [&](double step) {
+    const auto s =
+        made(head(fmt::format("gravity = [0, 0, 0]\ntime_step = {}", step), "density = 2500\n") + grain("[0, 0, 0]") +
+             fmt::format("[[body]]\nname = \"ball\"\nmass = {}\ninertia = [1e-6, 1e-6, 1e-6]\nposition = "
+                         "[0.021, 0, 0]\nvelocity = [-0.5, 0, 0]\nmaterial = \"glass\"\n[[body.shape]]\n"
+                         "kind = \"sphere\"\nradius = 0.01\n",
+                         1e6 * mass));
+    advanceTo(*s, 0.02);
+    const Vec3d body = s->mechanism()->state().twist[0].v;
+    const terrain::GrainSnapshot g = s->ground().grains->snapshot();
+    const double before = 0.5;
+    return (body.x - static_cast<double>(g.velocity[0].x)) / before;
+  };
+  // The body is so heavy that the grain bounces as off a wall: damping is that of the grain's mass. First order.
+  const double coarse = rebound(1e-5), fine = rebound(2.5e-6);
+  EXPECT_NEAR(fine, 0.5, 0.004);
+  EXPECT_LT(std::fabs(fine - 0.5), 0.6 * std::fabs(coarse - 0.5) + 2e-4);
+}
+
+TEST(Bodies, MomentumOfBodyAndGrainsIsConservedToRounding) {
+  std::string grains;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) grains += grain(fmt::format("[{}, {}, 0]", 0.021 * i, 0.021 * j));
+  const auto s = made(head("gravity = [0, 0, 0]\ntime_step = 1e-5") + grains +
+                      cube("[0.015, 0.025, 0.08]", 0.05, "velocity = [0.3, 0, -2]\nspin = [5, 3, 0]"));
+  const Vec3d linear = s->ledger().momentum, angular = s->ledger().angularMomentum;
+  advanceTo(*s, 0.05);
+  const Ledger l = s->ledger();
+  EXPECT_GT(l.dissipated.total(), 1e-3) << "they have met";
+  EXPECT_LT(norm(l.momentum - linear), 1e-9 * norm(linear));
+  EXPECT_LT(norm(l.angularMomentum - angular), 1e-6 * norm(angular)) << "torques on grains have single precision";
+  EXPECT_EQ(l.impulseResidual, Vec3d{}) << "integers";
+  EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+}
+
+TEST(Bodies, IntegrationErrorFallsWithTheStep) {
+  const auto errorAt = [](double step) {
+    const auto s = made(head(fmt::format("time_step = {}", step)) + feet() + cube("[0, 0, 0.08]", 2));
+    advanceTo(*s, 0.15);
+    const Ledger l = s->ledger();
+    EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+    return std::fabs(l.integrationError);
+  };
+  EXPECT_LT(errorAt(1e-5), 0.5 * errorAt(4e-5));
+}
+
+TEST(Bodies, APendulumLosesToGrainsWhatTheLedgerSays) {
+  std::string grains;
+  for (int i = -2; i <= 2; ++i) grains += grain(fmt::format("[{}, 0, 0.01]", 0.0205 * i));
+  const auto s = made(head("time_step = 1e-5") + "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n" + grains +
+                      cube("[0.15, 0, 0.22]", 0.5) +
+                      "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"world\", \"cube\"]\npoint = "
+                      "[0, 0, 0.22]\naxis = [0, 1, 0]\n");
+  advanceTo(*s, 0.6);
+  const Ledger l = s->ledger();
+  EXPECT_GT(l.dissipated.ofGrains(), 0.02);
+  EXPECT_NEAR(l.kinetic + l.potential + l.elastic + l.dissipated.total() + l.integrationError, 0, 1e-9 * l.turnover);
+  EXPECT_LT(std::fabs(l.integrationError), 0.02 * l.dissipated.total());
+}
+
+TEST(Bodies, LoadsFromOutsideActBesideContacts) {
+  const auto s = made(head("time_step = 2e-5") + feet() + cube("[0, 0, 0.0599]", 2));
+  s->set({{0, InputKind::bodyLoad, 0, false, {0, 0, -10, 0, 0, 0}}});
+  advanceTo(*s, 0.5);
+  s->restartMeans();
+  advanceTo(*s, 0.6);
+  EXPECT_NEAR(s->mechanism()->contactForces()[0].z, 2 * 9.81 + 10, 1e-3 * 29.62);
+}
+
+TEST(Bodies, LightBodiesAskForAShorterStep) {
+  const auto step = [](double mass) {
+    return setup::stepLimit(setup::parseScene(head("") + feet() + cube("[0, 0, 0.06]", mass), "bodies.toml")).step;
+  };
+  EXPECT_EQ(step(1000), step(100));
+  EXPECT_LT(step(0.001), 0.7 * step(100));
+  // As a plate of 1 g at the step that is allowed: it comes to rest.
+  const auto s = made(head("") + feet() + cube("[0, 0, 0.0605]", 0.001));
+  advanceTo(*s, 0.4);
+  EXPECT_LT(norm(s->mechanism()->state().twist[0].v), 1e-4);
+}
+
+TEST(Bodies, WhatStandsInAGrainIsRefused) {
+  const std::string message = test::messageOf([] { made(head("") + feet() + cube("[0, 0, 0.05]", 1)); });
+  EXPECT_NE(message.find("body \"cube\" stands 0.01 m deep in grain 0 of radius 0.01 m"), std::string::npos) << message;
+}
+
+TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
+  const auto refused = [](const std::string& shape, const std::string& body = "material = \"glass\"") {
+    return test::messageOf([&] {
+      setup::parseScene(head("") + grain("[0, 0, 0]") + "[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n" +
+                            body + "\n[[body.shape]]\n" + shape,
+                        "bodies.toml");
+    });
+  };
+  const auto says = [](const std::string& message, const std::string& words) {
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_NE(message.find("bodies.toml:"), std::string::npos) << message;
+  };
+  says(refused("kind = \"sphere\""), "shape.0.radius");
+  says(refused("kind = \"box\"\nradius = 1"), "shape.0.size [m] is missing");
+  says(refused("kind = \"cylinder\"\nradius = 1"), "shape.0.length [m] is missing");
+  says(refused("kind = \"sphere\"\nradius = 1\nsize = [1, 1, 1]"), "shape.0.size");
+  says(refused("kind = \"sphere\"\nradius = 0"), "outside (0");
+  says(refused("kind = \"ball\"\nradius = 1"), "sphere");
+  says(refused("kind = \"sphere\"\nradius = 1\naxis = [0, 0, 1]"), "no meaning for a sphere");
+  says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\naxis = [0, 0, 0]"), "is zero");
+  says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\nangle = 3"), "no meaning for a capsule");
+  says(refused("kind = \"box\"\nsize = [1, 1, 1]\nangle = 3"), "both or neither");
+  says(refused("kind = \"sphere\"\nradius = 1\ncolour = 3"), "colour");
+  says(test::messageOf([] {
+         setup::parseScene(head("integrator = \"rattle\"") + feet() + cube("[0, 0, 0.06]", 1), "bodies.toml");
+       }),
+       "run.integrator");
+  says(refused("kind = \"sphere\"\nradius = 1", ""), "material is missing");
+  says(refused("kind = \"sphere\"\nradius = 1", "material = \"brass\""), "brass");
+}
+
+} // namespace
+} // namespace grouser::coupling
