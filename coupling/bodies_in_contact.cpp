@@ -27,13 +27,13 @@ std::vector<Vec3d> BodiesInContact::meanForces(const ForceMeans& means, std::siz
   return forces;
 }
 
-void BodiesInContact::enter(Ledger& ledger, multibody::Balance bodies) const {
+void BodiesInContact::enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const {
   const ContactLedger contacts = contacts_ ? contacts_->ledger() : ContactLedger{};
   // The grains' own residual still lacks what the parts gave them.
   bodies.linearLeftOver -= contacts.bed.impulseOnGrains, bodies.angularLeftOver += contacts.angularOnParts;
   enterBodies(ledger, bodies);
   enterGrainParts(ledger, contacts.bed);
-  ledger.elastic += contacts.elastic();
+  ledger.potential += potential, ledger.elastic += elastic + contacts.elastic();
   ledger.dissipated.parts += contacts.rigid.dissipated, ledger.patches += contacts.rigid.patches;
   ledger.impulseResidual += contacts.impulseOnParts + contacts.bed.impulseOnGrains;
 }

@@ -47,9 +47,9 @@ protected:
   void collectInto(std::initializer_list<ForceMeans*> all);
   /// [body] mean force on its parts [N].
   std::vector<base::Vec3d> meanForces(const ForceMeans& means, std::size_t bodies) const;
-  /// Adds the bodies' energies and momenta but for potential and elastic ones, and all of the contacts. `bodies`: with
-  /// the work of all else that acts on them as drive work.
-  void enter(Ledger& ledger, multibody::Balance bodies) const;
+  /// Adds the bodies' energies and momenta and those of their contacts. `bodies`: with the work of all else that acts
+  /// on them as drive work; `potential`, `elastic`: their energies as the ledger counts them [J].
+  void enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const;
 
   multibody::State state_;
   multibody::Loads loads_;

@@ -19,7 +19,7 @@ struct ContactsState {
   base::Vec3d angularOnParts;     ///< since the start [N m s]
 
   /// For the hash: what the next step depends on.
-  std::vector<std::uint32_t> contactWords() const;
+  std::vector<std::uint32_t> words() const;
 };
 
 } // namespace grouser::coupling

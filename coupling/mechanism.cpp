@@ -38,6 +38,7 @@ Mechanism::Mechanism(const MechanismSetup& setup, double timeStep, const base::E
   for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
   if (setup.shapes.empty() || !ground) return;
   touching_ = contactPartsOf(setup);
+  replicated_ = ground->traits().replicated, mostTravel_ = 0.5 * ground->traits().smallestGrain;
   contacts_ =
       std::make_unique<PartContacts>(touching_, nullptr, std::vector<Obstacle>{}, exec, timeStep_, ground, nullptr);
 }
@@ -80,7 +81,7 @@ void Mechanism::advance() {
   }
   if (contacts_) applied_.add(state_, loads_);
   try {
-    solver_.step(state_, loads_, timeStep_);
+    replicated_.run([this] { solver_.step(state_, loads_, timeStep_); });
   } catch (const base::SimulationError& error) {
     throw base::SimulationError(tensionStepWarning_.empty() ? error.what()
                                                             : fmt::format("{}; {}", error.what(), tensionStepWarning_),
@@ -89,10 +90,27 @@ void Mechanism::advance() {
     fail(base::Cause::growingSwings, error.what());
   }
   ++steps_;
-  if (contacts_) applied_.book(state_, timeStep_), contacts_->trackTravel(state_);
+  if (contacts_) applied_.book(state_, timeStep_), contacts_->trackTravel(state_), checkTravel();
   watchDrift();
   if (!overTension_) watchTension();
   if (steps_ % kJudgeInterval == 0) judge();
+}
+
+/// A surface that moves half a radius in a step could pass through a grain without contact.
+void Mechanism::checkTravel() const {
+  const double way = contacts_->lastTravel();
+  if (!(way > mostTravel_)) return;
+  std::size_t fastest = 0;
+  double speed = -1;
+  for (const ContactPart& part : touching_.parts) {
+    const multibody::Twist& V = state_.twist[part.body];
+    if (const double bound = norm(V.v) + norm(V.w) * part.reach; bound > speed) speed = bound, fastest = part.body;
+  }
+  fail(base::Cause::thrownPart,
+       fmt::format("body \"{}\" moves at up to {:.4g} m/s, {:.4g} m a step, more than half the radius of the smallest "
+                   "grain ({:.4g} m): it could pass through grains without contact; set run.time_step to {} s or less, "
+                   "or limit what drives it",
+                   model_.bodies()[fastest].name, speed, way, mostTravel_, base::roundedDown(mostTravel_ / speed, 4)));
 }
 
 void Mechanism::watchDrift() {
@@ -189,8 +207,7 @@ double Mechanism::axisSpringForce(int index) const {
 void Mechanism::addTo(Ledger& l) const {
   multibody::Balance bodies = bodiesBalance();
   bodies.driveWork += contacts_ ? applied_.work() : bodies.externalWork;
-  enter(l, bodies);
-  l.potential += bodies.now.gravity, l.elastic += bodies.now.elastic;
+  enter(l, bodies, bodies.now.gravity, bodies.now.elastic);
 }
 
 Mechanism::Drift Mechanism::drift() const {
@@ -206,7 +223,7 @@ std::vector<std::uint32_t> MechanismState::words() const {
   std::vector<std::uint32_t> words(2 * all.size());
   if (!all.empty()) std::memcpy(words.data(), all.data(), all.size() * sizeof(double));
   if (!touching) return words;
-  const std::vector<std::uint32_t> contacts = touching->contactWords();
+  const std::vector<std::uint32_t> contacts = touching->contacts.words();
   words.insert(words.end(), contacts.begin(), contacts.end());
   return words;
 }
@@ -222,7 +239,7 @@ MechanismState Mechanism::save() const {
       {}};
   if (!contacts_) return s;
   MechanismState::Touching& t = s.touching.emplace();
-  contacts_->save(t);
+  contacts_->save(t.contacts);
   t.forces = rowMeans_.sums, t.meanSteps = rowMeans_.steps;
   t.appliedWork = applied_.save();
   return s;
@@ -231,7 +248,7 @@ MechanismState Mechanism::save() const {
 void Mechanism::restore(const MechanismState& saved) {
   state_.restore(saved.bodies);
   if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5 ||
-      saved.touching.has_value() != touches())
+      saved.touching.has_value() != touches() || (touches() && saved.touching->forces.size() > touching_.count()))
     throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
   steps_ = static_cast<std::int64_t>(saved.judged[0]);
@@ -243,7 +260,7 @@ void Mechanism::restore(const MechanismState& saved) {
   if (controller_)
     controller_->restore({c[0], static_cast<std::int64_t>(c[1]), static_cast<std::int64_t>(c[2]), c[3], c[4]});
   if (!saved.touching) return;
-  contacts_->restore(*saved.touching);
+  contacts_->restore(saved.touching->contacts);
   rowMeans_ = {saved.touching->forces, saved.touching->meanSteps};
   applied_.restore(saved.touching->appliedWork);
 }

@@ -93,6 +93,7 @@ public:
   void restore(const MechanismState& saved);
 
 private:
+  void checkTravel() const;
   void watchDrift();
   void judge();
   void judgeTurns() const;
@@ -115,6 +116,8 @@ private:
   std::vector<double> startTurn_;              ///< of each body in the first step [rad]
   AppliedLoads applied_;                       ///< from outside, where bodies touch something
   ForceMeans rowMeans_;
+  ReplicatedWork replicated_;
+  double mostTravel_ = 0; ///< of a surface in a step [m]
 };
 
 } // namespace grouser::coupling

@@ -18,7 +18,8 @@ struct MechanismState {
   std::vector<double> control; ///< error-controlled steps: the next [s], how many, rejected, smallest, largest [s]
 
   /// Of bodies that touch something.
-  struct Touching : ContactsState {
+  struct Touching {
+    ContactsState contacts;
     std::vector<base::Vec3l> forces; ///< by shape and surface, since the last row, in quanta
     std::int64_t meanSteps{};        ///< of that sum
     std::vector<double> appliedWork; ///< AppliedLoads::save()

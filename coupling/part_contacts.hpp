@@ -66,6 +66,7 @@ public:
   void computeOnHost();
   /// For the poses last set; `ahead`: for those of the next step too, unless a part is thrown.
   bool listsHold(bool ahead = false) const;
+  double lastTravel() const { return lastAbsolute_; } ///< bound on the way of any surface point in the last step [m]
   std::int64_t listings() const { return listings_; }
 
   bool onGround() const { return ground_ != nullptr; }

@@ -270,18 +270,22 @@ void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const bas
 }
 
 void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const base::Comm& comm) {
+  if (mechanism.shapes.empty()) return;
   const std::vector<Row> rows = rowsOf(grains);
   const double most = grains.model().maxEntryOverlap;
   for (const BodyShape& s : mechanism.shapes) {
     const multibody::Body& body = mechanism.model.bodies()[s.body];
     const base::Pose pose = multibody::compose(body.pose, s.pose_B);
-    const Deepest d = deepestOf(
-        rows, comm, [&](const Row& g) { return g.radius - contact::gapTo(s.shape, pose.toBody(g.position)).distance; });
+    const double reach = norm(halfExtent(s.shape));
+    const Deepest d = deepestOf(rows, comm, [&](const Row& g) {
+      if (norm2(g.position - pose.position) > (reach + g.radius) * (reach + g.radius)) return kNoGrain;
+      return g.radius - contact::gapTo(s.shape, pose.toBody(g.position)).distance;
+    });
     if (d.share > most)
-      throw base::InputError(
-          fmt::format("{}: body \"{}\" stands {:.3g} m deep in grain {} of radius {:g} m at {} at the "
-                      "start, more than {:g} of its radius (run.max_overlap); move the body",
-                      s.place, body.name, d.depth, d.grain.id, d.grain.radius, pointOf(d.grain.position), most));
+      throw base::InputError(fmt::format(
+          "{}: body \"{}\" overlaps grain {} of radius {:g} m at {} by {:.3g} m at the start, more than {:g} of its "
+          "radius (run.max_overlap); move the body",
+          s.place, body.name, d.grain.id, d.grain.radius, pointOf(d.grain.position), d.depth, most));
   }
 }
 

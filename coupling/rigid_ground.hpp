@@ -7,8 +7,7 @@
 
 namespace grouser::coupling {
 
-/// Rigid ground that follows a height-map: an elastic foundation under shoes and bodies. The hull meets it with the
-/// obstacles.
+/// Rigid ground that follows a height-map: an elastic foundation under each shoe. The hull meets it with the obstacles.
 class RigidGround : public Ground {
 public:
   /// `laid`, which has a rigid height-field, outlives it.

@@ -38,12 +38,12 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
     laid_ = buildGround(setup_.ground, exec, comm);
   }
   makeActingGround();
-  if (laid_.grains && setup_.mechanism) requireRoom(*laid_.grains, *setup_.mechanism, comm);
   if (setup_.vehicle) makeVehicle(spheres);
   if (setup_.mechanism) makeMechanism();
   if (laid_.grains) laid_.grains->setSteps(0);
   makeSurfaces(nullptr);
   if (isPutOnBed()) putGrains(laid_, setup_.ground);
+  if (laid_.grains && setup_.mechanism) requireRoom(*laid_.grains, *setup_.mechanism, comm);
   makeMeshContacts(spheres);
   start_ = wholeLedger();
   addGrains();
@@ -312,7 +312,8 @@ double Simulation::partsElastic() const {
 void Simulation::checkEnergy() {
   const Ledger now = ledger();
   // Within a contact of grains energies swing: what a few steps make, the next ones take back.
-  const bool early = !mechanism_ && steps_ % EnergyGuard::kInterval < EnergyGuard::kOneContact;
+  const bool early =
+      (!mechanism_ || mechanism_->touches()) && steps_ % EnergyGuard::kInterval < EnergyGuard::kOneContact;
   if (early && std::isfinite(now.integrationError) && std::isfinite(now.turnover)) return;
   checkEnergy(now);
 }
@@ -335,8 +336,9 @@ void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
-  if (mechanism_) remedy = "the steps are too long for this motion: use a smaller time_step";
-  if (mechanism_)
+  const bool alone = mechanism_ && !mechanism_->touches();
+  if (alone) remedy = "the steps are too long for this motion: use a smaller time_step";
+  if (alone)
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   if (vehicle_ && now.dissipated.parts > now.dissipated.ofGrains())

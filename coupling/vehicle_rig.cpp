@@ -288,8 +288,7 @@ base::Alarm VehicleRig::alarm(std::int64_t step) {
 void VehicleRig::addTo(Ledger& ledger) const {
   multibody::Balance bodies = bodiesBalance();
   bodies.driveWork += (towing_ ? towing_->work() : 0) + applied_.work();
-  enter(ledger, bodies);
-  ledger.potential += bodies.potentialGain, ledger.elastic += bodies.elasticGain;
+  enter(ledger, bodies, bodies.potentialGain, bodies.elasticGain);
 }
 
 VehicleState VehicleRig::save() const {
@@ -303,7 +302,7 @@ VehicleState VehicleRig::save() const {
                 .save();
   if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->books();
   s.appliedWork = applied_.save();
-  contacts_->save(s);
+  contacts_->save(s.contacts);
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
   s.alarmForces = alarmMeans_.sums, s.alarmSteps = alarmMeans_.steps;
   s.judged = swings_.save();
@@ -325,7 +324,7 @@ void VehicleRig::restore(const VehicleState& s) {
   asked_.held = !asked.driven, asked_.sprocketSpeed = asked.sprocketSpeed, asked_.torque = asked.torque;
   if (towing_) towing_->restore(s.hitch, s.hitchBooks);
   applied_.restore(s.appliedWork);
-  contacts_->restore(s);
+  contacts_->restore(s.contacts);
   rowMeans_ = {s.groundForces, s.meanSteps};
   alarmMeans_ = {s.alarmForces, s.alarmSteps};
   swings_.restore(s.judged[0], s.judged[1]);

@@ -34,6 +34,7 @@ public:
   VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Ground* ground,
              const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
              std::optional<double> lift = {});
+  ~VehicleRig() override { contacts_.reset(); } // before the parts that it refers to
 
   void collectLoads() override;
   void advance() override;

@@ -25,7 +25,7 @@ void addWords(std::vector<std::uint32_t>& words, const double* numbers, std::siz
 
 } // namespace
 
-std::vector<std::uint32_t> ContactsState::contactWords() const {
+std::vector<std::uint32_t> ContactsState::words() const {
   std::vector<std::uint32_t> words;
   for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
     words.insert(words.end(), more.begin(), more.end());
@@ -45,19 +45,19 @@ std::vector<std::uint32_t> VehicleState::words() const {
   addWords(words, bodies.data(), bodies.empty() ? 0 : bodies.size() - multibody::State::kBooks);
   addWords(words, driver.data(), driver.size());
   addWords(words, hitch.data(), hitch.size());
-  const std::vector<std::uint32_t> contacts = contactWords();
-  words.insert(words.end(), contacts.begin(), contacts.end());
+  const std::vector<std::uint32_t> touching = contacts.words();
+  words.insert(words.end(), touching.begin(), touching.end());
   return words;
 }
 
 std::string mostDissipating(const vehicle::Assembly& assembly, const VehicleState& state) {
   std::map<std::string, double> by;
-  for (std::size_t k = 0; k < state.track.states.size(); ++k) {
+  for (std::size_t k = 0; k < state.contacts.track.states.size(); ++k) {
     const vehicle::PartPair& pair = assembly.pairs[k / static_cast<std::size_t>(contact::kClusters)];
-    by[assembly.parts[static_cast<std::size_t>(pair.other)].name] += state.track.states[k].dissipated;
+    by[assembly.parts[static_cast<std::size_t>(pair.other)].name] += state.contacts.track.states[k].dissipated;
   }
-  for (const contact::PatchState& patch : state.ground.states) by["ground"] += patch.dissipated;
-  for (const contact::PatchState& patch : state.surfaces.states) by["obstacles and hull"] += patch.dissipated;
+  for (const contact::PatchState& patch : state.contacts.ground.states) by["ground"] += patch.dissipated;
+  for (const contact::PatchState& patch : state.contacts.surfaces.states) by["obstacles and hull"] += patch.dissipated;
   std::vector<std::pair<double, std::string>> most;
   for (const auto& [name, energy] : by) most.emplace_back(energy, name);
   std::sort(most.begin(), most.end(), std::greater<>());

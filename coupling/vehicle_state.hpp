@@ -14,13 +14,14 @@ struct Assembly;
 namespace grouser::coupling {
 
 /// All of a vehicle on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
-struct VehicleState : ContactsState {
+struct VehicleState {
   double lift{};                 ///< with which it was set down; see VehicleRig
   std::vector<double> bodies;    ///< multibody::State::save()
   std::vector<double> observers; ///< vehicle::Observer::save()
   std::vector<double> driver;    ///< vehicle::Driver::save()
   std::vector<double> asked;     ///< vehicle::Handover::save() of the last step: from which a branch goes on
   std::vector<double> hitch;     ///< vehicle::Hitch::save(); empty without one
+  ContactsState contacts;
 
   // Sums for output and alarm, in quanta of force.
   std::vector<base::Vec3l> groundForces; ///< by part and surface, since the last row

@@ -272,7 +272,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   text += pairsText(scene);
   const setup::StepLimit limit = setup::stepLimit(scene);
   text += timeText(scene, limit, step, static_cast<double>(grains));
-  if (const double calm = limit.calm; grains && scene.mechanism.empty() && step > calm)
+  if (const double calm = limit.calm; grains && (scene.mechanism.empty() || scene.mechanism.touches()) && step > calm)
     text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
                         "(docs/step_limits.md)\n",
                         base::roundedDown(calm, 4));

@@ -162,14 +162,14 @@ void checkCompany(const Section& section, const Scene& scene) {
   const bool anyTouches = std::any_of(bodies.begin(), bodies.end(), touches);
   for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "terrain"})
     if (root.has(other) && !anyTouches)
-      section.fail("", fmt::format("stands beside {}, but no body has a shape by which it could touch anything; add "
+      section.fail("", fmt::format("is incompatible with {}, since no body has a shape that could touch it; add "
                                    "[[body.shape]], or give the mechanism a scene of its own",
                                    other));
   for (const char* other : {"mesh", "vehicle"})
     if (root.has(other))
-      section.fail("", fmt::format("stands beside {0}, which bodies do not touch; remove one of them", other));
+      section.fail("", fmt::format("is incompatible with {}: bodies do not touch it; remove one of them", other));
   if (scene.terrain && !scene.terrain->granular())
-    section.fail("", "stands beside rigid [terrain], which bodies do not touch; use a granular terrain");
+    section.fail("", "is incompatible with rigid [terrain]: bodies do not touch it; use a granular terrain");
 }
 
 void checkShape(const Section& section, const ShapeSection& s) {
@@ -179,14 +179,14 @@ void checkShape(const Section& section, const ShapeSection& s) {
   const auto need = [&](bool needed, bool given, const char* key, const char* example) {
     if (needed && !given)
       section.fail(key, fmt::format("[m] is missing, which a {} needs; add e.g. {}", kind, example));
-    if (!needed && given) section.fail(key, fmt::format("has no meaning for a {}; remove it", kind));
+    if (!needed && given) section.fail(key, fmt::format("does not apply to a {}; remove it", kind));
   };
   need(isBox, s.size.has_value(), "size", "size = [0.2, 0.2, 0.1]");
   need(isRound, s.radius.has_value(), "radius", "radius = 0.1");
   need(isLong, s.length.has_value(), "length", "length = 0.2");
   if (s.axis && norm(*s.axis) == 0) section.fail("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
-  if (s.axis && s.kind == ShapeKind::sphere) section.fail("axis", "has no meaning for a sphere; remove it");
-  if (s.angle && !isBox) section.fail("angle", fmt::format("has no meaning for a {}; remove it", kind));
+  if (s.axis && s.kind == ShapeKind::sphere) section.fail("axis", "does not apply to a sphere; remove it");
+  if (s.angle && !isBox) section.fail("angle", fmt::format("does not apply to a {}; remove it", kind));
   if (isBox && s.axis.has_value() != s.angle.has_value())
     section.fail("axis", "and angle turn a box together; give both or neither");
 }
@@ -200,6 +200,8 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
   if (body.shapes.empty() && !body.material.empty())
     section.fail("material", "has no effect without a shape; add [[body.shape]], or remove it");
   if (body.shapes.empty()) return;
+  if (body.point)
+    section.fail("point", "has no inertia, which [[body.shape]] needs; remove it, and give inertia or box");
   if (body.material.empty()) section.fail("material", "is missing, which [[body.shape]] needs; add the name of one");
   requireMaterial(scene, section, "material", body.material);
   if (scene.run.tolerance)
@@ -210,6 +212,12 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
 /// bodies by them twice, and a stiff contact would gain energy in each step.
 void setIntegrator(const Section& root, Scene& scene) {
   if (!scene.mechanism.touches()) return;
+  constexpr std::size_t kMostShapes = 255; // as a grain's list of parts counts them
+  std::size_t shapes = 0;
+  const std::vector<Section> bodies = root.list("body");
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if ((shapes += scene.mechanism.bodies[b].shapes.size()) > kMostShapes)
+      bodies[b].fail("shape", fmt::format("is beyond the {} shapes that a scene can have; use fewer", kMostShapes));
   if (root.section("run").has("integrator") && scene.run.integrator == multibody::Integrator::kRattle)
     root.section("run").fail("integrator", "adds energy to stiff contacts of bodies; choose \"symplectic_euler\", or "
                                            "remove it: with [[body.shape]] that is the default");

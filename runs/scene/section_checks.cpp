@@ -125,6 +125,9 @@ void checkPeriodic(const Section& section, const Scene& scene) {
   }
   if (!run.periodic[0] && !run.periodic[1]) return;
   if (scene.vehicle) section.fail("periodic", "is not possible beside a [vehicle]; set it to [false, false]");
+  if (scene.mechanism.touches())
+    section.fail("periodic",
+                 "is not supported with [[body.shape]], which has no periodic images; set it to [false, false]");
   if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() &&
       !(scene.terrain && scene.terrain->granular()))
     section.fail("periodic", "is for grains, of which this scene has none; remove it");

@@ -120,23 +120,35 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Con
   }
 }
 
-/// A body on the springs of all grains that its shapes may touch at once: a dense layer on the largest face of each.
-/// Springs all over a face shift it by sum k / m and turn it by sum k r^2 / I, with r^2 a third of the largest.
+/// Lower bound of the smallest principal moment of inertia [kg m2].
+double leastInertia(const base::Mat3d& inertia) {
+  const auto& I = inertia.m;
+  if (I[0][1] == 0 && I[0][2] == 0 && I[1][2] == 0) return std::min({I[0][0], I[1][1], I[2][2]});
+  const double trace = I[0][0] + I[1][1] + I[2][2];
+  const double determinant = I[0][0] * (I[1][1] * I[2][2] - I[1][2] * I[1][2]) -
+                             I[0][1] * (I[0][1] * I[2][2] - I[1][2] * I[0][2]) +
+                             I[0][2] * (I[0][1] * I[1][2] - I[1][1] * I[0][2]);
+  return 4 * determinant / (trace * trace); // the product of the other two is at most a quarter of trace^2
+}
+
+/// A body on the springs of all grains that its shapes may touch at once: a dense layer on both sides of the largest
+/// face of each, at the grains' centres. Springs all over a face shift it by sum k / m and turn it by sum k r^2 / I,
+/// with r^2 a third of the largest.
 void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs) {
   if (!scene.mechanism.touches()) return;
   const coupling::MechanismSetup mechanism = mechanismSetup(scene);
   for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
     const multibody::Body& body = mechanism.model.bodies()[b];
     if (body.fixed) continue;
-    const auto& I = body.inertia_B.m;
-    const double least = body.point ? 0 : std::min({I[0][0], I[1][1], I[2][2]});
+    const double inertia = leastInertia(body.inertia_B);
     for (const auto& [material, radius, largest] : pairs.kinds.kinds) {
       double touching = 0, turning = 0;
       for (const coupling::BodyShape& s : mechanism.shapes) {
         if (s.body != b) continue;
-        const double most = mostTouching(scene, s.shape, radius), reach = norm(halfExtent(s.shape));
+        const Vec3d reach = halfExtent(s.shape) + Vec3d{radius, radius, radius};
+        const double most = 2 * mostTouching(scene, {contact::SurfaceShape::box, reach}, radius);
         touching += most;
-        if (least > 0) turning += most * (norm2(s.pose_B.position) + reach * reach / 3) / least;
+        turning += most * (norm2(s.pose_B.position) + norm2(reach) / 3) / inertia;
       }
       if (touching == 0) continue;
       const double mass = base::sphereMass(scene.material(material).density, radius);
@@ -348,6 +360,21 @@ double leverOf(const SceneSurface& s) {
   }
 }
 
+void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
+  if (!scene.mechanism.touches()) return;
+  const double most = kRounding * 0.5 * pairs.kinds.smallest / timeStep;
+  for (const coupling::BodyShape& s : mechanismSetup(scene).shapes) {
+    const scene::BodySection& body = scene.mechanism.bodies[s.body];
+    const double speed = norm(body.velocity) + norm(body.spin) * (norm(s.pose_B.position) + norm(halfExtent(s.shape)));
+    if (speed > most)
+      scene.fail("body", s.body, "velocity",
+                 fmt::format("[m/s] and spin move a shape by up to {:.4g} m in a step of {:.3g} s, more than half the "
+                             "radius of the smallest grain, so it could pass through grains; lower them, or set "
+                             "run.time_step to {} s or less",
+                             speed * timeStep, timeStep, base::roundedDown(0.5 * pairs.kinds.smallest / speed, 4)));
+  }
+}
+
 void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
   const double most = kRounding * 0.5 * pairs.kinds.smallest / timeStep;
   for (const SceneSurface& s : pairs.surfaces) {
@@ -376,6 +403,7 @@ void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, do
 void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
   if (!pairs.kinds.any()) return;
   checkSurfaceSpeeds(scene, pairs, timeStep);
+  checkBodySpeeds(scene, pairs, timeStep);
   const double most = kRounding * 0.5 * scene.run.skin * pairs.kinds.smallest / timeStep;
   const auto check = [&](const char* list, const auto& sections) {
     for (std::size_t k = 0; k < sections.size(); ++k)

@@ -84,7 +84,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/mechanism/control", s.mechanism->control);
     if (archive.present("/mechanism/touching", s.mechanism->touching)) {
       auto& t = *s.mechanism->touching;
-      exchangeContacts(archive, "/mechanism/touching", t);
+      exchangeContacts(archive, "/mechanism/touching", t.contacts);
       archive("/mechanism/touching/forces", t.forces), archive("/mechanism/touching/mean_steps", t.meanSteps);
       archive("/mechanism/touching/applied_work", t.appliedWork);
     }
@@ -121,7 +121,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/hitch", v.hitch);
     archive("/vehicle/hitch_books", v.hitchBooks);
     archive("/vehicle/applied_work", v.appliedWork);
-    exchangeContacts(archive, "/vehicle", v);
+    exchangeContacts(archive, "/vehicle", v.contacts);
     archive("/vehicle/ground_forces", v.groundForces);
     archive("/vehicle/mean_steps", v.meanSteps);
     archive("/vehicle/alarm_forces", v.alarmForces);

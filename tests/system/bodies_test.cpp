@@ -82,7 +82,7 @@ TEST(Bodies, WeightIsTheMeanContactForceAtRest) {
   EXPECT_NEAR(s->mechanism()->state().pose[0].position.z, 0.06 - 2 * 9.81 / 4e5, 1e-7);
 }
 
-/// A ball as a body against a grain, both free: e of the law between the two masses.
+/// A body so heavy that it acts as a wall: the law is that of the grain's mass, as against all parts.
 TEST(Bodies, ABallBouncesOffAGrainAsTheLawSays) {
   const double radius = 0.01, mass = 2500 * 4.0 / 3 * base::kPi * radius * radius * radius;
   const auto rebound = [&](double step) {
@@ -98,7 +98,6 @@ TEST(Bodies, ABallBouncesOffAGrainAsTheLawSays) {
     const double before = 0.5;
     return (body.x - static_cast<double>(g.velocity[0].x)) / before;
   };
-  // The body is so heavy that the grain bounces as off a wall: damping is that of the grain's mass. First order.
   const double coarse = rebound(1e-5), fine = rebound(2.5e-6);
   EXPECT_NEAR(fine, 0.5, 0.004);
   EXPECT_LT(std::fabs(fine - 0.5), 0.6 * std::fabs(coarse - 0.5) + 2e-4);
@@ -166,9 +165,39 @@ TEST(Bodies, LightBodiesAskForAShorterStep) {
   EXPECT_LT(norm(s->mechanism()->state().twist[0].v), 1e-4);
 }
 
-TEST(Bodies, WhatStandsInAGrainIsRefused) {
+TEST(Bodies, OverlapWithAGrainAtTheStartIsRefused) {
   const std::string message = test::messageOf([] { made(head("") + feet() + cube("[0, 0, 0.05]", 1)); });
-  EXPECT_NE(message.find("body \"cube\" stands 0.01 m deep in grain 0 of radius 0.01 m"), std::string::npos) << message;
+  EXPECT_NE(message.find("body \"cube\" overlaps grain 0 of radius 0.01 m"), std::string::npos) << message;
+  const std::string beside = test::messageOf([] {
+    made(head("") + grain("[0, 0, 0]") +
+         "[[body]]\nname = \"arm\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, 0]\nmaterial = \"glass\"\n"
+         "[[body.shape]]\nkind = \"sphere\"\nradius = 0.1\nposition = [-0.9, 0, 0]\n");
+  });
+  EXPECT_NE(beside.find("body \"arm\" overlaps"), std::string::npos) << beside;
+}
+
+TEST(Bodies, FastBodiesAreRefusedOrStopTheRun) {
+  const std::string fast = test::messageOf(
+      [] { made(head("time_step = 1e-4") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 1, "velocity = [0, 0, -60]")); });
+  EXPECT_NE(fast.find("body.0.velocity"), std::string::npos) << fast;
+  const auto s = made(head("time_step = 1e-4") + grain("[0, 0, 0]") + cube("[0, 0, 100]", 1));
+  s->set({{0, InputKind::bodyLoad, 0, false, {0, 0, -1e4, 0, 0, 0}}}); // 50 m/s are reached after 5 ms
+  try {
+    advanceTo(*s, 0.02);
+    FAIL() << "a body went faster than half a radius a step";
+  } catch (const base::SimulationError& error) {
+    EXPECT_EQ(error.cause(), base::Cause::thrownPart);
+    EXPECT_NEAR(s->time(), 0.005, 2e-4);
+  }
+}
+
+TEST(Bodies, PeriodicSidesAreRefused) {
+  const std::string message = test::messageOf([] {
+    setup::parseScene(head("periodic = [true, false]\ndomain_x = [-1, 1]") + grain("[0, 0, 0]") +
+                          cube("[0, 0, 0.2]", 1),
+                      "bodies.toml");
+  });
+  EXPECT_NE(message.find("run.periodic"), std::string::npos) << message;
 }
 
 TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
@@ -189,9 +218,9 @@ TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
   says(refused("kind = \"sphere\"\nradius = 1\nsize = [1, 1, 1]"), "shape.0.size");
   says(refused("kind = \"sphere\"\nradius = 0"), "outside (0");
   says(refused("kind = \"ball\"\nradius = 1"), "sphere");
-  says(refused("kind = \"sphere\"\nradius = 1\naxis = [0, 0, 1]"), "no meaning for a sphere");
+  says(refused("kind = \"sphere\"\nradius = 1\naxis = [0, 0, 1]"), "does not apply to a sphere");
   says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\naxis = [0, 0, 0]"), "is zero");
-  says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\nangle = 3"), "no meaning for a capsule");
+  says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\nangle = 3"), "does not apply to a capsule");
   says(refused("kind = \"box\"\nsize = [1, 1, 1]\nangle = 3"), "both or neither");
   says(refused("kind = \"sphere\"\nradius = 1\ncolour = 3"), "colour");
   says(test::messageOf([] {
@@ -200,6 +229,13 @@ TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
        "run.integrator");
   says(refused("kind = \"sphere\"\nradius = 1", ""), "material is missing");
   says(refused("kind = \"sphere\"\nradius = 1", "material = \"brass\""), "brass");
+  EXPECT_NE(test::messageOf([] {
+              setup::parseScene(head("") + grain("[0, 0, 0]") +
+                                    "[[body]]\nname = \"b\"\nmass = 1\npoint = true\nmaterial = \"glass\"\n"
+                                    "[[body.shape]]\nkind = \"sphere\"\nradius = 1\n",
+                                "bodies.toml");
+            }).find("body.0.point"),
+            std::string::npos);
 }
 
 } // namespace

@@ -32,13 +32,6 @@ template <class BarOf> double total(const std::vector<BarPart>& parts, const Bar
   return totalBar(0, bars);
 }
 
-/// A case of which more seeds make bars smaller.
-bool hasPart(const CheckCases& cases, std::size_t c) {
-  const CheckCase& one = cases.cases[c];
-  if (one.axis == CheckAxis::skin || one.refinement < 0) return false;
-  return !cases.seeded || one.axis != CheckAxis::precision;
-}
-
 /// The case behind an axis's error: of the step that of h/2.
 std::size_t caseOf(const CheckCases& cases, CheckAxis axis) {
   const auto at = std::find_if(cases.cases.begin(), cases.cases.end(), [axis](const CheckCase& c) {
@@ -158,6 +151,12 @@ std::string plainName(std::string name) {
 
 } // namespace
 
+bool hasPart(const CheckCases& cases, std::size_t c) {
+  const CheckCase& one = cases.cases[c];
+  if (one.axis == CheckAxis::skin || one.refinement < 0) return false;
+  return !cases.seeded || one.axis != CheckAxis::precision;
+}
+
 int Looks::after(int taken) const {
   const auto next = std::upper_bound(seeds.begin(), seeds.end(), taken);
   return next == seeds.end() ? taken : *next;
@@ -166,7 +165,7 @@ int Looks::after(int taken) const {
 Looks looksUpTo(int most, bool seeded) {
   if (!seeded) return {{1}, {}};
   Looks looks;
-  for (int seeds = kFewSeeds; 1.5 * seeds <= most && seeds < most; seeds *= 2) looks.seeds.push_back(seeds);
+  for (int seeds = kFewSeeds; 1.5 * seeds <= most; seeds *= 2) looks.seeds.push_back(seeds);
   looks.seeds.push_back(most);
   const double share = kMissed / static_cast<double>(looks.seeds.size());
   looks.levels = {share, 2 * share};

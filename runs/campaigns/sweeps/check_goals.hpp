@@ -72,6 +72,9 @@ struct Goal {
 /// "sinkage", "torque", "tension". Throws InputError that lists the words.
 std::string goalFigure(const std::string& word, const std::vector<std::string>& columns);
 
+/// Whether the runs of a case count in the bars of goals.
+bool hasPart(const CheckCases& cases, std::size_t c);
+
 /// Keeps the cases that have a part in the bars of goals; others only where the user has named their `axes`.
 void keepGoalCases(CheckCases& cases, const std::vector<CheckAxis>& axes);
 

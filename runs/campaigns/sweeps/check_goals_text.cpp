@@ -36,23 +36,21 @@ std::string nameOf(const BarPart& part) {
   return part.axis == CheckAxis::base ? "seeds" : std::string(base::wordOf(part.axis));
 }
 
-/// Cases that should have a part in the bars, and have none, or one of fewer seeds: "floor (failed)".
+/// Cases that count in the bars of goals and lack runs: "floor (failed)".
 std::vector<std::string> missingCases(const CheckRecord& record) {
   std::vector<std::string> missing;
-  for (std::size_t c = 1; c < record.cases.cases.size(); ++c) {
+  for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
     const CaseStatus status = statusOf(record, c);
-    if (status.word == "refused" || status.word == "failed" || status.word == "partly failed" ||
-        status.word == "left out")
-      missing.push_back(
-          fmt::format("{} ({})", record.cases.cases[c].name, status.word == "left out" ? status.message : status.word));
+    if (status.word == "finished" || !status.isNeeded || !hasPart(record.cases, c)) continue;
+    const std::string name = c == 0 ? "base" : record.cases.cases[c].name;
+    missing.push_back(fmt::format("{} ({})", name, status.word == "left out" ? status.message : status.word));
   }
   return missing;
 }
 
-/// The state in words: a bar without the parts of some cases is not called met.
-std::string stateText(const CheckRecord& record, const Goal& goal) {
-  if (goal.state != GoalState::met || missingCases(record).empty()) return wordOf(goal.state);
-  return "inconclusive: narrow enough, but cases are missing";
+/// A narrow bar without the runs of some cases does not count as met.
+const char* stateOf(const CheckRecord& record, const Goal& goal) {
+  return goal.state == GoalState::met && !missingCases(record).empty() ? "inconclusive" : wordOf(goal.state);
 }
 
 /// Seeds of each case so far.
@@ -97,7 +95,7 @@ std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vecto
                                    : fmt::format("{:.2g}", percent);
   };
   std::string text = fmt::format("  {:<24} {:>28}  {:>5} %  {}", goal.figure, jobs::valueText({goal.value, goal.bar}),
-                                 share(goal.bar), stateText(record, goal));
+                                 share(goal.bar), stateOf(record, goal));
   const BarPart* worst = goal.largest();
   if (goal.state != GoalState::met && worst)
     text +=
@@ -113,12 +111,9 @@ nlohmann::ordered_json goalsJson(const CheckRecord& record) {
   Json all = Json::array();
   for (std::size_t g = 0; g < record.goals.size(); ++g) {
     const Goal& goal = record.goals[g];
-    Json json{{"figure", goal.figure},
-              {"wanted", number(goal.wanted)},
-              {"bar", number(goal.bar)},
-              {"met", goal.state == GoalState::met && missing.empty()},
-              {"state", stateText(record, goal)},
-              {"missing", missing}};
+    Json json{{"figure", goal.figure},          {"wanted", number(goal.wanted)},
+              {"bar", number(goal.bar)},        {"met", goal.state == GoalState::met && missing.empty()},
+              {"state", stateOf(record, goal)}, {"missing", missing}};
     json["parts"] = Json::array();
     for (const BarPart& part : goal.parts)
       json["parts"].push_back({{"part", nameOf(part)}, {"bar", number(part.bar)}, {"seeds", part.seeds}});

@@ -39,6 +39,7 @@ std::vector<CaseCost> costsOf(const CheckRecord& record);
 /// message behind it where there is one.
 struct CaseStatus {
   std::string word, message;
+  bool isNeeded = true; ///< false: left out because it could not change a verdict
 };
 CaseStatus statusOf(const CheckRecord& record, std::size_t aCase);
 

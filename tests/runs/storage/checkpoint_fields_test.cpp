@@ -114,15 +114,18 @@ const NamedChange kHashed[] = {
     {"body of the vehicle", [](coupling::SimulationState& s) { s.vehicle->bodies[0] += 1; }},
     {"hitch", [](coupling::SimulationState& s) { s.vehicle->hitch[1] += 1; }},
     {"what was set from outside", [](coupling::SimulationState& s) { s.inputs[4] += 1; }},
-    {"spring of the track", [](coupling::SimulationState& s) { s.vehicle->track.states[1].shear.y += 1; }},
-    {"stiffness of a track's spring", [](coupling::SimulationState& s) { s.vehicle->track.states[1].stiffness += 1; }},
-    {"spring on the ground", [](coupling::SimulationState& s) { s.vehicle->ground.states[2].shear.z += 1; }},
-    {"spring on an obstacle", [](coupling::SimulationState& s) { s.vehicle->surfaces.states[1].shear.x += 1; }},
-    {"patch on a part", [](coupling::SimulationState& s) { s.vehicle->bed.memories[0] ^= 1; }},
-    {"rolling angle on a part", [](coupling::SimulationState& s) { s.vehicle->bed.angles[2] += 1; }},
-    {"dent on a part", [](coupling::SimulationState& s) { s.vehicle->bed.dents[2] += 1; }},
+    {"spring of the track", [](coupling::SimulationState& s) { s.vehicle->contacts.track.states[1].shear.y += 1; }},
+    {"stiffness of a track's spring",
+     [](coupling::SimulationState& s) { s.vehicle->contacts.track.states[1].stiffness += 1; }},
+    {"spring on the ground", [](coupling::SimulationState& s) { s.vehicle->contacts.ground.states[2].shear.z += 1; }},
+    {"spring on an obstacle",
+     [](coupling::SimulationState& s) { s.vehicle->contacts.surfaces.states[1].shear.x += 1; }},
+    {"patch on a part", [](coupling::SimulationState& s) { s.vehicle->contacts.bed.memories[0] ^= 1; }},
+    {"rolling angle on a part", [](coupling::SimulationState& s) { s.vehicle->contacts.bed.angles[2] += 1; }},
+    {"dent on a part", [](coupling::SimulationState& s) { s.vehicle->contacts.bed.dents[2] += 1; }},
     {"dent on a mesh", [](coupling::SimulationState& s) { s.surfaces->patches.dents[1] += 1; }},
     {"body of the mechanism", [](coupling::SimulationState& s) { s.mechanism->bodies[2] += 1; }},
+    {"patch on a body", [](coupling::SimulationState& s) { s.mechanism->touching->contacts.bed.memories[1] ^= 1; }},
 };
 
 /// Sums for rows and alarms: they say nothing of the next step.
@@ -135,17 +138,19 @@ const NamedChange kUnhashed[] = {
     {"skin", [](coupling::SimulationState& s) { s.grains->skin += 1; }},
     {"work of a surface", [](coupling::SimulationState& s) { s.surfaces->surfaces[0].work += 1; }},
     {"mean force of a surface", [](coupling::SimulationState& s) { s.surfaces->surfaces[0].force.x += 1; }},
-    {"sums of the track", [](coupling::SimulationState& s) { s.vehicle->track.sums[0].elastic += 1; }},
+    {"sums of the track", [](coupling::SimulationState& s) { s.vehicle->contacts.track.sums[0].elastic += 1; }},
     {"mean ground force", [](coupling::SimulationState& s) { s.vehicle->groundForces[1].z += 1; }},
     {"book of the vehicle's bodies", [](coupling::SimulationState& s) { s.vehicle->bodies.back() += 1; }},
     {"book of the mechanism", [](coupling::SimulationState& s) { s.mechanism->bodies.back() += 1; }},
     {"grains taken out", [](coupling::SimulationState& s) { s.taken.mass += 1; }},
-    {"sums of an obstacle", [](coupling::SimulationState& s) { s.vehicle->surfaces.sums[0].elastic += 1; }},
+    {"sums of an obstacle", [](coupling::SimulationState& s) { s.vehicle->contacts.surfaces.sums[0].elastic += 1; }},
     {"books of the hitch", [](coupling::SimulationState& s) { s.vehicle->hitchBooks[0] += 1; }},
     {"speeds that were asked for", [](coupling::SimulationState& s) { s.vehicle->asked[1] += 1; }},
     {"steps without way", [](coupling::SimulationState& s) { s.vehicle->stalledSteps += 50; }},
-    {"what was pressed most", [](coupling::SimulationState& s) { s.vehicle->bed.deepest[1] ^= 1; }},
+    {"what was pressed most", [](coupling::SimulationState& s) { s.vehicle->contacts.bed.deepest[1] ^= 1; }},
     {"worst gap", [](coupling::SimulationState& s) { s.mechanism->worst[0] += 1; }},
+    {"mean force on a body", [](coupling::SimulationState& s) { s.mechanism->touching->forces[1].x += 1; }},
+    {"work of loads on bodies", [](coupling::SimulationState& s) { s.mechanism->touching->appliedWork[0] += 1; }},
 };
 
 TEST(StateHash, TakesWhatTheNextStepDependsOnAndNothingElse) {
@@ -218,6 +223,10 @@ TEST(RestoredSimulation, SumsOfTheRowAndOfTheAlarmAreKeptApart) {
     any = any || !(first.groundForces[c] == base::Vec3l{});
   }
   EXPECT_TRUE(any) << "the ground has pushed before the row";
+}
+
+TEST(RestoredSimulation, OfBodiesAmongGrainsSavesWhatItWasGiven) {
+  expectRestored(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/bodies.toml"), 900);
 }
 
 TEST(RestoredSimulation, OfGrainsAndSurfacesSavesWhatItWasGiven) {

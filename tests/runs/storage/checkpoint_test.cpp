@@ -126,7 +126,7 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   EXPECT_EQ(rowOf(resumed), rowOf(straight));
   const coupling::VehicleState a = *resumed.save().vehicle, b = *straight.save().vehicle;
   EXPECT_EQ(a.groundForces, b.groundForces);
-  EXPECT_EQ(a.impulseOnParts, b.impulseOnParts);
+  EXPECT_EQ(a.contacts.impulseOnParts, b.contacts.impulseOnParts);
 }
 
 TEST_F(CheckpointFile, VehicleOnItsBedGoesOnToTheSameBits) {
