@@ -21,19 +21,37 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
     if (const double mass = base::sphereMass(scene.material(kind.material).density, kind.largest); mass > grain)
       grain = mass, heaviest = &kind;
   std::vector<std::string> notes;
-  for (const SceneSurface& s : pairs.surfaces) {
-    if (!s.free || !heaviest || s.free->mass >= kHeavy * grain) continue;
-    const contact::ContactLaw law = pairLaw(scene, heaviest->material, s.section.material, grain);
+  const auto look = [&](const std::string& what, const std::string& material, double mass) {
+    if (!heaviest || mass >= kHeavy * grain) return;
+    const contact::ContactLaw law = pairLaw(scene, heaviest->material, material, grain);
     const double wanted = contact::restitutionOf(law, grain, grain),
-                 made = contact::restitutionOf(law, grain, grain * s.free->mass / (grain + s.free->mass));
-    if (wanted - made < 0.005) continue;
-    notes.push_back(fmt::format("{} \"{}\" is free with a mass of {:g} kg, and the heaviest grain has {:.3g} kg: a "
-                                "grain rebounds from it with a restitution of {:.3f} instead of {:.3f}, since damping "
-                                "follows from the grain's mass alone; use a mass of at least {} kg",
-                                s.list(), s.name, s.free->mass, grain, made, wanted,
-                                base::roundedUp(kHeavy * grain, 3)));
-  }
+                 made = contact::restitutionOf(law, grain, grain * mass / (grain + mass));
+    if (wanted - made < 0.005) return;
+    notes.push_back(
+        fmt::format("{} has a mass of {:g} kg, and the heaviest grain has {:.3g} kg: a grain rebounds from it "
+                    "with a restitution of {:.3f} instead of {:.3f}, since damping follows from the grain's "
+                    "mass alone; use a mass of at least {} kg",
+                    what, mass, grain, made, wanted, base::roundedUp(kHeavy * grain, 3)));
+  };
+  for (const SceneSurface& s : pairs.surfaces)
+    if (s.free) look(fmt::format("{} \"{}\" is free and", s.list(), s.name), s.section.material, s.free->mass);
+  for (const scene::BodySection& body : scene.mechanism.bodies)
+    if (!body.shapes.empty() && !body.fixed) look(fmt::format("body \"{}\"", body.name), body.material, *body.mass);
   return notes;
+}
+
+std::string bodyContactsNote(const scene::Scene& scene) {
+  if (!scene.mechanism.touches()) return "";
+  std::string others;
+  const auto add = [&](bool has, const char* what) {
+    if (has) others += (others.empty() ? "" : ", ") + std::string(what);
+  };
+  add(scene.mechanism.bodies.size() > 1, "each other");
+  add(!scene.planes.empty(), "planes");
+  add(!scene.boxes.empty(), "boxes");
+  add(!scene.cylinders.empty(), "cylinders");
+  add(scene.terrain.has_value(), "the walls and floor of the terrain");
+  return others.empty() ? "" : fmt::format("bodies touch grains only; they pass through {}", others);
 }
 
 } // namespace grouser::setup

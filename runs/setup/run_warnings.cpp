@@ -23,6 +23,7 @@ std::vector<Notice> noticesOf(const scene::Scene& scene, const coupling::Simulat
   for (const std::string& text : meshNotes(scene)) add(note, text);
   for (const std::string& text : freeSurfaceNotes(scene)) add(note, text);
   if (!simulation.mechanism()) return notices;
+  add(warning, bodyContactsNote(scene));
   add(warning, tensionStepWarningAtStart(scene, simulation.timeStep()));
   add(note, springStepNote(scene));
   return notices;

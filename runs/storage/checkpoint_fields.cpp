@@ -103,6 +103,7 @@ constexpr Meaning kMeanings[] = {
     {"surfaces/patches/dents", "m", "of these"},
     {"surfaces/patches/sums", "-", "loads and work of these, in whole units"},
     {"surfaces/patches/deepest", "-", "of each part the grain that it has pressed most since the last row"},
+    {"mechanism/touching/forces", "-", "on each shape of a body, summed since the last row, in units of force"},
     {"vehicle/lift", "m", "with which it was set down"},
     {"vehicle/bodies", "m, -, m/s, rad/s", "places, velocities, springs and books of all bodies"},
     {"vehicle/observers", "-, m, N m, W, rad/s, m/s, rad",
@@ -160,7 +161,13 @@ std::vector<support::FileField> checkpointFields() {
       {"grains@unit", "float64", "", "m", "that positions count in"},
       {"grains@radius", "float64", "", "m", "of the largest grain"}};
   for (const StoredField& f : storedFields()) {
-    const auto meaning = meanings.find(f.path);
+    auto meaning = meanings.find(f.path);
+    const std::string bodies = "mechanism/touching/"; // contacts are stored as those of a vehicle
+    if (meaning == meanings.end() && f.path.rfind(bodies, 0) == 0) {
+      const std::string same = "vehicle/" + f.path.substr(bodies.size());
+      for (const Meaning& m : kMeanings)
+        if (m.path == same) meaning = meanings.emplace(f.path, &m).first;
+    }
     if (meaning == meanings.end()) throw std::logic_error("checkpoint_fields.cpp says nothing of " + f.path);
     fields.push_back(
         {f.path, f.type, fmt::format("[{}, {}]", f.rows, f.width), meaning->second->unit, meaning->second->help});

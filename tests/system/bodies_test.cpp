@@ -4,6 +4,8 @@
 #include "base/math.hpp"
 #include "contact/surface_geometry.hpp"
 #include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/free_surface_notes.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -189,6 +191,18 @@ TEST(Bodies, FastBodiesAreRefusedOrStopTheRun) {
     EXPECT_EQ(error.cause(), base::Cause::thrownPart);
     EXPECT_NEAR(s->time(), 0.005, 2e-4);
   }
+}
+
+TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
+  const auto sceneOf = [](const std::string& text) { return setup::parseScene(text, "bodies.toml"); };
+  const scene::Scene alone = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 1));
+  EXPECT_EQ(setup::bodyContactsNote(alone), "");
+  EXPECT_TRUE(setup::freeSurfaceNotes(alone).empty());
+  const scene::Scene light = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 0.01) +
+                                     "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n");
+  EXPECT_EQ(setup::bodyContactsNote(light), "bodies touch grains only; they pass through planes");
+  ASSERT_EQ(setup::freeSurfaceNotes(light).size(), 1u);
+  EXPECT_NE(setup::freeSurfaceNotes(light)[0].find("body \"cube\" has a mass of 0.01 kg"), std::string::npos);
 }
 
 TEST(Bodies, PeriodicSidesAreRefused) {

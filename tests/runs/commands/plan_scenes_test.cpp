@@ -115,7 +115,7 @@ TEST(PlanOfSurfaces, NotesALightOneThatLowersTheRestitution) {
   expectSaid(planText(parsed("[material.soil]\ndensity = 2500\nstiffness = 1e5\nrestitution = 0.5\n" + kGrain +
                              "[[box]]\nname = \"plate\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\n"
                              "material = \"soil\"\nfree = \"z\"\nmass = 0.01\n")),
-             "\nnote: box \"plate\" is free with a mass of 0.01 kg");
+             "\nnote: box \"plate\" is free and has a mass of 0.01 kg");
 }
 
 TEST(PlanOfPairs, SaysWhatDoesNothing) {
