@@ -238,7 +238,7 @@ MechanismState Mechanism::save() const {
        steps.largest},
       {}};
   if (!contacts_) return s;
-  MechanismState::Touching& t = s.touching.emplace();
+  TouchingState& t = s.touching.emplace();
   contacts_->save(t.contacts);
   t.forces = rowMeans_.sums, t.meanSteps = rowMeans_.steps;
   t.appliedWork = applied_.save();

@@ -9,6 +9,14 @@
 
 namespace grouser::coupling {
 
+/// Contacts of bodies with shapes, and what output needs of them.
+struct TouchingState {
+  ContactsState contacts;
+  std::vector<base::Vec3l> forces; ///< by shape and surface, since the last row, in quanta
+  std::int64_t meanSteps{};        ///< of that sum
+  std::vector<double> appliedWork; ///< AppliedLoads::save()
+};
+
 /// All of a mechanism on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
 struct MechanismState {
   std::vector<double> bodies; ///< multibody::State::save()
@@ -17,14 +25,7 @@ struct MechanismState {
 
   std::vector<double> control; ///< error-controlled steps: the next [s], how many, rejected, smallest, largest [s]
 
-  /// Of bodies that touch something.
-  struct Touching {
-    ContactsState contacts;
-    std::vector<base::Vec3l> forces; ///< by shape and surface, since the last row, in quanta
-    std::int64_t meanSteps{};        ///< of that sum
-    std::vector<double> appliedWork; ///< AppliedLoads::save()
-  };
-  std::optional<Touching> touching;
+  std::optional<TouchingState> touching; ///< empty where bodies touch nothing
 
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const;

@@ -108,6 +108,9 @@ class FilesOfResults(FolderTest):
         moving["run.duration"] = 0.01
         moving["cylinder"][0]["pivot"] = [0, 0, 0.01]
         self.run_and_look(moving, "moving")
+        bodies = grouser.Scene.read(ROOT / "tests/scenes/bodies.toml")
+        bodies["run.duration"] = 0.01
+        self.run_and_look(bodies, "bodies")
         bushing = grouser.Scene.read(ROOT / "runs/mechanisms/andrews.toml")
         bushing["run.duration"] = 0.001
         bushing.add("bushing", name="rubber", bodies=["K1", "K2"], point=[0, 0, 0], stiffness=[1.0, 1.0, 1.0])
