@@ -201,7 +201,7 @@ constexpr Mistake kMistakes[] = {
      "coupling.0.joints = [\"hinge\"] must name two joints"},
     // beside other things
     {"[[spring]]", "[material.glass]\n[[grain]]\nposition = [9, 0, 0]\nradius = 0.1\nmaterial = \"glass\"\n[[spring]]",
-     "free bodies touch neither ground nor grains"},
+     "is incompatible with grain, since no body has a shape that could touch it"},
 };
 INSTANTIATE_TEST_SUITE_P(All, MechanismMistakes, ::testing::ValuesIn(kMistakes));
 
