@@ -165,7 +165,7 @@ int Looks::after(int taken) const {
 Looks looksUpTo(int most, bool seeded) {
   if (!seeded) return {{1}, {}};
   Looks looks;
-  for (int seeds = kFewSeeds; 1.5 * seeds <= most; seeds *= 2) looks.seeds.push_back(seeds);
+  for (int seeds = kFewSeeds; 4 * seeds <= 3 * most; seeds *= 2) looks.seeds.push_back(seeds);
   looks.seeds.push_back(most);
   const double share = kMissed / static_cast<double>(looks.seeds.size());
   looks.levels = {share, 2 * share};
