@@ -27,8 +27,8 @@ struct Looks {
   int after(int taken) const;
   int most() const { return seeds.back(); }
 };
-/// At 3, 6, 12, 24... seeds, and at `most` [2, 1000], which takes the place of a look less than half as many seeds
-/// below it; at 1 where seeds make no difference.
+/// At 3, 6, 12, 24... seeds, and at `most` [2, 1000], which replaces a look at more than three quarters of it; at 1
+/// where seeds make no difference.
 Looks looksUpTo(int most, bool seeded);
 
 /// One part of a figure's bar: the scatter of the base's seeds (case 0), or the difference of a case from the base.
