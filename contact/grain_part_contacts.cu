@@ -116,6 +116,18 @@ struct Forget {
   }
 };
 
+struct Box {
+  Vec3d low, high;
+};
+Box boxOf(const base::SphereSet& set) {
+  Box box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+  for (const base::SetSphere& s : set.spheres) {
+    const double r = s.radius + s.flat;
+    box.low = base::min(box.low, s.centre - Vec3d{r, r, r}), box.high = base::max(box.high, s.centre + Vec3d{r, r, r});
+  }
+  return box;
+}
+
 } // namespace
 
 GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
@@ -149,14 +161,8 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
     views.push_back(grids_.back().view());
   }
   for (GrainPart& part : parts) {
-    Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-    if (part.surface < 0) high = halfExtent(part.shape), low = -high;
-    for (std::size_t s = 0; part.surface >= 0 && s < sets[static_cast<std::size_t>(part.surface)]->spheres.size();
-         ++s) {
-      const base::SetSphere& sphere = sets[static_cast<std::size_t>(part.surface)]->spheres[s];
-      const double r = sphere.radius + sphere.flat;
-      low = base::min(low, sphere.centre - Vec3d{r, r, r}), high = base::max(high, sphere.centre + Vec3d{r, r, r});
-    }
+    auto [low, high] = part.surface < 0 ? Box{-halfExtent(part.shape), halfExtent(part.shape)}
+                                        : boxOf(*sets[static_cast<std::size_t>(part.surface)]);
     constexpr double kFarAway = 1e100; // its square is a number
     if (!part.meets) low = high = {kFarAway, kFarAway, kFarAway};
     part.boxLow = low, part.boxHigh = high;

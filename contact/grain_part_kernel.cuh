@@ -57,7 +57,7 @@ template <unsigned kFeatures> struct GrainPartForces {
   const std::uint32_t* slot;
   PatchMemory* memory;
   base::Vec3f* angle;       ///< null without rolling friction
-  const Crushing* crushing; ///< by material; null where none crushes
+  const Crushing* crushing; ///< by law; null where none crushes
   float* dent;              ///< of each patch [m]; null too
   std::int64_t* energyHeld; ///< in the springs of each pair [quanta]; null too
   int endedAt;              ///< place behind the loads of the parts, whose force.x counts grains that have ended
@@ -73,7 +73,7 @@ template <unsigned kFeatures> struct GrainPartForces {
     run(e, group, shared);
   }
   GROUSER_HD bool calledOff() const { return off && *off; }
-  /// Whether any disc of the part is within reach of the grain.
+  /// Returns true if the grain may touch the part.
   GROUSER_HD bool isNear(int e) const {
     const PartMotion& part = motion[partOf(e)];
     const GrainPart& of = parts[partOf(e)];

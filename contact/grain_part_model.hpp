@@ -28,7 +28,7 @@ struct GrainPart {
   int surface{};               ///< index of its unique sphere set; of a shape in closed form -1
   base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]; far away where grains do not meet it
   bool meets{true};            ///< whether grains meet it
-  int firstLaw{};              ///< place of its laws: those of the grains' materials against its own follow each other
+  int firstLaw{};              ///< index of the law of the first grain material against the part
   SurfaceGeometry shape{};     ///< in closed form, where it has no sphere set
 };
 
@@ -63,7 +63,7 @@ struct GrainPartModel {
 
 /// Where grains differ: by material, their law against the parts (instead of the model's) and mass over radius^3.
 struct GrainPartMaterials {
-  std::vector<ContactLaw> laws;    ///< of all grains' materials against the first material of parts, then the next
+  std::vector<ContactLaw> laws;    ///< grain materials against the first material of parts, then the second...
   std::vector<double> massPerCube; ///< [kg/m3]
   std::vector<double> crushing{};  ///< crushing strength [Pa], 0: does not crush; empty: no material does
 

@@ -54,7 +54,8 @@ GROUSER_HD SurfaceGap gapToBox(const base::Vec3d& half, const base::Vec3d& p) {
   return {normal, least};
 }
 
-/// Of the meridian: `side` across to the wall, `end` along the axis to the end.
+/// Gap to the rim of a round surface, from the distances to its wall (`side`) and to its end (`end`) in the plane that
+/// holds the axis and the point.
 GROUSER_HD SurfaceGap roundedGap(const base::Vec3d& across, double side, const base::Vec3d& along, double end) {
   const double distance = sqrt(side * side + end * end);
   if (!(distance > 0)) return {across, 0};

@@ -19,17 +19,20 @@ namespace grouser::coupling {
 /// A rigid surface fixed to a body, as contacts see it: a part of a vehicle, or a shape of a [[body]].
 struct ContactPart {
   std::string name;                 ///< in messages: "left shoe 12"
-  std::size_t body{};               ///< of the multibody model
-  base::Pose pose_B;                ///< of its frame P in that of its body: X_BP
-  int surface{};                    ///< among ContactParts::surfaces; of a shape in closed form -1
-  contact::SurfaceGeometry shape{}; ///< then
-  int material{};                   ///< among those of the parts, by which grains have their laws
+  std::size_t body{};               ///< index of its body in the multibody model
+  base::Pose pose_B;                ///< pose of the surface's frame P in the body's frame: X_BP
+  int surface{};                    ///< index into ContactParts::surfaces; -1: the closed-form `shape`
+  contact::SurfaceGeometry shape{}; ///< used if surface is -1
+  int material{};                   ///< index of its material among those of all parts
   double reach{};                   ///< farthest point of the surface from its body's centre of mass [m]
   bool meetsGrains = true;          ///< whether it touches grains
   bool meetsGround{};               ///< whether it touches rigid ground as a foot; a hull does so among the obstacles
   bool isHull{};                    ///< whether it touches rigid ground with the obstacles
   std::size_t shown{};              ///< its place among the parts of the results' frames
 };
+
+/// Acceleration that turns a total mass into the scale of loads, whatever the scene's gravity is [m/s2].
+inline constexpr double kLoadScale = 9.81;
 
 /// All parts that touch something, with their surfaces. Outlives the contacts that are made of it.
 struct ContactParts {
@@ -40,7 +43,7 @@ struct ContactParts {
   /// Elastic foundation of the parts: its friction is that on rigid ground.
   contact::PatchLaw foundation;
   double contactSize{}; ///< smallest feature at which parts and obstacles meet [m]
-  double weight{};      ///< of the whole [N]: the scale of the loads
+  double weight{};      ///< total weight [N], which scales the load quanta
 
   std::size_t count() const { return parts.size(); }
   /// [part] index of its surface.

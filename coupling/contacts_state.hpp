@@ -4,6 +4,7 @@
 #include "base/vec.hpp"
 #include "contact/saved_contacts.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,15 +12,18 @@ namespace grouser::coupling {
 
 /// History of all contacts of the parts of a vehicle or of bodies, as PartContacts saves it.
 struct ContactsState {
-  contact::SavedPatches track;    ///< of shoes with sprocket, wheels, rollers and idler
-  contact::SavedPatches ground;   ///< of feet with rigid ground; empty without it
-  contact::SavedGrainPatches bed; ///< of all parts with grains; empty without them
-  contact::SavedPatches surfaces; ///< of all parts with surfaces at rest, and of the hull with rigid ground
+  contact::SavedPatches track;    ///< shoes with sprocket, wheels, rollers and idler
+  contact::SavedPatches ground;   ///< feet with rigid ground; empty without it
+  contact::SavedGrainPatches bed; ///< parts with grains; empty without them
+  contact::SavedPatches surfaces; ///< parts with fixed surfaces, and the hull with rigid ground
   base::Vec3l impulseOnParts;     ///< since the start, over the time step
   base::Vec3d angularOnParts;     ///< since the start [N m s]
 
   /// For the hash: what the next step depends on.
   std::vector<std::uint32_t> words() const;
 };
+
+/// Appends doubles to the words that a state hash takes.
+void addWords(std::vector<std::uint32_t>& words, const double* numbers, std::size_t count);
 
 } // namespace grouser::coupling

@@ -50,7 +50,7 @@ public:
 private:
   const ContactPart& part(int index) const { return parts_.parts[static_cast<std::size_t>(index)]; }
 
-  const vehicle::Assembly* vehicle_; ///< null without
+  const vehicle::Assembly* vehicle_; ///< null in scenes without a vehicle
   const ContactParts& parts_;
   terrain::Grains& grains_;
   LoadQuanta quanta_;

@@ -41,7 +41,7 @@ public:
 
   // What other kinds of ground do not have.
   terrain::Grains& grains() const { return *laid_.grains; }
-  GrainsOnParts* onParts() const { return onParts_.get(); } ///< null without a vehicle
+  GrainsOnParts* onParts() const { return onParts_.get(); } ///< null until meet() is called
   /// Loads of the meshes among the scene's surfaces, which outlive it; null without meshes.
   void meetMeshes(const contact::GrainLoadsView* loads) { onMeshes_ = loads; }
 

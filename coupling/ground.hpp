@@ -42,8 +42,8 @@ struct GroundTraits {
 /// The parts of a vehicle and of bodies as a ground meets them. What it refers to outlives the ground's steps.
 struct PartsOnGround {
   const ContactParts& parts;        ///< their surfaces and contact parameters
-  const vehicle::Assembly* vehicle; ///< null without
-  contact::PatchQuanta quanta;      ///< of their other contacts: the weight of all fits many thousand times
+  const vehicle::Assembly* vehicle; ///< null in scenes without a vehicle
+  contact::PatchQuanta quanta;      ///< quanta of their other contacts: loads up to 1e4 times the total weight fit
   double timeStep{};                ///< [s]
   double margin{};                  ///< how far parts move at most between two calls of refreshContacts() [m]
 };

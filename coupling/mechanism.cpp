@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace grouser::coupling {
@@ -65,7 +64,7 @@ void Mechanism::require(const Input& input) const {
 
 void Mechanism::command(const Inputs& inputs, const base::Vec3d& gravity) {
   loads_.gravity = gravity;
-  if (contacts_) return applied_.set(inputs); // beside the contacts, in each step
+  if (contacts_) return applied_.set(inputs); // advance() adds these to the contact loads
   for (multibody::Wrench& wrench : loads_.external) wrench = {};
   for (const Input& i : inputs.acting())
     if (i.kind == InputKind::bodyLoad)
@@ -220,8 +219,8 @@ std::vector<std::uint32_t> MechanismState::words() const {
   std::vector<double> all = bodies;
   if (!all.empty()) all.resize(all.size() - multibody::State::kBooks);
   if (!control.empty() && control.front() > 0) all.push_back(control.front());
-  std::vector<std::uint32_t> words(2 * all.size());
-  if (!all.empty()) std::memcpy(words.data(), all.data(), all.size() * sizeof(double));
+  std::vector<std::uint32_t> words;
+  addWords(words, all.data(), all.size());
   if (!touching) return words;
   const std::vector<std::uint32_t> contacts = touching->contacts.words();
   words.insert(words.end(), contacts.begin(), contacts.end());

@@ -117,7 +117,7 @@ private:
   AppliedLoads applied_;                       ///< from outside, where bodies touch something
   ForceMeans rowMeans_;
   ReplicatedWork replicated_;
-  double mostTravel_ = 0; ///< of a surface in a step [m]
+  double mostTravel_ = 0; ///< largest travel of a surface point in a step [m]
 };
 
 } // namespace grouser::coupling

@@ -26,8 +26,8 @@ ContactParts contactPartsOf(const MechanismSetup& setup) {
                          .reach = norm(halfExtent(s.shape)) + norm(s.pose_B.position),
                          .shown = s.body});
   for (const multibody::Body& body : bodies)
-    if (!body.fixed) all.weight += body.mass * 9.81;
-  all.weight = std::max(all.weight, 1.0); // of fixed bodies alone
+    if (!body.fixed) all.weight += body.mass * kLoadScale;
+  all.weight = std::max(all.weight, 1.0); // fixed bodies have no mass, but loads need a scale
   return all;
 }
 

@@ -20,11 +20,11 @@ struct StepControl {
 
 /// A surface by which a body touches grains.
 struct BodyShape {
-  std::size_t body{};             ///< of the model
-  base::Pose pose_B;              ///< of the shape's frame in the body's
-  contact::SurfaceGeometry shape; ///< in closed form
-  int material{};                 ///< among those of the bodies' shapes
-  std::string place;              ///< of its body in messages: "scene.toml:14: body.0"
+  std::size_t body{};             ///< index into the model's bodies
+  base::Pose pose_B;              ///< pose of the shape's frame in the body's frame
+  contact::SurfaceGeometry shape; ///< closed-form surface
+  int material{};                 ///< index of its material among those of all shapes
+  std::string place;              ///< place of its body in messages: "scene.toml:14: body.0"
 };
 
 /// A mechanism as its solver takes it.

@@ -12,8 +12,8 @@ namespace grouser::coupling {
 /// Contacts of bodies with shapes, and what output needs of them.
 struct TouchingState {
   ContactsState contacts;
-  std::vector<base::Vec3l> forces; ///< by shape and surface, since the last row, in quanta
-  std::int64_t meanSteps{};        ///< of that sum
+  std::vector<base::Vec3l> forces; ///< sum of forces on each shape and surface since the last row, in quanta
+  std::int64_t meanSteps{};        ///< steps in that sum
   std::vector<double> appliedWork; ///< AppliedLoads::save()
 };
 

@@ -26,10 +26,10 @@ namespace grouser::coupling {
 
 class GrainsOnParts;
 
-/// What the parts of a vehicle and of bodies touch: shoes the running gear, all parts the ground and the surfaces at
-/// rest of the scene. The device, if any, computes contacts with grains and, in the samples model, gear contacts. The
-/// host computes gear contacts from shapes and all contacts with rigid surfaces at the same time. A ground that is
-/// divided among MPI ranks is computed in parts; every rank repeats all other contacts.
+/// Contacts of the parts of a vehicle and of bodies: shoes with the running gear, all parts with the ground and with
+/// the fixed surfaces of the scene. The device, if any, computes contacts with grains and, in the samples model, gear
+/// contacts. The host computes gear contacts from shapes and all contacts with rigid surfaces at the same time. A
+/// ground that is divided among MPI ranks is computed in parts; every rank repeats all other contacts.
 class PartContacts {
 public:
   /// A vehicle whose first contact parts are these.
@@ -106,11 +106,11 @@ private:
   contact::PartLoad* groundLoads(); ///< of all contact parts, and the ground's own
 
   const ContactParts& parts_;
-  const RunningGear* running_; ///< null without
+  const RunningGear* running_; ///< null in scenes without a vehicle
   base::Exec exec_;
   base::SideStream side_;
   base::DoubleBufferedGraph graph_; ///< of a step's contacts, by the ground's buffer
-  Ground* ground_;                  ///< null where the parts touch none
+  Ground* ground_;                  ///< null: the parts touch no ground
   GroundTraits traits_;
   double timeStep_;
 

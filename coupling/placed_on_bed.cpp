@@ -87,7 +87,8 @@ struct Deepest {
   Row grain{};
 };
 
-/// Of all ranks the grain that is deepest, of equal ones the first. `depthOf` a row [m].
+/// Finds the grain with the deepest overlap on any rank; the lowest id wins among equal ones. `depthOf`: overlap of a
+/// row [m].
 template <class DepthOf>
 Deepest deepestOf(const std::vector<Row>& rows, const base::Comm& comm, const DepthOf& depthOf) {
   Deepest deepest;

@@ -25,7 +25,7 @@ public:
 
 private:
   const LaidGround& laid_;
-  std::unique_ptr<terrain::RigidContacts> feet_; ///< null where nothing touches it
+  std::unique_ptr<terrain::RigidContacts> feet_; ///< null until meet() is called
 };
 
 } // namespace grouser::coupling

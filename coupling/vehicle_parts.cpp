@@ -113,7 +113,7 @@ ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoe
   const vehicle::ContactSpec& spec = assembly.spec.contact;
   all.foundation = {spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
   all.contactSize = contactSize(assembly.spec);
-  all.weight = assembly.mass * 9.81;
+  all.weight = assembly.mass * kLoadScale;
   return all;
 }
 

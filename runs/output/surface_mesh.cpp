@@ -55,7 +55,7 @@ TriangleMesh roundMesh(double radius, double half, bool hollow) {
 
 /// Rings of latitude, pushed apart along z by the segment.
 TriangleMesh capsuleMesh(double radius, double half) {
-  constexpr int kSides = 48, kRings = 12; // of each cap
+  constexpr int kSides = 48, kRings = 12; // each cap has kRings rings
   TriangleMesh mesh;
   const auto place = [&](int ring, int side) {
     const double up = base::kPi * (0.5 - static_cast<double>(ring) / (2 * kRings)),

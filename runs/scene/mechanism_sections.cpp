@@ -173,7 +173,7 @@ void checkCompany(const Section& section, const Scene& scene) {
 }
 
 void checkShape(const Section& section, const ShapeSection& s) {
-  const bool isBox = s.kind == ShapeKind::box, isRound = s.kind != ShapeKind::box;
+  const bool isBox = s.kind == ShapeKind::box;
   const bool isLong = s.kind == ShapeKind::cylinder || s.kind == ShapeKind::capsule;
   const std::string kind(base::wordOf(s.kind));
   const auto need = [&](bool needed, bool given, const char* key, const char* example) {
@@ -182,7 +182,7 @@ void checkShape(const Section& section, const ShapeSection& s) {
     if (!needed && given) section.fail(key, fmt::format("does not apply to a {}; remove it", kind));
   };
   need(isBox, s.size.has_value(), "size", "size = [0.2, 0.2, 0.1]");
-  need(isRound, s.radius.has_value(), "radius", "radius = 0.1");
+  need(!isBox, s.radius.has_value(), "radius", "radius = 0.1");
   need(isLong, s.length.has_value(), "length", "length = 0.2");
   if (s.axis && norm(*s.axis) == 0) section.fail("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
   if (s.axis && s.kind == ShapeKind::sphere) section.fail("axis", "does not apply to a sphere; remove it");

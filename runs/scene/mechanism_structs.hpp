@@ -20,7 +20,7 @@ struct ShapeSection {
   std::optional<base::Vec3d> size;      ///< [m] edges of a box
   std::optional<double> radius, length; ///< [m]
   base::Vec3d position;                 ///< [m] of its centre, in the body's frame
-  std::optional<base::Vec3d> axis;      ///< of cylinder and capsule; of a box that which angle turns about
+  std::optional<base::Vec3d> axis;      ///< cylinder, capsule: its direction; box: the axis that angle turns about
   std::optional<double> angle;          ///< [deg]
   bool operator==(const ShapeSection&) const = default;
 };
@@ -38,7 +38,7 @@ struct BodySection {
   base::Vec3d velocity, spin;      ///< [m/s], [rad/s], world components
   bool fixed = false;
   bool point = false;               ///< a mass without extent
-  std::string material;             ///< of its shapes
+  std::string material;             ///< contact material of its shapes
   std::vector<ShapeSection> shapes; ///< empty: it touches nothing
   bool operator==(const BodySection&) const = default;
 };

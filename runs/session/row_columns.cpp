@@ -29,7 +29,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
     });
   if (rig && grains && output.gearContacts)
     add(output::gearColumns(), [&s = simulation](const Now&) { return s.granularGround()->onParts()->gearContacts(); });
-  // Where nothing touches a mechanism there are no impulses to balance.
+  // A mechanism without contacts has no contact impulses to balance.
   add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches()),
       [](const Now& now) { return now.ledger; });
 }

@@ -18,7 +18,7 @@ struct ContactPartner {
   Kind kind{};
   std::string material;             ///< empty: the grain's own, of a vehicle without one
   std::string name;                 ///< "the floor", "box drum"; of grains their material
-  std::size_t number = 0;           ///< of a plane or body in the scene, of a surface among `surfaces`
+  std::size_t number = 0;           ///< plane, body: index in the scene; surface: index into `surfaces`
   std::optional<double> friction{}; ///< otherwise than the materials have it [-]
 
   const std::string& materialAgainst(const std::string& grain) const { return material.empty() ? grain : material; }

@@ -63,7 +63,7 @@ TEST(ShapeGap, CapsuleIsTheNearestPointOfItsSegment) {
   for (int k = 0; k < 200; ++k) {
     const Vec3d p{any(dice), any(dice), any(dice)};
     const contact::SurfaceGap gap = gapTo(capsule, p);
-    double nearest = 1e9; // of points on the segment; the finest mesh of it is 1e-3 apart
+    double nearest = 1e9; // the segment is sampled every 1e-3
     for (int i = -500; i <= 500; ++i) nearest = std::min(nearest, norm(p - Vec3d{0, 0, i * 1e-3}));
     EXPECT_NEAR(gap.distance, nearest - 0.3, 1e-5);
     EXPECT_NEAR(norm(gap.normal), 1, 1e-12);
