@@ -176,7 +176,7 @@ std::vector<Mistake> stepsAndSizes() {
           "BodiesBesideGrains", kGrains,
           "version = 1\n[run]\nduration = 1\n[material.glass]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nradius = "
           "0.1\nmaterial = \"glass\"\n[[body]]\nname = \"a\"\nmass = 1\nbox = [1, 1, 1]\n",
-          {"scene.toml:10: body.0", "beside grains", "a scene of its own"}),
+          {"scene.toml:10: body.0", "incompatible with grains", "add [[body.shape]]"}),
       badScene("GrainTooQuickForTheLists", "radius = 0.01", "radius = 0.01\nvelocity = [200, 0, 0]",
                {"scene.toml:11: grain.0.velocity", "keep it below 150 m/s", "lower run.time_step"}),
       badScene("SpinTooQuickToBeFelt", "[[plane]]",
