@@ -101,4 +101,10 @@ inline base::Vec3d halfExtent(const SurfaceGeometry& g) {
   return {g.half.x, g.half.x, g.half.z + (g.shape == SurfaceShape::capsule ? g.half.x : 0)};
 }
 
+/// The shortest half extent of a shape that has an end [m].
+inline double thinnest(const SurfaceGeometry& g) {
+  const base::Vec3d half = halfExtent(g);
+  return fmin(half.x, fmin(half.y, half.z));
+}
+
 } // namespace grouser::contact

@@ -270,12 +270,13 @@ void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const bas
   for (const PlacedGrains& p : scene.grains->onBed) requireRoomFor(p, scene);
 }
 
-void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const base::Comm& comm) {
+void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const multibody::Model& model,
+                 const base::Comm& comm) {
   if (mechanism.shapes.empty()) return;
   const std::vector<Row> rows = rowsOf(grains);
   const double most = grains.model().maxEntryOverlap;
   for (const BodyShape& s : mechanism.shapes) {
-    const multibody::Body& body = mechanism.model.bodies()[s.body];
+    const multibody::Body& body = model.bodies()[s.body];
     const base::Pose pose = multibody::compose(body.pose, s.pose_B);
     const double reach = norm(halfExtent(s.shape));
     const Deepest d = deepestOf(rows, comm, [&](const Row& g) {

@@ -22,8 +22,10 @@ void lift(GroundSetup& scene, const std::vector<double>& lifts);
 /// wall: with the numbers, and what helps. All ranks call it.
 void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const base::Comm& comm);
 
-/// Throws InputError where a body of a mechanism stands in a grain at the start. All ranks call it.
-void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const base::Comm& comm);
+/// Throws InputError where a body of a mechanism stands in a grain at the start. `model` as in addBodyParts(). All
+/// ranks call it.
+void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const multibody::Model& model,
+                 const base::Comm& comm);
 
 /// Gives the grains of a settled bed the walls, surfaces, materials and radii of the whole scene: `ground` holds the
 /// bed alone before, and the same grains as the scene knows them after, where they lie and with the springs of their

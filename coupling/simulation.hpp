@@ -67,7 +67,8 @@ public:
   const GranularGround* granularGround() const { return granular_; } ///< the same where it is grains; else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
-  const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
+  const BodiesInContact* touching() const { return touching_; } ///< vehicle, or mechanism with shapes; null without
+  const Surfaces* surfaces() const { return surfaces_.get(); }  ///< null without
   /// Restarts the means of the observers: those of the rows after every row. Only a vehicle has those of a watch.
   void restartMeans(Means of = Means::rows) {
     if (vehicle_) vehicle_->restartMeans(of);
@@ -111,8 +112,9 @@ private:
   PressedGrain pressed(std::uint32_t grain);
   std::string impactNote(const Ledger& now) const;
   void makeActingGround();
-  void makeMechanism();
+  void makeMechanism(SphereSets* spheres);
   void makeVehicle(SphereSets* spheres, std::optional<double> lift = {});
+  void requireRoomForBodies();
   void makeSurfaces(const SurfaceStates* former);
   void makeMeshContacts(SphereSets* spheres);
   bool hasBed() const { return setup_.ground.grains && setup_.ground.grains->bed; }

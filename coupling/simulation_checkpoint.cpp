@@ -69,8 +69,8 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
     makeVehicle(spheres, state.vehicle->lift);
     vehicle_->restore(*state.vehicle);
   }
-  if (setup_.mechanism) {
-    makeMechanism();
+  if (setup_.mechanism && !setup_.vehicle) {
+    makeMechanism(spheres);
     mechanism_->restore(*state.mechanism);
   }
   inputs_.restore(state.inputs);

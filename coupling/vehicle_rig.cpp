@@ -20,14 +20,18 @@ namespace {
 vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<double(double, double)>& surfaceHeight,
                             double lift) {
   const Placement& place = setup.place;
-  vehicle::AssemblyOptions options;
-  options.fixChassis = setup.fixChassis;
-  options.guide = setup.guide, options.right = !setup.single;
-  options.drive = setup.driver.drive;
-  options.pose_W = setup.onTerrain ? setDown(setup.spec, place, setup.clearance, surfaceHeight)
-                                   : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
-  options.pose_W.position.z += lift;
-  return vehicle::assemble(setup.spec, options);
+  base::Pose pose_W = setup.onTerrain ? setDown(setup.spec, place, setup.clearance, surfaceHeight)
+                                      : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
+  pose_W.position.z += lift;
+  return assembleAt(setup, pose_W);
+}
+
+/// With the bodies of the scene, those that hang on the vehicle where it stands.
+vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<MechanismSetup>& bodies) {
+  if (!bodies) return assembly;
+  const base::Pose chassis = assembly.model.bodies()[static_cast<std::size_t>(assembly.chassis)].pose;
+  assembly.model.append(bodies->model, bodies->ofVehicle, bodies->hitched, bodies->chassis, chassis);
+  return assembly;
 }
 
 GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() : GroundTraits{}; }
@@ -35,7 +39,8 @@ GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() :
 /// Returns true if contacts need spheres of the hull only.
 bool shapesAlone(const SimulationSetup& setup) {
   const GroundSetup& ground = setup.ground;
-  return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty();
+  const bool bodies = setup.mechanism && !setup.mechanism->shapes.empty();
+  return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty() && !bodies;
 }
 
 /// So much that no shoe stands in the ground, and no part in an obstacle.
@@ -109,14 +114,16 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
                                             traitsOf(ground).comm, kept, traitsOf(ground).smallestGrain,
                                             shapesAlone(setup))),
       lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
-      assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
+      assembly_(withBodies(assembled(*setup.vehicle, surfaceHeight, lift_), setup.mechanism)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), driver_(setup.vehicle->driver),
       thickestStone_(setup.vehicle->thickestStone), heading_(setup.vehicle->place.heading),
       observer_(std::make_unique<vehicle::Observer>(assembly_, observerOptions())),
       blows_(assembly_.mass * norm(gravity_)), gear_{assembly_, *parts_} {
   state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
-  touching_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
-  contacts_ = std::make_unique<PartContacts>(touching_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);
+  contactParts_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
+  if (setup.mechanism) addBodyParts(contactParts_, *setup.mechanism, assembly_.model);
+  contacts_ =
+      std::make_unique<PartContacts>(contactParts_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
 
@@ -190,12 +197,6 @@ Vec3d VehicleRig::groundForce(const ForceMeans& means) const {
   Vec3d sum;
   for (const Vec3d& force : groundLoads(means).force) sum += force;
   return sum;
-}
-
-Vec3d VehicleRig::meanForceOn(std::size_t obstacle) const {
-  const std::size_t place = touching_.count() + obstacle;
-  if (rowMeans_.steps == 0 || place >= rowMeans_.sums.size()) return {};
-  return contacts_->groundForceQuantum().value(rowMeans_.sums[place]) * (1 / static_cast<double>(rowMeans_.steps));
 }
 
 /// Lets a driver that waits know whether the vehicle rests.
@@ -313,7 +314,7 @@ VehicleState VehicleRig::save() const {
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  const std::size_t most = touching_.count() + contacts_->surfaces(), swings = swings_.save().size();
+  const std::size_t most = contactParts_.count() + contacts_->surfaces(), swings = swings_.save().size();
   if (s.groundForces.size() > most || s.alarmForces.size() > most ||
       (s.judged.size() != swings && s.judged.size() != swings + vehicle::BlowMeter::kNumbers))
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");

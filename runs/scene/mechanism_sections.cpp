@@ -160,16 +160,14 @@ void checkCompany(const Section& section, const Scene& scene) {
   const auto touches = [](const Section& body) { return body.has("shape"); };
   const std::vector<Section> bodies = root.list("body");
   const bool anyTouches = std::any_of(bodies.begin(), bodies.end(), touches);
-  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "terrain"})
-    if (root.has(other) && !anyTouches)
+  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain"})
+    if (root.has(other) && !anyTouches && !root.has("vehicle"))
       section.fail("", fmt::format("is incompatible with {}, since no body has a shape that could touch it; add "
                                    "[[body.shape]], or give the mechanism a scene of its own",
                                    other));
-  for (const char* other : {"mesh", "vehicle"})
-    if (root.has(other))
-      section.fail("", fmt::format("is incompatible with {}: bodies do not touch it; remove one of them", other));
-  if (scene.terrain && !scene.terrain->granular())
-    section.fail("", "is incompatible with rigid [terrain]: bodies do not touch it; use a granular terrain");
+  const bool bed = scene.terrain && scene.terrain->granular();
+  if (root.has("mesh") && (bed || root.has("grain") || root.has("grains") || root.has("source")))
+    section.fail("", "is incompatible with mesh beside grains; use boxes and cylinders, or remove the grains");
 }
 
 void checkShape(const Section& section, const ShapeSection& s) {
@@ -211,6 +209,7 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
 /// Contact forces stay the same over a step. Symplectic Euler takes them as it takes those of grains; RATTLE would move
 /// bodies by them twice, and a stiff contact would gain energy in each step.
 void setIntegrator(const Section& root, Scene& scene) {
+  if (scene.vehicle && !scene.mechanism.empty()) scene.run.integrator = multibody::Integrator::kSymplecticEuler;
   if (!scene.mechanism.touches()) return;
   constexpr std::size_t kMostShapes = 255; // as a grain's list of parts counts them
   std::size_t shapes = 0;

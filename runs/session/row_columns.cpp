@@ -16,6 +16,9 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
                                  output.record),
         [&s = simulation](const Now&) { return output::MechanismReading(*s.mechanism()); });
   if (rig) addVehicle(output.shoeForces);
+  if (const auto& bodies = simulation.setup().mechanism; rig && bodies)
+    add(output::mechanismColumns(rig->model(), rig->touchingBodies(), output.record, bodies->ofVehicle),
+        [&s = simulation](const Now&) { return output::MechanismReading(*s.vehicle()); });
   if (grains)
     add(output::terrainColumns(), [&s = simulation](const Now& now) {
       const terrain::Grains& bed = *s.ground().grains;
@@ -62,7 +65,7 @@ void RowColumns::addSurfaces() {
   const std::vector<coupling::Obstacle>& obstacles = s.setup().ground.obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     add(output::obstacleColumns(obstacles[i].surface.name),
-        [&s, i](const Now&) { return s.vehicle()->meanForceOn(i); });
+        [&s, i](const Now&) { return s.touching()->meanForceOn(i); });
 }
 
 void RowColumns::add(const std::vector<output::Channel>& channels, Append append) {

@@ -7,6 +7,7 @@
 #include "runs/setup/mechanism_frames.hpp"
 #include "runs/support/orientation.hpp"
 #include "runs/support/result_names.hpp"
+#include "vehicle/assembly.hpp"
 
 #include <fmt/format.h>
 
@@ -87,6 +88,11 @@ void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits
 
 } // namespace
 
+MechanismBuilder::MechanismBuilder(const vehicle::Assembly& vehicle) : model_(vehicle.model) {
+  for (const multibody::Body& body : model_.bodies()) names_.insert("body " + body.name);
+  bodies_["vehicle"] = vehicle.chassis, names_.insert("body vehicle");
+}
+
 void MechanismBuilder::checkName(const std::string& kind, const std::string& name) {
   if (name == "world") throw support::SectionFault("name", "is the name of the ground; choose another");
   if (const std::string fault = support::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
@@ -101,7 +107,7 @@ int MechanismBuilder::body(const std::string& key, const std::string& name) cons
   if (name == "world") return multibody::kWorld;
   if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
   std::vector<std::string> known = {"world"};
-  for (const multibody::Body& b : model_.bodies()) known.push_back(b.name);
+  for (const auto& [body, index] : bodies_) known.push_back(body);
   throw support::SectionFault(
       key, fmt::format("names no body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
 }
@@ -115,7 +121,7 @@ std::pair<int, int> MechanismBuilder::twoBodies(const std::vector<std::string>& 
 int MechanismBuilder::joint(const std::string& key, const std::string& name) const {
   if (const auto found = joints_.find(name); found != joints_.end()) return found->second;
   std::vector<std::string> known;
-  for (const multibody::Joint& j : model_.joints()) known.push_back(j.name);
+  for (const auto& [joint, index] : joints_) known.push_back(joint);
   throw support::SectionFault(key, known.empty() ? "names no joint, for there is none; add a [[joint]]"
                                                  : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
                                                                base::nearestWord(name, known)));
@@ -286,8 +292,8 @@ void MechanismBuilder::add(const scene::CouplingSection& c) {
   handed({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
 }
 
-multibody::Model buildModel(const scene::MechanismSections& sections) {
-  MechanismBuilder builder;
+multibody::Model buildModel(const scene::MechanismSections& sections, const vehicle::Assembly* vehicle) {
+  MechanismBuilder builder = vehicle ? MechanismBuilder(*vehicle) : MechanismBuilder();
   scene::forEachKind(sections, [&](const char*, const auto& list) {
     for (const auto& section : list) builder.add(section);
   });
