@@ -17,7 +17,9 @@ inline constexpr unsigned kRollingFriction = 4; ///< rolling resistance with his
 inline constexpr unsigned kCohesion = 8;        ///< constant attraction while in touch
 /// Damping follows the effective mass of each contact, not one of the whole scene.
 inline constexpr unsigned kManyMasses = 16;
-inline constexpr unsigned kPlastic = 32;       ///< elastic-plastic normal springs, with history
+inline constexpr unsigned kPlastic = 32; ///< elastic-plastic normal springs, with history
+/// Of kernels that sum contact moments, never of a step: ContactMoment.
+inline constexpr unsigned kMeasured = 1u << 30;
 inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run time
 
 /// Where a contact's plastic state stands among the numbers that it keeps, behind its springs.

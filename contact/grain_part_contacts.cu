@@ -179,6 +179,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   memory_ = base::Array<PatchMemory>(exec);
   oldMemory_ = base::Array<PatchMemory>(exec);
   load_ = base::Array<GrainLoad>(exec);
+  moments_ = base::Array<ContactMoment>(exec);
   sums_ = base::Array<std::int64_t>(exec, kPartSums);
   deepest_ = base::Array<std::uint64_t>(exec);
   forgetPressed();
@@ -300,30 +301,36 @@ base::Parcel GrainPartContacts::clearedCount() {
 
 base::Parcel GrainPartContacts::clearedSums() { return {sums_.data(), nullptr, kSumsOfStep * sizeof(std::int64_t)}; }
 
+template <unsigned kFeatures>
+GrainPartForces<kFeatures> GrainPartContacts::forcesOf(const GrainsView& grains, const base::Array<PartMotion>& motion,
+                                                       PartLoad* loads, const std::uint32_t* off) {
+  return {model_,
+          laws_.data(),
+          massPerCube_.data(),
+          grains,
+          motion.data(),
+          parts_.data(),
+          gridViews_.data(),
+          key_.data(),
+          slot_.data(),
+          memory_.data(),
+          rolling_ ? angle_.data() : nullptr,
+          crushes_ ? crushing_.data() : nullptr,
+          crushes_ ? dent_.data() : nullptr,
+          crushes_ ? energyHeld_.data() : nullptr,
+          static_cast<int>(partCount_),
+          load_.data(),
+          loads,
+          sums_.data(),
+          deepest_.data(),
+          off};
+}
+
 void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsView& grains,
                                          const base::Array<PartMotion>& motion, PartLoad* loads,
                                          const std::uint32_t* off) {
   const auto run = [&]<unsigned kFeatures>() {
-    const GrainPartForces<kFeatures> forces{model_,
-                                            laws_.data(),
-                                            massPerCube_.data(),
-                                            grains,
-                                            motion.data(),
-                                            parts_.data(),
-                                            gridViews_.data(),
-                                            key_.data(),
-                                            slot_.data(),
-                                            memory_.data(),
-                                            rolling_ ? angle_.data() : nullptr,
-                                            crushes_ ? crushing_.data() : nullptr,
-                                            crushes_ ? dent_.data() : nullptr,
-                                            crushes_ ? energyHeld_.data() : nullptr,
-                                            static_cast<int>(partCount_),
-                                            load_.data(),
-                                            loads,
-                                            sums_.data(),
-                                            deepest_.data(),
-                                            off};
+    const auto forces = forcesOf<kFeatures>(grains, motion, loads, off);
     const auto pairs = static_cast<std::int64_t>(pairs_);
     if (near_.empty()) return base::forEachGroup<16>(exec, "grain-part contacts", pairs, forces);
     constexpr std::int64_t kGroups = 8192;
@@ -343,6 +350,13 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
     run.template operator()<kFriction | kManyMasses>();
   else
     run.template operator()<kFriction>();
+}
+
+PartMomentsView GrainPartContacts::measure(const GrainsView& grains, const base::Array<PartMotion>& motion) {
+  moments_.resize(pairs_);
+  base::forEach(exec_, "measure grain-part contacts", static_cast<std::int64_t>(pairs_),
+                MeasurePairs{forcesOf<kGeneral | kMeasured>(grains, motion, nullptr, nullptr), moments_.data()});
+  return {range_.data(), moments_.data()};
 }
 
 GrainLoadsView GrainPartContacts::grainLoads() {

@@ -5,6 +5,7 @@
 #include "base/comm.hpp"
 #include "base/position.hpp"
 #include "contact/contact_law.hpp"
+#include "contact/contact_moment.hpp"
 #include "contact/crushing.hpp"
 #include "contact/exchange.hpp"
 #include "contact/grain_loads.hpp"
@@ -19,6 +20,8 @@
 #include <vector>
 
 namespace grouser::contact {
+
+template <unsigned kFeatures> struct GrainPartForces;
 
 /// Contacts of grains with rigid parts made of spheres.
 ///
@@ -58,6 +61,10 @@ public:
 
   /// What the grains' step needs: valid until the next refresh.
   GrainLoadsView grainLoads();
+
+  /// Contact moments of the coming step, where grains and parts are now; the pairs must have been refreshed. Changes
+  /// nothing. Valid until the next call or refresh.
+  PartMomentsView measure(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
   std::size_t pairs() const { return pairs_; }
   /// The parts that pressed a grain in the last compute; of all ranks, which all call it.
@@ -107,6 +114,8 @@ public:
   std::size_t bytes() const;
 
 private:
+  template <unsigned kFeatures> GrainPartForces<kFeatures>
+  forcesOf(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads, const std::uint32_t* off);
   std::vector<std::int64_t> allSums() const;
   std::vector<std::uint64_t> allDeepest() const;
   std::vector<ExchangeField> history();
@@ -144,6 +153,7 @@ private:
   unsigned features_;
   bool allHertz_{true}; ///< every law
   base::Array<GrainLoad> load_;
+  base::Array<ContactMoment> moments_; ///< of each pair; empty where nothing measures them
   base::Array<std::int64_t> sums_;     ///< [kPartSums]
   base::Array<std::uint64_t> deepest_; ///< by part, since forgetPressed()
 };

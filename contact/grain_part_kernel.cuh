@@ -3,6 +3,7 @@
 
 #include "base/bits.hpp"
 #include "base/for_each_group.cuh"
+#include "contact/contact_moment.hpp"
 #include "contact/crushing.hpp"
 #include "contact/grain_loads.hpp"
 #include "contact/grain_part_model.hpp"
@@ -10,6 +11,8 @@
 #include "contact/part_motion.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/rolling_resistance.hpp"
+
+#include <type_traits>
 
 /// Contacts of one grain with one part: its patches, their springs, and the loads on both.
 namespace grouser::contact {
@@ -101,18 +104,16 @@ template <unsigned kFeatures> struct GrainPartForces {
       if (kept.of[k] != 0) base::atomicAdd64(sums + k, kept.of[k]);
   }
 
-private:
+protected:
   GROUSER_HD int partOf(int e) const { return static_cast<int>(key[e] & 0xFFFFu); }
   template <class Group, class Sums> GROUSER_HD void run(int e, const Group& group, Sums& total) const {
     const int i = static_cast<int>(slot[e]);
     const int p = partOf(e);
     const PartMotion part = motion[p];
     const Ball ball = ballOf(i);
-    TouchedPatch patches[kPatches];
     const GrainPart& of = parts[p];
-    const base::Vec3d c = part.toPart(ball.x);
-    const int found = of.surface < 0 ? touchShape(of.shape, c, ball.radius, patches)
-                                     : findPatches(grids[of.surface], c, ball.radius, group, patches);
+    TouchedPatch patches[kPatches];
+    const int found = touch(of, part.toPart(ball.x), ball.radius, group, patches);
     if (group.rank != 0) return; // the rest is for one thread
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
     int former[kPatches];
@@ -174,7 +175,7 @@ private:
     float& dent;         ///< of a grain that crushes [m]
   };
   /// Sums over the patches of a pair.
-  struct PairLoad {
+  struct PairLoadOfStep {
     GrainLoad onGrain{};
     base::Vec3l torqueOnPart{};
     double elastic = 0;          ///< held in springs [J]
@@ -182,6 +183,10 @@ private:
     double crushed = 0, cut = 0; ///< dissipated [J], force cut off [N] where the grain crushes
     int capped = 0;              ///< patches
   };
+  struct MeasuredPairLoad : PairLoadOfStep {
+    ContactMoment moment;
+  };
+  using PairLoad = std::conditional_t<(kFeatures & kMeasured) != 0, MeasuredPairLoad, PairLoadOfStep>;
 
   GROUSER_HD bool rolls() const { return (kFeatures & (kGeneral | kRollingFriction)) && angle; }
   GROUSER_HD bool crushes() const { return (kFeatures & kGeneral) && crushing; }
@@ -209,6 +214,13 @@ private:
     base::atomicAdd64(&target.x, value.x);
     base::atomicAdd64(&target.y, value.y);
     base::atomicAdd64(&target.z, value.z);
+  }
+
+  /// The patches of a part that a ball touches with its centre at `c` in the part's frame.
+  template <class Group> GROUSER_HD int touch(const GrainPart& of, const base::Vec3d& c, double ballRadius,
+                                              const Group& group, TouchedPatch* patches) const {
+    return of.surface < 0 ? touchShape(of.shape, c, ballRadius, patches)
+                          : findPatches(grids[of.surface], c, ballRadius, group, patches);
   }
 
   /// A convex shape has one nearest point.
@@ -325,6 +337,7 @@ private:
     const base::Vec3d force = model.force.value(quanta);
     sum.onGrain.force += quanta;
     sum.onGrain.torque += cross(arm, force).template as<float>();
+    if constexpr ((kFeatures & kMeasured) != 0) sum.moment.add(force, arm);
     sum.lost[0] += reaction.damped, sum.lost[1] += reaction.rubbed;
     sum.lost[3] += reaction.slipped;
     sum.elastic += storedEnergy(*law, static_cast<double>(touch.overlap), ball.radius, springs.shear);
@@ -341,6 +354,34 @@ private:
       sum.onGrain.torque += model.torque.value(turned).template as<float>();
       sum.torqueOnPart -= turned;
     }
+  }
+};
+
+/// Contact moments of the listed pairs, in any order; the history stays as it is.
+struct MeasurePairs : GrainPartForces<kGeneral | kMeasured> {
+  ContactMoment* moments;
+  GROUSER_HD void operator()(int e) const {
+    const PartMotion& part = motion[partOf(e)];
+    const GrainPart& of = parts[partOf(e)];
+    const Ball ball = ballOf(static_cast<int>(slot[e]));
+    TouchedPatch patches[kPatches];
+    const int found = touch(of, part.toPart(ball.x), ball.radius, base::ThreadGroup<1>{0}, patches);
+    const std::int64_t first = static_cast<std::int64_t>(e) * kPatches;
+    int former[kPatches];
+    recallAll(memory + first, patches, found, static_cast<float>(ball.radius), former);
+    PairLoad sum;
+    for (int k = 0; k < found; ++k) {
+      const std::int64_t at = first + former[k];
+      base::Vec3f shear, rolled;
+      float dented = 0;
+      if (former[k] >= 0) {
+        shear = memory[at].shear;
+        if (rolls()) rolled = angle[at];
+        if (crushes()) dented = dent[at];
+      }
+      apply(part, of.firstLaw + ball.material, ball, patches[k], {shear, rolled, dented}, sum);
+    }
+    moments[e] = sum.moment;
   }
 };
 

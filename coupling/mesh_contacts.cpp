@@ -62,15 +62,25 @@ bool MeshContacts::haveLeft(const std::vector<contact::PartMotion>& motions) con
   return false;
 }
 
-void MeshContacts::computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
-                                   bool slotsChanged) {
+void MeshContacts::place(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+                         bool slotsChanged) {
   std::copy(motions.begin(), motions.end(), motion_.host());
   motion_.upload();
+  if (!slotsChanged && !haveLeft(motions)) return;
+  contacts_->refresh(grains.view(), motion_.device());
+  listedAt_ = motions;
+}
+
+contact::PartMomentsView MeshContacts::measure(const terrain::Grains& grains,
+                                               const std::vector<contact::PartMotion>& motions, bool slotsChanged) {
+  place(grains, motions, slotsChanged);
+  return contacts_->measure(grains.view(), motion_.device());
+}
+
+void MeshContacts::computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+                                   bool slotsChanged) {
+  place(grains, motions, slotsChanged);
   sums_.device().zero();
-  if (slotsChanged || haveLeft(motions)) {
-    contacts_->refresh(grains.view(), motion_.device());
-    listedAt_ = motions;
-  }
   contacts_->compute(grains.view(), motion_.device(), sums_.device().data());
   grainLoads_ = contacts_->grainLoads();
   sums_.download();

@@ -28,6 +28,9 @@ public:
   /// One step: contacts with the meshes where they are, one motion a mesh.
   void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                        bool slotsChanged);
+  /// Contact moments of the grains in the coming step; see GrainPartContacts::measure().
+  contact::PartMomentsView measure(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+                                   bool slotsChanged);
   /// For the grains' step, after computeContacts().
   const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
   /// On each mesh about its centre, of all ranks, after computeContacts().
@@ -52,6 +55,7 @@ public:
 
 private:
   bool haveLeft(const std::vector<contact::PartMotion>& motions) const;
+  void place(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions, bool slotsChanged);
 
   base::Exec exec_;
   base::Comm comm_;

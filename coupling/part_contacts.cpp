@@ -245,6 +245,11 @@ bool PartContacts::listsHold(bool ahead) const {
   return track && absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kGroundMargin;
 }
 
+contact::PartMomentsView PartContacts::measure(GrainsOnParts& onGrains, const contact::GrainsView& grains) {
+  motion_.upload();
+  return onGrains.contacts().measure(grains, motion_.device());
+}
+
 void PartContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnParts& onGrains) {
   contact::GrainPartContacts& bed = onGrains.contacts();
   const base::Watch watch = grains.flagsBefore();

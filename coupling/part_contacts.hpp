@@ -53,6 +53,8 @@ public:
   void compute(StepObserver* observer);
   /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them.
   void collect(multibody::Loads& loads);
+  /// Contact moments of the grains at the poses last set, for which the lists hold, without change of state.
+  contact::PartMomentsView measure(GrainsOnParts& onGrains, const contact::GrainsView& grains);
   /// How far the parts may have moved in the step that has brought them to `state`.
   void trackTravel(const multibody::State& state);
 

@@ -249,6 +249,19 @@ Ledger Simulation::ledger() {
   return l;
 }
 
+/// Poses and lists are made as step() begins with them; the step finds them so.
+terrain::SoilFields fieldsOf(Simulation& s, const terrain::FieldGrid& grid) {
+  if (!s.granular_) throw std::logic_error("fields of the soil in a scene without grains");
+  terrain::Grains& grains = *s.laid_.grains;
+  contact::PartMomentsView onParts;
+  if (s.touching_) s.touching_->setSurfacePoses();
+  const bool listsEnded = s.granular_->refreshLists();
+  if (s.touching_) s.touching_->refreshLists(listsEnded);
+  if (s.surfaces_) onParts = s.surfaces_->measure(grains, s.steps_, listsEnded);
+  if (s.touching_) onParts = s.touching_->stepContacts().measure(*s.granular_->onParts(), grains.view());
+  return terrain::fieldsOf(grains, grid, onParts);
+}
+
 /// The grain that has stopped the run, and what it touches: vehicle and meshes too.
 PressedGrain Simulation::pressed(std::uint32_t grain) {
   PressedGrain pressed = pressedGrain(

@@ -93,6 +93,7 @@ public:
   std::string stateHash() const;
 
 private:
+  friend terrain::SoilFields fieldsOf(Simulation& simulation, const terrain::FieldGrid& grid);
   void command();
   bool canStepAhead() const;
   void stepAhead(bool last);
@@ -153,5 +154,8 @@ std::int32_t bodyIndex(const Simulation& simulation, const std::string& name);
 
 /// How the meshes of vehicle and scene were cut; those of parts that touch nothing have no entry.
 std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation);
+
+/// Fields of the soil now, of a scene with grains; see terrain::measureFields(). All ranks call it.
+terrain::SoilFields fieldsOf(Simulation& simulation, const terrain::FieldGrid& grid);
 
 } // namespace grouser::coupling

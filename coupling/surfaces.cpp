@@ -39,11 +39,18 @@ void Surfaces::makeMeshContacts(const base::Exec& exec, terrain::Grains& grains,
   if (!states_.patches.sums.empty()) meshes_->restore(states_.patches);
 }
 
-void Surfaces::computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
-  if (!meshes_) return;
+std::vector<contact::PartMotion> Surfaces::meshMotions(std::int64_t step) const {
   std::vector<contact::PartMotion> motions;
   for (std::size_t i = shapes_; i < surfaces_.size(); ++i) motions.push_back(placement(i, step).motion);
-  meshes_->computeContacts(grains, motions, slotsChanged);
+  return motions;
+}
+
+void Surfaces::computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
+  if (meshes_) meshes_->computeContacts(grains, meshMotions(step), slotsChanged);
+}
+
+contact::PartMomentsView Surfaces::measure(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
+  return meshes_ ? meshes_->measure(grains, meshMotions(step), slotsChanged) : contact::PartMomentsView{};
 }
 
 SurfaceStates Surfaces::save() const {

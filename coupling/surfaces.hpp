@@ -28,6 +28,8 @@ public:
 
   /// Contacts of grains with meshes in step `step`.
   void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
+  /// Contact moments of grains with meshes in step `step`, without change of state; nothing without meshes.
+  contact::PartMomentsView measure(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
   /// For the grains' step; null without meshes.
   const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
   /// Where they are at step `step`, to the grains.
@@ -77,6 +79,7 @@ private:
   void checkPlace(std::size_t i, std::int64_t step) const;
   void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
+  std::vector<contact::PartMotion> meshMotions(std::int64_t step) const;
   base::Vec3d freeAxis(std::size_t i) const; ///< zero where it is not free
 
   const GroundSetup& setup_;

@@ -5,6 +5,8 @@
 #include "terrain/feet_search.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
+#include <type_traits>
+
 namespace grouser::terrain {
 
 /// Walls, floor and surfaces on the grains near them. A kernel of its own: the search on the floor needs many
@@ -15,6 +17,8 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;
   using Books = WallBooks;
+  using Load =
+      std::conditional_t<(kFeatures & contact::kMeasured) != 0, MeasuredBoundaryLoad<Real>, BoundaryLoad<Real>>;
 
   /// One grain of the list.
   struct Grain {
@@ -38,8 +42,8 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   }
 
   /// Adds what walls and floor do to `books`.
-  GROUSER_HD void run(int k, WallBooks& books) const {
-    if (Kernel::ended()) return;
+  GROUSER_HD Load run(int k, WallBooks& books) const {
+    if (Kernel::ended()) return {};
     const int i = static_cast<int>(d.nearBoundary[k]);
     const Vec4f velocity = d.motion[i].velocity;
     const Vec v = velocity.xyz().template as<Real>(), w = d.motion[i].spin.xyz().template as<Real>();
@@ -48,7 +52,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     // Only surfaces feel a grain that never moves: the ground holds it.
     const bool held = has(kSurfaces) && isFixed(velocity);
     const double radius = static_cast<double>(grain.size.radius);
-    BoundaryLoad<Real> sum{};
+    Load sum{};
     Losses lost;
     std::uint32_t now = 0;
     for (int b = 0; !held && b < d.wallCount; ++b) {
@@ -75,6 +79,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     if (has(contact::kPlastic) && d.books) addYielded(d, i, static_cast<double>(lost.yielded));
     if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
+    return sum;
   }
 
 private:
@@ -101,21 +106,21 @@ private:
   }
 
   /// `share`: of dashpots and of cohesion, where this contact bears a part of one [-].
-  GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap,
-                             BoundaryLoad<Real>& sum, Losses& lost, Real share = 1) const {
+  GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap, Load& sum,
+                             Losses& lost, Real share = 1) const {
     const Vec normal = -outward; // from the grain to the wall
     const Vec arm = normal * (grain.size.radius - overlap);
     const contact::BasicContactGeometry<Real> touch{
         normal, overlap, grain.v + cross(grain.w, arm), grain.size.mass, grain.size.radius, share, share};
     const Reaction reaction = react(grain, boundary, touch, grain.w, nullptr, sum, lost);
     sum.force += reaction.force;
+    measure(sum, reaction.force, arm);
     if (has(contact::kFriction)) sum.torque += cross(arm, reaction.force);
     if (has(contact::kRollingFriction)) sum.torque += reaction.rolling;
   }
 
   /// A floor with hollows tighter than the grain: all places of contact, each with springs of its own.
-  GROUSER_HD std::uint32_t touchHollows(const Grain& grain, double radius, BoundaryLoad<Real>& sum,
-                                        Losses& lost) const {
+  GROUSER_HD std::uint32_t touchHollows(const Grain& grain, double radius, Load& sum, Losses& lost) const {
     if (d.floor.clearOf(grain.x, radius)) return 0;
     Feet feet;
     FeetSearch(d.floor, grain.x, radius).run(feet);
@@ -140,7 +145,7 @@ private:
   }
 
   /// Surfaces that may move. The grain gets the force in whole quanta, the surface exactly the opposite.
-  GROUSER_HD std::uint32_t touchSurfaces(int k, const Grain& grain, BoundaryLoad<Real>& sum, Losses& lost) const {
+  GROUSER_HD std::uint32_t touchSurfaces(int k, const Grain& grain, Load& sum, Losses& lost) const {
     std::uint32_t now = 0;
     base::Vec3d force;
     const int first = d.boundaryCount - d.surfaceCount;
@@ -161,6 +166,7 @@ private:
       const base::Vec3l quanta = d.surfaceForce.quantise(reaction.force.template as<double>());
       const base::Vec3d exact = d.surfaceForce.value(quanta);
       force += exact;
+      measure(sum, exact.template as<Real>(), arm);
       if (has(contact::kFriction)) sum.torque += cross(arm, exact.template as<Real>());
       base::Vec3d torque = cross(point - motion.centre, -exact);
       if (has(contact::kRollingFriction)) {
@@ -183,7 +189,7 @@ private:
 
   /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
   GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
-                            const Vec& spin, const base::Mat3d* turned, BoundaryLoad<Real>& sum, Losses& lost) const {
+                            const Vec& spin, const base::Mat3d* turned, Load& sum, Losses& lost) const {
     const contact::BasicLaw<Real>& law = lawOf(grain, boundary);
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory() ? d.historyOf(grain.place, boundary, Kernel::historyWidth()) : nullptr;
@@ -209,6 +215,11 @@ private:
     }
     if (touch.overlap > sum.deepest) sum.deepest = touch.overlap;
     return result;
+  }
+
+  GROUSER_HD static void measure(Load& sum, const Vec& force, const Vec& arm) {
+    if constexpr ((kFeatures & contact::kMeasured) != 0)
+      sum.moment.add(force.template as<double>(), arm.template as<double>());
   }
 
   GROUSER_HD static Vec loaded(const float* history, const base::Mat3d* turned) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/contact_moment.hpp"
 #include "contact/motion.hpp"
 #include "terrain/compensated_sum.hpp"
 
@@ -18,6 +19,8 @@ template <class Real> struct BoundaryLoad {
   Real deepest;                   ///< overlap [m]
   Real unused;                    ///< of a record of whole 16 bytes
 };
+/// The same where fields are measured.
+template <class Real> struct MeasuredBoundaryLoad : BoundaryLoad<Real> { contact::ContactMoment moment; };
 
 /// Whether a grain of this velocity is one that never moves.
 GROUSER_HD bool isFixed(const Vec4f& velocity) { return velocity.w < 0; }

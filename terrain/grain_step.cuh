@@ -30,12 +30,16 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     bool any = false;
   };
 
-  struct Sum {
+  struct StepSum {
     Vec force, torque;
     Real damped = 0, rubbed = 0, rolled = 0, slipped = 0, yielded = 0; ///< [J]
     float deepest = 0;
     Held held;
   };
+  struct MeasuredSum : StepSum {
+    contact::ContactMoment moment;
+  };
+  using Sum = std::conditional_t<(kFeatures & contact::kMeasured) != 0, MeasuredSum, StepSum>;
 
   /// Of one of two grains in touch.
   struct Side {
@@ -117,7 +121,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
         const int k = base::lowestBit(rest);
         rest &= rest - 1;
         const std::uint32_t next = rest != 0 ? slotOf(rest) : 0;
-        touchNeighbour(row + k * d.neighbours.stride, j, before >> k & 1, p, own, sum);
+        const std::int64_t at = row + k * d.neighbours.stride;
+        touchNeighbour(historyAt(at), at, j, before >> k & 1, p, own, sum);
         j = next;
       }
       *touching++ = now;
@@ -157,13 +162,15 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     return static_cast<std::int64_t>(std::uint64_t{units} * units);
   }
 
+  /// What the contact at place `at` of the list keeps; null where the laws need nothing.
+  GROUSER_HD float* historyAt(std::int64_t at) const {
+    return Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
+  }
+
   /// The contact with neighbour j, at place `at` of the list. `heldBefore`: it was there in the last step.
-  GROUSER_HD void touchNeighbour(std::int64_t at, std::uint32_t j, bool heldBefore, const base::Position& p,
-                                 const Side& own, Sum& sum) const {
-    History history{Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr,
-                    Kernel::hasHistory() && heldBefore,
-                    {},
-                    {}};
+  GROUSER_HD void touchNeighbour(float* kept, std::int64_t at, std::uint32_t j, bool heldBefore,
+                                 const base::Position& p, const Side& own, Sum& sum) const {
+    History history{kept, Kernel::hasHistory() && heldBefore, {}, {}};
     // Loaded whether held or not, together with the neighbour's state: a branch would put one wait for memory behind
     // the other.
     if (Kernel::hasHistory()) history.spring = loadVector(history.at);
@@ -220,6 +227,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     Vec torque{};
     if (has(contact::kFriction)) torque = cross(normal * arm, reaction.force);
     sum.force += reaction.force;
+    if constexpr ((kFeatures & contact::kMeasured) != 0)
+      sum.moment.add(reaction.force.template as<double>(), (normal * arm).template as<double>());
     if (has(contact::kFriction)) sum.torque += torque;
     sum.damped += share * reaction.damped;
     if (has(contact::kFriction)) sum.rubbed += share * reaction.rubbed;

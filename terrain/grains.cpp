@@ -119,6 +119,12 @@ void Grains::restore(const GrainState& saved, bool grows) {
   if (!checkpoint.loadAsSaved(system_)) invalidateNeighbours();
 }
 
+SoilFields fieldsOf(Grains& grains, const FieldGrid& grid, const contact::PartMomentsView& onParts) {
+  if (grains.listEnded_) throw std::logic_error("fields are measured with a list of neighbours that has ended");
+  grains.system_.finishGhostUpdate();
+  return measureFields(grains.system_, grid, onParts);
+}
+
 GrainLedger Grains::ledger() {
   if (listEnded_) {
     system_.arrays.holdFormer();

@@ -4,6 +4,7 @@
 #include "contact/grains_view.hpp"
 #include "terrain/grain_entry.hpp"
 #include "terrain/grain_stepper.hpp"
+#include "terrain/soil_fields.hpp"
 
 namespace grouser::terrain {
 
@@ -84,6 +85,7 @@ public:
 
 private:
   friend class GrainsAhead;
+  friend SoilFields fieldsOf(Grains& grains, const FieldGrid& grid, const contact::PartMomentsView& onParts);
   void rebuild();
   void listNearBoundaries();
   void take(const StepOutcome& outcome);
@@ -94,5 +96,8 @@ private:
   bool listEnded_{true};     ///< the neighbour list must be made anew before the next step
   bool slotsChanged_{false}; ///< and refreshNeighbours() has not said so yet
 };
+
+/// See measureFields(). The neighbours must have been refreshed since the last step.
+SoilFields fieldsOf(Grains& grains, const FieldGrid& grid, const contact::PartMomentsView& onParts = {});
 
 } // namespace grouser::terrain

@@ -20,6 +20,7 @@ from .calibration import Calibration, Outcome, Trial, open_calibration
 from .check import AxisError, BarredSeries, Check, CheckFigure, open_check
 from .errors import DeviceError, FileError, GrouserError, InputError, SimulationError, StoppedError
 from .events import EventLimit, EventRow, EventRun, Events, open_events
+from .fields import FIELDS, Field
 from .frames import UNITS, Frame, Frames, Mesh, open_frames, rotation
 from .program import Job, Progress, call, find_program
 from .run import Run, Surface, open_run
@@ -33,7 +34,7 @@ __version__ = "0.1.0"  # that of CMakeLists.txt: tests/python/package_test.py co
 
 __all__ = [
     "AxisError", "BarredSeries", "Bed", "Calibration", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate",
-    "EventLimit", "EventRow", "EventRun", "Events", "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job",
+    "EventLimit", "EventRow", "EventRun", "Events", "FIELDS", "Field", "FileError", "Frame", "Frames", "GrouserError", "InputError", "Job",
     "Mesh", "Outcome", "PlateCurve", "Progress", "Quantity", "Run", "Scene", "Series", "ShearCurve", "Simulation", "SimulationError",
     "SoilTest", "StoppedError", "Surface", "Sweep", "SweepMean", "SweepRun", "Trial", "UNITS", "call", "find_program",
     "kept_beds", "measure_soil", "open_bed", "open_calibration", "open_check", "open_events", "open_frames", "open_run",

@@ -12,6 +12,7 @@ import h5py
 import numpy
 
 from .errors import FileError
+from .fields import Field, field_of
 from .files import fields_of, still_open
 from .series import Brief, Series, counted, nearest
 
@@ -82,6 +83,15 @@ class Frame:
     def contact_force(self) -> numpy.ndarray:
         """[n, 3] resultant of all contacts of a grain [N]; NaN in the first frame. KeyError where frames lack it."""
         return self.grains("contact_force")
+
+    @property
+    def has_fields(self) -> bool:
+        """Whether this frame has fields of the soil."""
+        return "fields" in self._group
+
+    def field(self, name: str) -> Field:
+        """A field of the soil in this frame alone, with one row: see Frames.fields()."""
+        return field_of([self._group.get("fields")], numpy.array([self.time]), name, self._frames.path)
 
     @property
     def poses(self) -> numpy.ndarray:
@@ -198,6 +208,12 @@ class Frames:
         values = numpy.array([numpy.full_like(there, numpy.nan, dtype=float) if row is None else row for row in rows])
         return Series(values, UNITS.get(name, ""), "", f"grain {id} {name}", self.time, self.step,
                       ("x", "y", "z") if values.ndim == 2 else ())
+
+    def fields(self, name: str) -> Field:
+        """A field of the soil over time: "stress", "strain_rate", "velocity", "porosity", "coordination" or
+        "mechanical_coordination", [frames, z, y, x], of vectors [..., 3], of tensors [..., 3, 3]. KeyError where there
+        is no such field, or the scene had no output.fields_cell; ValueError where frames have different grids."""
+        return field_of([self._file[frame].get("fields") for frame in self._names], self.time, name, self.path)
 
     @property
     def ground(self) -> Mesh | None:

@@ -14,6 +14,7 @@ import numpy
 
 from .bed import Bed, open_bed
 from .errors import FileError
+from .fields import Field
 from .files import fields_of, read_json, still_open
 from .frames import Frames
 from .series import Brief, Quantity, Series, counted
@@ -204,6 +205,12 @@ class Run:
         self._open  # a closed run opens no more files
         file = self.folder / "frames.h5"
         return Frames(file) if file.is_file() else None
+
+    def fields(self, name: str) -> Field:
+        """A field of the soil over time: see Frames.fields()."""
+        if self.frames is None:
+            raise KeyError(f"{self.folder}: has no frames.h5, which holds the fields of the soil")
+        return self.frames.fields(name)
 
     def bed(self) -> Bed:
         """The grains of the run's checkpoint, as they lay when it was written. FileError where there is none."""

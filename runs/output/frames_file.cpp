@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/frames_file.hpp"
 
+#include "runs/output/field_datasets.hpp"
+#include "runs/output/xdmf.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -17,12 +19,7 @@ namespace {
 /// Numbers of vertices that are written at a time.
 constexpr std::size_t kVertexBlock = std::size_t{1} << 20;
 
-/// A <DataItem> that points into frames.h5.
-std::string item(const std::string& shape, const char* type, int bytes, const std::string& dataset) {
-  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Endian=\"Little\" Format=\"HDF\">"
-                     "frames.h5:{}</DataItem>",
-                     shape, type, bytes, dataset);
-}
+using xdmf::grid, xdmf::item;
 
 std::string geometry(std::size_t vertices, const std::string& dataset) {
   return fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
@@ -40,12 +37,6 @@ std::string attribute(const char* name, const char* centre, std::size_t count, s
 std::string triangles(std::size_t count, const std::string& dataset) {
   return fmt::format("        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", count,
                      item(fmt::format("{} 3", count), "UInt", 4, dataset));
-}
-
-std::string grid(const char* name, const std::string& content) {
-  return content.empty()
-             ? ""
-             : fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n{}      </Grid>\n", name, content);
 }
 
 std::vector<float> flat(const std::vector<base::Vec3d>& points) {
@@ -212,8 +203,8 @@ std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) cons
   for (const GrainDataset& d : kGrainDatasets) aGrain += d.width * sizeof(float);
   std::uint64_t cuts = 0;
   for (const std::vector<double>& places : frame.borders) cuts += places.size();
-  return kOwn + kAName * static_cast<std::uint64_t>(count_) + grains * aGrain + partVertices_ * 3 * sizeof(float) +
-         cuts * sizeof(double);
+  return kOwn + (frame.fields ? output::bytesOf(*frame.fields) : 0) + kAName * static_cast<std::uint64_t>(count_) +
+         grains * aGrain + partVertices_ * 3 * sizeof(float) + cuts * sizeof(double);
 }
 
 void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains) {
@@ -242,6 +233,7 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
     file_->write(group + "/parts/pose", poses, {parts_.size(), 7});
     file_->attribute(group + "/parts/pose", "columns", std::vector<std::string>{"x", "y", "z", "qw", "qx", "qy", "qz"});
   }
+  if (frame.fields) writeFields(*file_, group, *frame.fields);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::vector<double>& places = frame.borders[axis]; !places.empty())
       file_->write(group + "/partition/" + "xyz" [axis], places, { places.size() });
@@ -295,6 +287,7 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
   if (groundTriangles_)
     grids += grid("ground",
                   triangles(groundTriangles_, "/ground/triangles") + geometry(groundVertices_, "/ground/position"));
+  grids += fieldsXdmf(*file_, group);
   if (grids.empty()) return;
   steps_ += fmt::format("    <Grid Name=\"step {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n      <Time "
                         "Value=\"{}\"/>\n{}    </Grid>\n",
@@ -310,6 +303,7 @@ std::vector<support::FileField> frameFields() {
   for (const GrainDataset& d : kGrainDatasets)
     fields.push_back(
         {grains + d.name, "float32", d.width == 1 ? "[grains]" : fmt::format("[grains, {}]", d.width), d.unit, d.help});
+  for (const support::FileField& field : soilFieldFields(frame)) fields.push_back(field);
   const char* corners = "places of the corners of each triangle among the vertices";
   const std::vector<support::FileField> others{
       {frame + "parts/pose", "float64", "[parts, 7]", "m, -",

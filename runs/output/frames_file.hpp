@@ -18,9 +18,10 @@ namespace grouser::output {
 /// frames.h5:  /parts/triangles [t, 3], /parts/part [t], /parts/kind [t];  /ground/position [v, 3], /ground/triangles;
 ///             /vertices/1000 [1000, 1]: 0, 1, 2... for frames of as many grains;
 ///             /000012/grains/{position [n, 3], radius, speed, id}, /000012/parts/position [v, 3],
+///             /000012/fields/{stress [z, y, x, 6], ...}: where the scene wants fields of the soil,
 ///             /000012/partition/{x, y, z} [b]: where borders of subdomains cross that axis [m]; absent where none does
-/// frames.xdmf: a temporal collection of spatial collections "grains", "parts", "ground". It is written anew after each
-/// frame and put in place by renaming, so that it always names complete frames only.
+/// frames.xdmf: a temporal collection of spatial collections "grains", "parts", "ground", "fields". It is written anew
+/// after each frame and put in place by renaming, so that it always names complete frames only.
 class FramesFile {
 public:
   /// On several ranks all of them call everything here; each gives its own grains.

@@ -8,8 +8,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
+
+namespace grouser::terrain {
+struct SoilFields;
+}
 
 /// What is written of a run, as plain data: rows of the time series, frames of the pictures, and its end.
 namespace grouser::output {
@@ -61,7 +66,8 @@ struct Frame {
   std::vector<float> fixed;      ///< 1 for grains that never move, 0 for others; empty where frames do not have it
   bool withFixed{false};         ///< the same on all ranks
   std::vector<std::uint32_t> ids;
-  std::vector<base::Pose> partPoses; ///< one a part
+  std::vector<base::Pose> partPoses;                 ///< one a part
+  std::shared_ptr<const terrain::SoilFields> fields; ///< of the soil, the same on all ranks; null without
   /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
   std::array<std::vector<double>, 3> borders;
 };

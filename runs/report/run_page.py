@@ -13,6 +13,7 @@ import damage
 import definitions
 import grouser
 import page as pages
+import soil_fields
 import space
 from grouser.series import counted
 from page import NOTHING, esc, exact, facts, figure_with_bar, folded, number, run_name, table, term
@@ -379,6 +380,7 @@ def page(folder, options):
     made.section("pictures", "Pictures", pages.pictures([
         films([run.folder], options), pages.picture(run.folder / "picture.png", "The end of the run"),
         pages.picture(run.folder / "surface.png", "The ground's surface, with the path of the vehicle")]))
+    made.section("fields", "Fields of the soil", soil_fields.section(run))
     made.section("plots", "Plots", curves(made, run))
     made.section("ledger", "Energy ledger", ledger([run]))
     made.section("series", "All series", any_series(made, run))

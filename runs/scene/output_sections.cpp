@@ -33,6 +33,15 @@ Table<Output> outputTable() {
       .orWord("auto");
   t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
   t.add("picture_width", &S::pictureWidth, "px", "width of that picture").atLeast(64).atMost(8192);
+  t.add(
+       "fields_cell", &S::fieldsCell, "m",
+       "stress, strain rate, porosity, velocity and coordination of the soil in cells of this edge, in every frame; no "
+       "fields where not given")
+      .above(0);
+  t.add("fields_low", &S::fieldsLow, "m",
+        "lower corner of the box that those cells fill; around the grains at the "
+        "start, one cell higher, where not given");
+  t.add("fields_high", &S::fieldsHigh, "m", "its upper corner");
   t.add("plots", &S::plots, "", "plots of the time series, by Python and matplotlib");
   return t;
 }
@@ -74,8 +83,22 @@ void checkRecord(const Section& section, const Output& output, const Scene& scen
                                                          name, base::nearestWord(name, known)));
 }
 
+void checkFields(const Section& section, const Output& output) {
+  if (output.fieldsLow.has_value() != output.fieldsHigh.has_value())
+    section.fail(output.fieldsLow ? "fields_low" : "fields_high",
+                 fmt::format("requires fields_{}; set both corners or none", output.fieldsLow ? "high" : "low"));
+  if (output.fieldsLow && !output.fieldsCell)
+    section.fail("fields_low", "has no effect without fields_cell; remove it");
+  for (int a = 0; output.fieldsLow && a < 3; ++a)
+    if (!((*output.fieldsHigh)[a] > (*output.fieldsLow)[a]))
+      section.fail("fields_high", fmt::format("[m] does not lie above fields_low along {}; raise it", "xyz"[a]));
+  if (output.fieldsCell && !output.frames)
+    section.fail("fields_cell", "writes into frames.h5, which frames = false switches off; remove one of them");
+}
+
 void checkOutput(const Section& section, Output& output, const Scene& scene) {
   checkFolder(section, output.folder);
+  checkFields(section, output);
   if (!output.record.empty()) checkRecord(section, output, scene);
 }
 

@@ -277,6 +277,8 @@ struct Output {
   bool picture = true;
   bool plots = true;
   int pictureWidth = 1600;
+  std::optional<double> fieldsCell;                 ///< [m] edge of the cells of the soil's fields; empty: no fields
+  std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] corners of their box; empty: around the grains
   bool operator==(const Output&) const = default;
 };
 

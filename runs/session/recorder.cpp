@@ -8,6 +8,7 @@
 #include "runs/output/surface_mesh.hpp"
 #include "runs/render/image.hpp"
 #include "runs/render/picture.hpp"
+#include "runs/session/field_grid.hpp"
 #include "runs/session/frame_of.hpp"
 #include "runs/support/tell.hpp"
 
@@ -15,6 +16,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace grouser::session {
@@ -131,6 +134,9 @@ Recorder::Recorder(coupling::Simulation& simulation, const setup::RecordSetup& r
 
 void Recorder::begin(const RunRequest& options, const storage::Checkpoint* former) {
   const coupling::SimulationSetup& setup = simulation_.setup();
+  if (const auto& grains = simulation_.ground().grains)
+    fieldGrid_ = fieldGridOf(record_.output, *grains, setup.ground.grains->boundaries.periodic,
+                             former ? std::optional(writer_.folder()) : std::nullopt);
   if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
     if (simulation_.ground().grains) writer_.fact("soil_meets", setup.vehicle->soilMeetsShoesAlone ? "shoes" : "all");
@@ -188,7 +194,14 @@ void Recorder::finalSurface() {
 void Recorder::frame() {
   if (simulation_.steps() == framedAt_) return;
   framedAt_ = simulation_.steps();
-  if (record_.output.frames) writer_.frame(currentFrame());
+  if (record_.output.frames) writer_.frame(frameWithFields());
+}
+
+/// Fields come last: they may sort the grains anew, and then forces of the last step are known no more.
+output::Frame Recorder::frameWithFields() {
+  output::Frame frame = currentFrame();
+  if (fieldGrid_) frame.fields = std::make_shared<terrain::SoilFields>(fieldsOf(simulation_, *fieldGrid_));
+  return frame;
 }
 
 void Recorder::lastFrame() {

@@ -42,6 +42,7 @@ public:
 private:
   void begin(const RunRequest& options, const storage::Checkpoint* former);
   output::Frame currentFrame() const;
+  output::Frame frameWithFields();
   std::vector<coupling::Obstacle> drawnObstacles() const;
 
   coupling::Simulation& simulation_;
@@ -55,6 +56,7 @@ private:
   DriveRecord drive_;
   std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
   std::optional<output::GrainsCsv> grainsCsv_;
+  std::optional<terrain::FieldGrid> fieldGrid_; ///< of the soil's fields in the frames; none without
 };
 
 } // namespace grouser::session

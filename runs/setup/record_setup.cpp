@@ -12,7 +12,7 @@ RecordSetup recordSetup(const scene::Scene& scene, Provenance provenance) {
   return {std::move(provenance),
           {scene.run.duration, scene.run.outputInterval, scene.run.frameInterval, scene.run.checkpointInterval},
           {o.record, o.frames, o.contactForces, o.grainsCsv, o.shoeForces, o.gearContacts, o.finalSurface, o.picture,
-           o.pictureWidth},
+           o.pictureWidth, o.fieldsCell, o.fieldsLow, o.fieldsHigh},
           drawnPlanes(scene)};
 }
 

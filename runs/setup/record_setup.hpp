@@ -26,7 +26,9 @@ struct OutputSetup {
   bool shoeForces{}, gearContacts{}; ///< of a vehicle, in the rows
   bool finalSurface{};               ///< of its bed
   bool picture{};
-  int pictureWidth{}; ///< [px]
+  int pictureWidth{};                               ///< [px]
+  std::optional<double> fieldsCell;                 ///< [m] edge of the cells of the soil's fields; empty: no fields
+  std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] of their box; empty: around the grains
 };
 
 /// What a scene says of its run beside the simulation itself.

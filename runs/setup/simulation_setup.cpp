@@ -2,6 +2,7 @@
 #include "runs/setup/simulation_setup.hpp"
 
 #include "runs/scene/scene.hpp"
+#include "runs/setup/field_checks.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
@@ -19,6 +20,7 @@ coupling::SimulationSetup simulationSetup(const scene::Scene& scene, int ranks, 
   setup.timeStep = chooseTimeStep(scene);
   setup.gravity = scene.run.gravity;
   setup.ground = groundSetup(scene, setup.timeStep, ranks, sizes);
+  checkFields(scene, setup.ground);
   if (scene.vehicle) {
     setup.vehicle = vehicleSetup(scene);
     setup.vehicle->largestTurn = largestTurn(scene.run);

@@ -106,6 +106,7 @@ class FilesOfResults(FolderTest):
         self.run_and_look(obstacles, "obstacles")
         moving = grouser.Scene.read(ROOT / "tests/scenes/moving.toml")
         moving["run.duration"] = 0.01
+        moving["output"] = {"fields_cell": 0.03}
         moving["cylinder"][0]["pivot"] = [0, 0, 0.01]
         self.run_and_look(moving, "moving")
         bodies = grouser.Scene.read(ROOT / "tests/scenes/bodies.toml")

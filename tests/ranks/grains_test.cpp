@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace grouser::terrain::testing {
 namespace {
@@ -56,6 +57,26 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
       advance(grains, kSteps);
       EXPECT_EQ(allWords(grains), expected()) << x << " x " << y << " x " << n / x / y;
     }
+}
+
+/// Right after a step, before a list has been made anew, and behind one.
+TEST(GrainsOnRanks, FieldsHaveTheBitsOfOneRank) {
+  const GrainModel m = gravel();
+  Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared()),
+      alone(base::cpuExec(1), m, box(m), thrownBlock());
+  const FieldGrid grid = fieldGrid({-0.1, -0.1, -0.1}, {1.1, 0.7, 0.5}, 0.07, {});
+  for (const int steps : {700, 1, 800}) {
+    advance(grains, steps), advance(alone, steps);
+    grains.refreshNeighbours(), alone.refreshNeighbours();
+    const SoilFields shared = fieldsOf(grains, grid), whole = fieldsOf(alone, grid);
+    EXPECT_EQ(shared.stress, whole.stress);
+    EXPECT_EQ(shared.porosity, whole.porosity);
+    for (std::size_t c = 0; c < grid.count(); ++c) {
+      if (std::isnan(whole.velocity[c].x)) continue;
+      EXPECT_EQ(shared.velocity[c], whole.velocity[c]);
+      EXPECT_EQ(shared.coordination[c], whole.coordination[c]);
+    }
+  }
 }
 
 /// By itself, because eight ranks on two cores take a minute for all of them.
