@@ -62,16 +62,19 @@ public:
       }
   }
 
-  /// The points of the vehicle's parts touch the shapes.
+  /// The points of the vehicle's parts touch the shapes: of its shoes, and of all parts that are cut into spheres.
   void addOnVehicle(ContactParts& all, std::size_t first) const {
-    for (std::size_t part = 0; part < first; ++part)
+    for (std::size_t part = 0; part < first; ++part) {
+      const ContactPart& p = all.parts[part];
+      if (!p.meetsGround && all.surfaces[static_cast<std::size_t>(p.surface)]->spheres.empty()) continue;
       for (std::size_t j = 0; j < shapes_.size(); ++j) {
         const BodyShape& s = shapes_[j];
-        if (!mayTouch(all.parts[part].body, s.body)) continue;
+        if (!mayTouch(p.body, s.body)) continue;
         contact::PatchLaw law = laws_.on(s.material, s);
         law.friction = laws_.foundations.onVehicle[static_cast<std::size_t>(s.material)];
         all.pairs.push_back({static_cast<int>(part), static_cast<int>(first + j), law});
       }
+    }
   }
 
 private:

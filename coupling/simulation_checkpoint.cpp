@@ -57,7 +57,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
       settled_(state.settled), lifts_(state.lifts), gravity_(setup_.gravity), steps_(state.steps) {
   if (state.grains.has_value() != (laid_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
-      state.mechanism.has_value() != setup_.mechanism.has_value() ||
+      state.mechanism.has_value() != (setup_.mechanism && !setup_.vehicle) ||
       state.surfaces.has_value() != (laid_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   makeActingGround();

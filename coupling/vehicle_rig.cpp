@@ -34,13 +34,21 @@ vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<Mec
   return assembly;
 }
 
+/// Mass of the vehicle and of the bodies beside it that move [kg].
+double massOf(const vehicle::Assembly& assembly, const std::optional<MechanismSetup>& bodies) {
+  double mass = assembly.mass;
+  for (std::size_t b = bodies ? bodies->ofVehicle.bodies : assembly.model.bodies().size();
+       b < assembly.model.bodies().size(); ++b)
+    if (const multibody::Body& body = assembly.model.bodies()[b]; !body.fixed) mass += body.mass;
+  return mass;
+}
+
 GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() : GroundTraits{}; }
 
 /// Returns true if contacts need spheres of the hull only.
 bool shapesAlone(const SimulationSetup& setup) {
   const GroundSetup& ground = setup.ground;
-  const bool bodies = setup.mechanism && !setup.mechanism->shapes.empty();
-  return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty() && !bodies;
+  return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty();
 }
 
 /// So much that no shoe stands in the ground, and no part in an obstacle.
@@ -118,7 +126,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), driver_(setup.vehicle->driver),
       thickestStone_(setup.vehicle->thickestStone), heading_(setup.vehicle->place.heading),
       observer_(std::make_unique<vehicle::Observer>(assembly_, observerOptions())),
-      blows_(assembly_.mass * norm(gravity_)), gear_{assembly_, *parts_} {
+      carried_(massOf(assembly_, setup.mechanism)), blows_(carried_ * norm(gravity_)), gear_{assembly_, *parts_} {
   state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
   contactParts_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
   if (setup.mechanism) addBodyParts(contactParts_, *setup.mechanism, assembly_.model);
@@ -205,7 +213,7 @@ std::string VehicleRig::judgeRest() {
   const double g = norm(gravity_);
   const Vec3d down = g > 0 ? gravity_ * (1 / g) : Vec3d{0, 0, -1};
   return driver_.judge(state_.time, dot(state_.twist[assembly_.chassis].v, down),
-                       g > 0 ? -dot(groundForce(alarmMeans_), down) / (assembly_.mass * g) : 0.0);
+                       g > 0 ? -dot(groundForce(alarmMeans_), down) / (carried_ * g) : 0.0);
 }
 
 /// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.

@@ -112,6 +112,7 @@ private:
   double thickestStone_, heading_; ///< for observers [m], [rad]
   std::unique_ptr<vehicle::Observer> observer_;
   std::optional<Watch> watch_;
+  double carried_; ///< mass that the ground carries at rest [kg]: the vehicle and the bodies beside it
   vehicle::BlowMeter blows_;
   PartContacts::RunningGear gear_;
   ForceMeans alarmMeans_;

@@ -200,6 +200,7 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene) {
   }
   for (std::size_t b = mechanism.ofVehicle.bodies; b < bodies.size(); ++b) {
     const std::size_t section = b - mechanism.ofVehicle.bodies;
+    if (springs[b] > 0) limit.bounce = std::min(limit.bounce, base::kPi / std::sqrt(springs[b]));
     considerBoth(limit, springs[b], dampers[b],
                  fmt::format("body \"{}\" of {:g} kg on rigid surfaces or bodies", bodies[b].name, bodies[b].mass),
                  fmt::format("raise body.{}.mass, or lower foundation_modulus of material.{}", section,
@@ -357,7 +358,8 @@ double chooseTimeStep(const scene::Scene& scene) {
   // Where a contact is to have more or fewer steps than usual, so has all that grains do, down to the limits.
   const double coarser = scene::kStepsPerContact / scene.run.stepsPerContact;
   double automatic = contact > 0 ? contact / scene.run.stepsPerContact : kVehicleTimeStep;
-  automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step});
+  automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step,
+                        limit.bounce / scene.run.stepsPerContact});
   for (const auto& [material, radius, largest] : pairs.kinds.kinds)
     automatic =
         std::min(automatic, coarser * kRayleighShare * contact::rayleighTimeOf(scene.material(material), radius));

@@ -26,7 +26,7 @@ std::string tow(const std::string& more = {}, const std::string& ground = "kind 
   std::string text = "version = 1\n[run]\nduration = 3.0\n" + run +
                      "\n[material.ground]\nfriction = 0.8\nrestitution = 0.3\n[material.rubber]\nfriction = 0.8\n"
                      "restitution = 0.3\nfoundation_modulus = 2e8\n[terrain]\nmaterial = \"ground\"\nsize = [9, "
-                     "3]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0.4]\n" +
+                     "3]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
                      ground +
                      "\n[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nposition = [3, 0]\nsphere_radius = 0.02\n"
                      "[driver]\nsprocket_speed = 1\n";
