@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/body_probes.hpp"
 #include "coupling/contact_parts.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
@@ -35,8 +36,11 @@ struct MechanismSetup {
   double largestTurn;                 ///< of a body in a step [rad]
   std::optional<StepControl> control; ///< empty: fixed steps
   std::vector<std::optional<base::Vec3d>>
-      boxes;                     ///< edges of each body as it is drawn [m]; empty: as its inertia has it
-  std::vector<BodyShape> shapes; ///< empty: the bodies touch nothing
+      boxes;                        ///< edges of each body as it is drawn [m]; empty: as its inertia has it
+  std::vector<BodyShape> shapes;    ///< empty: the bodies touch nothing
+  std::vector<BodyProbe> probes{};  ///< boxes in which the mass of grains is recorded
+  std::optional<double> aboveBed{}; ///< clearance of the shapes above the settled bed [m]; empty: as the scene has it
+  std::string place{};              ///< of that key's section, in messages: "scene.toml:14: mechanism"
 };
 
 /// The bodies' shapes as contacts see them.
