@@ -51,20 +51,25 @@ public:
     }
   }
 
-  /// The curved side of a cylinder about z.
-  void side(double radius, double half) {
-    const int cells = cellsOf(2 * half, radius / 8);
+  /// The side of a cylinder or cone about z, of radius `low` at its lower and `high` at its upper end.
+  void side(double low, double high, double half) {
+    const double slant = std::sqrt((low - high) * (low - high) + 4 * half * half);
+    const int cells = cellsOf(slant, std::max(low, high) / 8);
     for (int i = 0; i < kAround; ++i) {
       const double angle = 2 * base::kPi * (i + 0.5) / kAround;
       const Vec3d out{base::cos(angle), base::sin(angle), 0};
-      for (int j = 0; j <= cells; ++j)
-        put(out * radius + Vec3d{0, 0, half * nodeOf(j, cells)},
-            2 * base::kPi * radius / kAround * 2 * half * shareOf(j, cells), out);
+      const Vec3d normal = (out * (2 * half) + Vec3d{0, 0, low - high}) * (1 / slant);
+      for (int j = 0; j <= cells; ++j) {
+        const double at = nodeOf(j, cells), radius = 0.5 * (low + high) + 0.5 * at * (high - low);
+        put(out * radius + Vec3d{0, 0, half * at}, 2 * base::kPi * radius / kAround * slant * shareOf(j, cells),
+            normal);
+      }
     }
   }
 
-  /// Both ends of a cylinder about z.
-  void ends(double radius, double half) {
+  /// The end of a cylinder or cone about z, at the height z.
+  void end(double radius, double z) {
+    if (!(radius > 0)) return;
     const double step = radius / kRings;
     for (int ring = 0; ring <= kRings; ++ring) {
       const double r = ring * step, inner = std::max(0.0, r - 0.5 * step), outer = std::min(radius, r + 0.5 * step);
@@ -72,9 +77,7 @@ public:
       const double area = base::kPi * (outer * outer - inner * inner) / around;
       for (int k = 0; k < around; ++k) {
         const double angle = 2 * base::kPi * (k + 0.5) / around;
-        for (const double side : {-1.0, 1.0})
-          put(Vec3d{base::cos(angle), base::sin(angle), 0} * (r * (1 - kInset)) + Vec3d{0, 0, side * half}, area,
-              {0, 0, side});
+        put(Vec3d{base::cos(angle), base::sin(angle), 0} * (r * (1 - kInset)) + Vec3d{0, 0, z}, area, {0, 0, z});
       }
     }
   }
@@ -106,10 +109,14 @@ std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape) {
   Points points;
   const Vec3d& half = shape.half;
   if (shape.shape == SurfaceShape::box) points.box(half);
-  if (shape.shape == SurfaceShape::cylinder) points.side(half.x, half.z), points.ends(half.x, half.z);
+  const bool isCone = shape.shape == SurfaceShape::cone;
+  if (isCone || shape.shape == SurfaceShape::cylinder) {
+    const double tip = isCone ? half.y : half.x;
+    points.side(half.x, tip, half.z), points.end(half.x, -half.z), points.end(tip, half.z);
+  }
   if (shape.shape == SurfaceShape::capsule) {
     points.caps(half.x, half.z);
-    if (half.z > 0) points.side(half.x, half.z);
+    if (half.z > 0) points.side(half.x, half.x, half.z);
   }
   return points.take();
 }

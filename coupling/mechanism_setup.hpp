@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coupling/body_foundation.hpp"
+#include "coupling/body_probes.hpp"
 #include "coupling/contact_parts.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
@@ -40,9 +41,12 @@ struct MechanismSetup {
   double largestTurn;                   ///< of a body in a step [rad]
   std::optional<StepControl> control{}; ///< empty: fixed steps
   std::vector<std::optional<base::Vec3d>>
-      boxes{};                     ///< edges of each body as it is drawn [m]; empty: as its inertia has it
-  std::vector<BodyShape> shapes{}; ///< empty: the bodies touch nothing
-  FoundationTable foundations{};   ///< between the shapes and what is rigid
+      boxes{};                      ///< edges of each body as it is drawn [m]; empty: as its inertia has it
+  std::vector<BodyShape> shapes{};  ///< empty: the bodies touch nothing
+  FoundationTable foundations{};    ///< between the shapes and what is rigid
+  std::vector<BodyProbe> probes{};  ///< boxes in which the mass of grains is recorded
+  std::optional<double> aboveBed{}; ///< clearance of the shapes above the settled bed [m]; empty: as the scene has it
+  std::string place{};              ///< of that key's section, in messages: "scene.toml:14: mechanism"
 
   // Beside a vehicle.
   multibody::PartCounts ofVehicle{}; ///< parts of the vehicle, with which the model begins; 0 without

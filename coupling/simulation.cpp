@@ -34,6 +34,10 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
       requireRoom(*laid_.grains, setup_.ground, comm);
       takeIntoScene(laid_, setup_.ground, exec, comm);
     }
+    if (setup_.mechanism && setup_.mechanism->aboveBed) {
+      lifts_.push_back(liftOnto(*laid_.grains, setup_.ground, *setup_.mechanism, comm));
+      setup_.mechanism->model.translate({0, 0, lifts_.back()});
+    }
   } else {
     laid_ = buildGround(setup_.ground, exec, comm);
   }

@@ -70,6 +70,9 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
     vehicle_->restore(*state.vehicle);
   }
   if (setup_.mechanism && !setup_.vehicle) {
+    if (setup_.mechanism->aboveBed && lifts_.empty())
+      throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+    if (setup_.mechanism->aboveBed) setup_.mechanism->model.translate({0, 0, lifts_.back()});
     makeMechanism(spheres);
     mechanism_->restore(*state.mechanism);
   }

@@ -327,6 +327,16 @@ void Model::append(const Model& all, const PartCounts& from, const std::vector<b
   add(all.couplings(), from.couplings, [&](std::size_t, const Coupling& coupling) { addCoupling(coupling); });
 }
 
+void Model::translate(const Vec3d& way) {
+  for (Body& body : bodies_) body.pose.position += way;
+  const auto hold = [&](int body, Vec3d& point) {
+    if (body == kWorld) point += way;
+  };
+  for (Joint& j : joints_) hold(j.bodyA, j.frame_A.position), hold(j.bodyB, j.frame_B.position);
+  for (PointSpring& s : pointSprings_) hold(s.bodyA, s.point_A), hold(s.bodyB, s.point_B);
+  for (Bushing& b : bushings_) hold(b.bodyA, b.frame_A.position), hold(b.bodyB, b.frame_B.position);
+}
+
 int Model::bodyIndex(const std::string& name) const { return indexByName(bodies_, "body", name); }
 int Model::jointIndex(const std::string& name) const { return indexByName(joints_, "joint", name); }
 

@@ -177,6 +177,8 @@ public:
   int addBushing(const Bushing& bushing);
   int addDrive(const Drive& drive);
   int addCoupling(const Coupling& coupling);
+  /// Moves all bodies by `way` [m], with what joints, springs and bushings hold in the world.
+  void translate(const Vec3d& way);
 
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Joint>& joints() const { return joints_; }

@@ -281,6 +281,14 @@ Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const 
   return columns.all();
 }
 
+Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names) {
+  Columns<std::vector<double>> columns("bodies/");
+  for (std::size_t p = 0; p < names.size(); ++p)
+    columns.add(names[p] + "/grain_mass", "kg", "of the grains with centres in the box of probe_size",
+                [p](const std::vector<double>& masses) { return masses[p]; });
+  return columns;
+}
+
 std::string integratorText(const multibody::SolverOptions& options) {
   if (options.integrator != multibody::Integrator::kRattle) return "symplectic Euler, order 1, springs implicit";
   return fmt::format("RATTLE, order {}, springs {}", options.order,

@@ -29,6 +29,9 @@ Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const 
                                            const std::vector<std::string>& record,
                                            const multibody::PartCounts& ofVehicle = {});
 
+/// Mass of the grains in the probes of bodies, `names` those of the bodies; of a source the masses [kg].
+Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names);
+
 /// "RATTLE of order 2, springs implicit".
 std::string integratorText(const multibody::SolverOptions& options);
 

@@ -1,12 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/session/row_columns.hpp"
 
+#include "base/table.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "vehicle/observation_table.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace grouser::session {
+
+namespace {
+
+/// Throws InputError where a plot draws a column that the rows lack.
+void requirePlotted(const std::vector<output::Channel>& channels, const std::vector<setup::PlottedColumn>& plots) {
+  std::vector<std::string> known = {"time"};
+  for (const output::Channel& c : channels) {
+    std::string path = c.path;
+    std::replace(path.begin(), path.end(), '/', '.');
+    if (c.width == 1) known.push_back(path);
+    for (const std::string& column : c.columns) known.push_back(path + "." + column);
+  }
+  for (const setup::PlottedColumn& p : plots)
+    if (std::find(known.begin(), known.end(), p.column) == known.end())
+      throw base::InputError(fmt::format("{} names no column of the results, \"{}\"; did you mean \"{}\"?", p.place,
+                                         p.column, base::nearestWord(p.column, known)));
+}
+
+} // namespace
 
 RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetup& output) : simulation_(simulation) {
   const bool grains = simulation.ground().grains != nullptr;
@@ -15,6 +38,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
     add(output::mechanismColumns(simulation.mechanism()->model(), simulation.mechanism()->touchingBodies(),
                                  output.record),
         [&s = simulation](const Now&) { return output::MechanismReading(*s.mechanism()); });
+  addProbes();
   if (rig) addVehicle(output.shoeForces);
   if (const auto& bodies = simulation.setup().mechanism; rig && bodies)
     add(output::mechanismColumns(rig->model(), rig->touchingBodies(), output.record, bodies->ofVehicle),
@@ -35,6 +59,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
   // A mechanism without contacts has no contact impulses to balance.
   add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches()),
       [](const Now& now) { return now.ledger; });
+  requirePlotted(channels_, output.plots);
 }
 
 output::Row RowColumns::row() const {
@@ -54,6 +79,22 @@ void RowColumns::addVehicle(bool shoeForces) {
     const std::vector<double> numbers = vehicle::flatten(now.vehicle, shoeForces);
     values.insert(values.end(), numbers.begin(), numbers.end());
   });
+}
+
+void RowColumns::addProbes() {
+  coupling::Simulation& s = simulation_;
+  if (!s.setup().mechanism || !s.ground().grains) return;
+  const auto bodies = [&s]() -> const coupling::BodiesInContact& {
+    if (s.vehicle()) return *s.vehicle();
+    return *s.mechanism();
+  };
+  std::vector<std::string> names;
+  for (const coupling::BodyProbe& p : s.setup().mechanism->probes)
+    names.push_back(bodies().model().bodies()[p.body].name);
+  if (!names.empty())
+    add(output::probeColumns(names), [&s, bodies](const Now&) {
+      return coupling::grainMassIn(s.setup().mechanism->probes, bodies().state(), *s.ground().grains, s.comm());
+    });
 }
 
 void RowColumns::addSurfaces() {

@@ -83,6 +83,7 @@ TEST(ShapePoints, CarryTheAreaOfTheShape) {
   };
   EXPECT_NEAR(sums({SurfaceShape::box, {0.1, 0.2, 0.05}}), 8 * (0.02 + 0.005 + 0.01), 1e-6);
   EXPECT_NEAR(sums({SurfaceShape::cylinder, {0.1, 0, 0.2}}), 2 * base::kPi * 0.1 * (0.4 + 0.1), 1e-5);
+  EXPECT_NEAR(sums({SurfaceShape::cone, {0.1, 0.1, 0.2}}), 2 * base::kPi * 0.1 * (0.4 + 0.1), 1e-4);
   EXPECT_NEAR(sums({SurfaceShape::capsule, {0.1, 0, 0}}), 4 * base::kPi * 0.01, 1e-5);
   EXPECT_NEAR(sums({SurfaceShape::capsule, {0.1, 0, 0.2}}), 4 * base::kPi * 0.01 + 2 * base::kPi * 0.1 * 0.4, 1e-5);
 }
