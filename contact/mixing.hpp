@@ -24,7 +24,7 @@ struct MaterialProperties {
   static constexpr double kTangentialStiffnessRatio = 2.0 / 7;
   static constexpr double kLinearTangentialDampingRatio = 0.5, kHertzTangentialDampingRatio = 1;
   static constexpr double kPlasticity = 0.5, kPlasticDepth = 0.05;
-  static constexpr double kFoundationModulus = 1e9;
+  static constexpr double kFoundationModulus = 1e8;
 
   double density = 2500; ///< [kg/m3] of the solid
   LawKind law = LawKind::linear;

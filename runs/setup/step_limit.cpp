@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 #include <vector>
 
 namespace grouser::setup {
@@ -163,9 +164,31 @@ void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPa
   }
 }
 
-/// A body on the foundations under all its shapes at once. Each lies on its largest face or, where it is round, as deep
-/// as kDeep of its radius: springs K A that shift it by 1 / m and turn it by r^2 / I. Another body that
-/// moves gives way alike, and two of them press on two sides (Gershgorin).
+/// [body] Factor of a contact's springs for bodies that give way on the other side, too: 1 on what is fixed; 2 where
+/// another mechanism, bodies that joints tie, or its own may press; 4 between two others (Gershgorin).
+std::vector<double> sidesPressed(const coupling::MechanismSetup& mechanism, const coupling::ContactParts& parts) {
+  const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
+  std::vector<std::size_t> group(bodies.size()); // of bodies that joints tie: the first of them
+  for (std::size_t b = 0; b < bodies.size(); ++b) group[b] = b;
+  for (const multibody::Joint& j : mechanism.model.joints()) {
+    if (j.bodyA == multibody::kWorld || j.bodyB == multibody::kWorld) continue;
+    const std::size_t a = group[static_cast<std::size_t>(j.bodyA)], b = group[static_cast<std::size_t>(j.bodyB)];
+    for (std::size_t& g : group)
+      if (g == a || g == b) g = std::min(a, b);
+  }
+  std::vector<std::set<std::size_t>> partners(bodies.size());
+  for (const coupling::ContactParts::Pair& pair : parts.pairs) {
+    const auto bodyOf = [&](int part) { return mechanism.shapes[static_cast<std::size_t>(part)].body; };
+    const std::size_t a = bodyOf(pair.part), b = bodyOf(pair.other);
+    if (!bodies[a].fixed && !bodies[b].fixed) partners[a].insert(group[b]), partners[b].insert(group[a]);
+  }
+  std::vector<double> sides;
+  for (const std::set<std::size_t>& p : partners) sides.push_back(p.empty() ? 1 : p.size() == 1 ? 2 : 4);
+  return sides;
+}
+
+/// A body on the foundation under one of its shapes, which lies on its largest face or, where it is round, as deep as
+/// kDeep of its radius: springs K A that shift it by 1 / m and turn it by r^2 / I.
 void considerFoundations(StepLimit& limit, const scene::Scene& scene) {
   if (!scene.mechanism.touches()) return;
   constexpr double kDeep = 0.01; // [radius]
@@ -174,13 +197,8 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene) {
   coupling::addBodyParts(parts, mechanism, mechanism.model);
   const bool meetsRigid = mechanism.foundations.ground >= 0 || scene.vehicle || !obstaclesOf(scene).empty();
   if (!meetsRigid && parts.pairs.empty()) return;
-  std::vector<int> partners(mechanism.model.bodies().size()); // contacts with shapes of bodies that move
-  for (const coupling::ContactParts::Pair& pair : parts.pairs) {
-    const auto bodyOf = [&](int part) { return mechanism.shapes[static_cast<std::size_t>(part)].body; };
-    const auto moves = [&](int part) { return !mechanism.model.bodies()[bodyOf(part)].fixed; };
-    if (moves(pair.part) && moves(pair.other)) ++partners[bodyOf(pair.part)], ++partners[bodyOf(pair.other)];
-  }
   const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
+  const std::vector<double> sides = sidesPressed(mechanism, parts);
   std::vector<double> springs(bodies.size()), dampers(bodies.size()); // [1/s2], [1/s]
   for (const coupling::BodyShape& s : mechanism.shapes) {
     const multibody::Body& body = bodies[s.body];
@@ -195,8 +213,8 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene) {
       const double stiffness = law.modulus * area * (1 / body.mass + arm2 / leastInertia(body.inertia_B));
       rate = std::max(rate, stiffness), decay = std::max(decay, stiffness * law.relaxation);
     }
-    const double sides = partners[s.body] == 0 ? 1 : partners[s.body] == 1 ? 2 : 4;
-    springs[s.body] += sides * rate, dampers[s.body] += sides * decay;
+    springs[s.body] = std::max(springs[s.body], sides[s.body] * rate);
+    dampers[s.body] = std::max(dampers[s.body], sides[s.body] * decay);
   }
   for (std::size_t b = mechanism.ofVehicle.bodies; b < bodies.size(); ++b) {
     const std::size_t section = b - mechanism.ofVehicle.bodies;

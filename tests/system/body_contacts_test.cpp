@@ -179,9 +179,9 @@ TEST(BodyContacts, BlockSticksBelowTheFrictionAngleAndSlidesBeyond) {
 TEST(BodyContacts, FlatBounceHasTheRestitutionOfThePair) {
   for (const double e : {0.8, 0.4}) {
     const auto s = made(head("gravity = [0, 0, 0]\ntime_step = 2e-6", {}, e) + kPlane +
-                        box("cube", "[0.1, 0.1, 0.1]", 1, "[0, 0, 0.0505]", "velocity = [0, 0, -0.5]"));
-    advanceTo(*s, 0.01);
-    EXPECT_NEAR(stateOf(*s).twist[0].v.z, 0.5 * e, 0.005) << e;
+                        box("cube", "[0.1, 0.1, 0.1]", 1, "[0, 0, 0.0505]", "velocity = [0, 0, -0.2]"));
+    advanceTo(*s, 0.02);
+    EXPECT_NEAR(stateOf(*s).twist[0].v.z, 0.2 * e, 0.002) << e;
   }
 }
 
@@ -213,7 +213,7 @@ TEST(BodyContacts, AStackBearsItsWeight) {
   for (const auto& [body, mass] : {std::pair(0, 8.0), std::pair(1, 4.0), std::pair(2, 2.0)})
     EXPECT_NEAR(force[static_cast<std::size_t>(body)].z, mass * kGravity, 2e-3 * mass * kGravity) << body;
   EXPECT_NEAR(s->touching()->meanForceOn(0).z, -14 * kGravity, 2e-3 * 14 * kGravity) << "the plane";
-  EXPECT_NEAR(stateOf(*s).pose[2].position.z, 0.25, 1e-4);
+  EXPECT_NEAR(stateOf(*s).pose[2].position.z, 0.25, 5e-4);
 }
 
 TEST(BodyContacts, JointedBodiesDoNotTouchEachOther) {
