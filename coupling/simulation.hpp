@@ -67,8 +67,7 @@ public:
   const GranularGround* granularGround() const { return granular_; } ///< the same where it is grains; else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
-  const BodiesInContact* touching() const { return touching_; } ///< vehicle, or mechanism with shapes; null without
-  const Surfaces* surfaces() const { return surfaces_.get(); }  ///< null without
+  const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
   /// Restarts the means of the observers: those of the rows after every row. Only a vehicle has those of a watch.
   void restartMeans(Means of = Means::rows) {
     if (vehicle_) vehicle_->restartMeans(of);

@@ -29,6 +29,12 @@ void requirePlotted(const std::vector<output::Channel>& channels, const std::vec
                                          p.column, base::nearestWord(p.column, known)));
 }
 
+/// Bodies of the vehicle or, without one, of the mechanism.
+const coupling::BodiesInContact& bodiesOf(const coupling::Simulation& simulation) {
+  if (simulation.vehicle()) return *simulation.vehicle();
+  return *simulation.mechanism();
+}
+
 } // namespace
 
 RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetup& output) : simulation_(simulation) {
@@ -84,16 +90,12 @@ void RowColumns::addVehicle(bool shoeForces) {
 void RowColumns::addProbes() {
   coupling::Simulation& s = simulation_;
   if (!s.setup().mechanism || !s.ground().grains) return;
-  const auto bodies = [&s]() -> const coupling::BodiesInContact& {
-    if (s.vehicle()) return *s.vehicle();
-    return *s.mechanism();
-  };
   std::vector<std::string> names;
   for (const coupling::BodyProbe& p : s.setup().mechanism->probes)
-    names.push_back(bodies().model().bodies()[p.body].name);
+    names.push_back(bodiesOf(s).model().bodies()[p.body].name);
   if (!names.empty())
-    add(output::probeColumns(names), [&s, bodies](const Now&) {
-      return coupling::grainMassIn(s.setup().mechanism->probes, bodies().state(), *s.ground().grains, s.comm());
+    add(output::probeColumns(names), [&s](const Now&) {
+      return coupling::grainMassIn(s.setup().mechanism->probes, bodiesOf(s).state(), *s.ground().grains, s.comm());
     });
 }
 
@@ -105,8 +107,7 @@ void RowColumns::addSurfaces() {
           [&s, i](const Now&) { return s.surfaces()->observe(i, s.steps()); });
   const std::vector<coupling::Obstacle>& obstacles = s.setup().ground.obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i)
-    add(output::obstacleColumns(obstacles[i].surface.name),
-        [&s, i](const Now&) { return s.touching()->meanForceOn(i); });
+    add(output::obstacleColumns(obstacles[i].surface.name), [&s, i](const Now&) { return bodiesOf(s).meanForceOn(i); });
 }
 
 void RowColumns::add(const std::vector<output::Channel>& channels, Append append) {

@@ -212,7 +212,7 @@ TEST(BodyContacts, AStackBearsItsWeight) {
   // What a body feels is what its own weight asks for.
   for (const auto& [body, mass] : {std::pair(0, 8.0), std::pair(1, 4.0), std::pair(2, 2.0)})
     EXPECT_NEAR(force[static_cast<std::size_t>(body)].z, mass * kGravity, 2e-3 * mass * kGravity) << body;
-  EXPECT_NEAR(s->touching()->meanForceOn(0).z, -14 * kGravity, 2e-3 * 14 * kGravity) << "the plane";
+  EXPECT_NEAR(s->mechanism()->meanForceOn(0).z, -14 * kGravity, 2e-3 * 14 * kGravity) << "the plane";
   EXPECT_NEAR(stateOf(*s).pose[2].position.z, 0.25, 5e-4);
 }
 
