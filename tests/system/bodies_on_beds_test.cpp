@@ -23,7 +23,7 @@
 #include <random>
 #include <string>
 
-namespace grouser::coupling {
+namespace grouser::coupling::on_beds {
 namespace {
 
 using base::kPi;
@@ -260,4 +260,4 @@ TEST(OutputPlot, UnknownColumnsAndContradictionsAreRefusedAtTheirPlace) {
 }
 
 } // namespace
-} // namespace grouser::coupling
+} // namespace grouser::coupling::on_beds
