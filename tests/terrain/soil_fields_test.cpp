@@ -74,7 +74,7 @@ TEST(SoilFields, GrainsCountOnceWhereverPlanesCutThem) {
   double solid = 0;
   for (const double porosity : fields.porosity) solid += (1 - porosity) * fields.grid.cellVolume();
   const double ball = 4.0 / 3 * base::kPi * std::pow(m.radius, 3);
-  EXPECT_NEAR(solid, 40 * ball, 40 * 1e-10 * ball) << "quanta of 2^-40 of a grain's volume, eight cells a grain";
+  EXPECT_NEAR(solid, 40 * ball, 40 * 2e-7 * ball) << "radii are single precision, volumes go as their cube";
 }
 
 TEST(SoilFields, LinearVelocityFieldHasItsStrainRate) {
@@ -116,17 +116,18 @@ TEST(SoilFields, CellsWithoutGrainsHaveNoVelocityAndNoStress) {
 struct PressedBox {
   static constexpr double kWall = 1e-3; // [m] that each plane stands within the block
   GrainModel model;
-  Vec3d low{-0.027, -0.038, 0.003}, high;
+  Vec3d low{-0.025, -0.035, 0.005}, high;
   std::unique_ptr<Grains> grains;
 
   PressedBox(bool gravity, int threads, std::int64_t steps, Precision precision = Precision::single) {
     model = gravel();
     model.precision = precision;
     if (!gravity) model.gravity = {};
-    const std::vector<GrainSpec> start = gravelBlock(5, 5, 5, {});
+    std::vector<GrainSpec> start = gravelBlock(5, 5, 5, {});
+    for (GrainSpec& g : start) g.position = Vec3d{0, 0, 0.03} + (g.position - Vec3d{0, 0, 0.03}) * 0.92; // they overlap
     high = {-1, -1, -1};
     for (const GrainSpec& g : start) high = base::max(high, g.position + Vec3d{0.027, 0.027, 0.027});
-    high.x -= 0.02, high.y -= 0.01, high.z -= 0.012;
+    high -= Vec3d{0.003, 0.003, 0.003};
     contact::ContactLaw smooth = model.law;
     smooth.friction = 0;
     const Vec3d inward[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -161,7 +162,7 @@ TEST(SoilFields, MeanStressOfABoxAtRestIsTheLoadOfItsWalls) {
     const auto k = static_cast<std::size_t>(2 * a);
     const double area = size.x * size.y * size.z / size[a], pressure = box.load(k) / area;
     EXPECT_GT(pressure, 1e3);
-    EXPECT_NEAR(box.load(k) / box.load(k + 1), 1, 1e-4) << "at rest";
+    EXPECT_NEAR(box.load(k) / box.load(k + 1), 1, 5e-4) << "at rest";
     const double stress = total[diagonal[a]] / (area * size[a]);
     EXPECT_NEAR(stress / -pressure, 1, 0.002) << "axis " << a;
     RecordProperty("ratio " + std::to_string(a), std::to_string(stress / -pressure));
@@ -230,8 +231,8 @@ TEST(SoilFields, PeriodicBoundariesAreSeamless) {
   ASSERT_EQ(fields.grid.cells, (std::array{3, 3, 3}));
   const double pressure = m.law.stiffness * (2 * m.radius - spacing) / (spacing * spacing);
   for (std::size_t c = 0; c < 27; ++c) {
-    EXPECT_NEAR(fields.stress[c][0], -pressure, 1e-3 * pressure) << c; // places in units of 1e-4 of the overlap
-    EXPECT_NEAR(fields.porosity[c], fields.porosity[0], 1e-6) << c;
+    EXPECT_NEAR(fields.stress[c][0], -pressure, 1e-3 * pressure) << c;      // places in units of 1e-4 of the overlap
+    EXPECT_NEAR(fields.porosity[c], fields.porosity[c / 9 * 9], 1e-6) << c; // layer by layer: z has an end
   }
 }
 
