@@ -114,7 +114,6 @@ TEST(SoilFields, CellsWithoutGrainsHaveNoVelocityAndNoStress) {
 
 /// Six smooth planes around a block, pressed together; each a surface whose load is known.
 struct PressedBox {
-  static constexpr double kWall = 1e-3; // [m] that each plane stands within the block
   GrainModel model;
   Vec3d low{-0.025, -0.035, 0.005}, high;
   std::unique_ptr<Grains> grains;
