@@ -18,7 +18,7 @@ inline constexpr unsigned kCohesion = 8;        ///< constant attraction while i
 /// Damping follows the effective mass of each contact, not one of the whole scene.
 inline constexpr unsigned kManyMasses = 16;
 inline constexpr unsigned kPlastic = 32; ///< elastic-plastic normal springs, with history
-/// Of kernels that sum contact moments, never of a step: ContactMoment.
+/// Kernel also sums a ContactMoment; never set in a time step.
 inline constexpr unsigned kMeasured = 1u << 30;
 inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run time
 

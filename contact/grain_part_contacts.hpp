@@ -153,7 +153,7 @@ private:
   unsigned features_;
   bool allHertz_{true}; ///< every law
   base::Array<GrainLoad> load_;
-  base::Array<ContactMoment> moments_; ///< of each pair; empty where nothing measures them
+  base::Array<ContactMoment> moments_; ///< [pair]; empty until measure() is called
   base::Array<std::int64_t> sums_;     ///< [kPartSums]
   base::Array<std::uint64_t> deepest_; ///< by part, since forgetPressed()
 };

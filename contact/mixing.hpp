@@ -46,7 +46,7 @@ struct MaterialProperties {
   std::optional<double> plasticDepth;      ///< [-] luding: of the smaller radius' overlap where k2 is greatest
   std::optional<double> adhesionStiffness; ///< [N/m] luding: k_c of the adhesive branch
   std::optional<double> crushingStrength;  ///< [Pa] of its grains against parts; empty: they do not crush
-  double foundationModulus = kFoundationModulus; ///< [N/m3] of its bodies against bodies and what is rigid
+  double foundationModulus = kFoundationModulus; ///< [N/m3] elastic foundation of its bodies
   bool operator==(const MaterialProperties&) const = default;
 
   /// Whether its elastic law is Hertz'; else linear springs.
@@ -100,7 +100,7 @@ struct Foundation {
   double restitution{};     ///< [-] the smaller one
   double tangentialRatio{}; ///< [-] the smaller one; 2/7 of hertz materials
 };
-/// What `pair` has of friction and restitution replaces the mixed value. A material with `damping` instead of
+/// Friction and restitution given by `pair` replace the mixed values. A material with `damping` instead of
 /// restitution counts as one of restitution kRestitution.
 Foundation mixedFoundation(const MaterialProperties& a, const MaterialProperties& b, const PairProperties& pair = {});
 

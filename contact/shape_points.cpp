@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kCellsOfEdge = 24, kLeastCells = 4, kMostCells = 48; ///< between two edges
 constexpr int kAround = 512;                                       ///< points round a cylinder
-constexpr int kRings = 12;                                         ///< of the end of a cylinder
-constexpr int kLatitudes = 96;                                     ///< of a sphere
+constexpr int kRings = 12;                                         ///< of points on the end of a cylinder
+constexpr int kLatitudes = 96;                                     ///< rings of points on a sphere
 
 /// Points on an edge stand this far within their face, so that a face does not press along its edges where another one
 /// lies on a plane [half of the face].
@@ -27,7 +27,7 @@ int cellsOf(double length, double spacing) {
   return std::clamp(static_cast<int>(std::ceil(length / spacing - 1e-9)), kLeastCells, kMostCells);
 }
 double shareOf(int k, int cells) { return (k == 0 || k == cells ? 0.5 : 1.0) / cells; }
-double nodeOf(int k, int cells) { return (1 - kInset) * (2.0 * k / cells - 1); } ///< of half the stretch
+double nodeOf(int k, int cells) { return (1 - kInset) * (2.0 * k / cells - 1); } ///< place of node k [half the stretch]
 
 class Points {
 public:

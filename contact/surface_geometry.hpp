@@ -88,7 +88,7 @@ GROUSER_HD SurfaceGap gapToCapsule(const base::Vec3d& half, const base::Vec3d& p
   return {apart * (1 / distance), distance - half.x};
 }
 
-/// In the plane of axis and point the cone is a convex polygon: base, side from A = (R, -h) to B = (r, h), tip.
+/// The section of the cone through the point is a convex polygon: base, side from A = (R, -h) to B = (r, h), tip.
 GROUSER_HD SurfaceGap gapToCone(const base::Vec3d& half, const base::Vec3d& p) {
   const double rho = sqrt(p.x * p.x + p.y * p.y);
   const base::Vec3d radial = rho > 0 ? base::Vec3d{p.x / rho, p.y / rho, 0} : base::Vec3d{1, 0, 0};
@@ -97,7 +97,7 @@ GROUSER_HD SurfaceGap gapToCone(const base::Vec3d& half, const base::Vec3d& p) {
   const double nRho = 2 * half.z / length, nUp = narrowing / length; // normal of the side
   const double below = -half.z - p.z, above = p.z - half.z;
   const double beside = (rho - half.x) * nRho + (p.z + half.z) * nUp;
-  const double along = (p.z + half.z) * nRho - (rho - half.x) * nUp; // of the side, from A
+  const double along = (p.z + half.z) * nRho - (rho - half.x) * nUp; // distance from A along the side
   if (below > 0 && rho <= half.x) return {-up, below};
   if (above > 0 && rho <= half.y) return {up, above};
   if (below > 0 || above > 0 || beside > 0) {

@@ -36,9 +36,9 @@ public:
   const multibody::State& state() const { return state_; }
   multibody::Balance bodiesBalance() const { return multibody::balance(model(), state_, loads_); }
 
-  /// A drive now.
+  /// Present state of a drive.
   struct DriveReading {
-    double value = 0;  ///< what it imposes [rad/s, rad, N m, or m/s, m, N]
+    double value = 0;  ///< imposed speed, position or torque [rad/s, rad, N m, or m/s, m, N]
     double torque = 0; ///< [N m] or [N]
     double power = 0;  ///< [W]
   };

@@ -20,7 +20,7 @@ struct FoundationTable {
   const contact::Foundation& between(int body, int other) const {
     return laws[static_cast<std::size_t>(body) * materials.size() + static_cast<std::size_t>(other)];
   }
-  int indexOf(const std::string& material) const; ///< of a material that is in the table
+  int indexOf(const std::string& material) const; ///< the material must be in the table
 };
 
 /// Largest area that a shape can lay on a plane [m2]: a face of a box, the end or a strip of a cylinder, a cap of a

@@ -38,7 +38,7 @@ struct BodyLaws {
   contact::PatchLaw on(int other, const BodyShape& s) const { return on(other, s.shape, s.material, s.body); }
 };
 
-/// Which shapes and parts of the vehicle touch each other.
+/// Finds the pairs of shapes and vehicle parts that may touch.
 class PartPairs {
 public:
   PartPairs(const MechanismSetup& setup, const multibody::Model& model, const BodyLaws& laws)
@@ -98,7 +98,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
   const int ground = setup.foundations.ground;
   // Materials of the parts: that of the vehicle, if there is one, then those of the shapes.
   const int ofVehicle = first > 0 ? 1 : 0;
-  std::size_t shown = 0; // of the vehicle, among the parts of the frames
+  std::size_t shown = 0; // number of vehicle parts in the frames
   for (const ContactPart& part : all.parts) shown = std::max(shown, part.shown + 1);
   if (first == 0) all.contactSize = base::kInfinity;
   std::vector<contact::SurfaceGeometry> shapes; // each once

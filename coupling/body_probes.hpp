@@ -14,7 +14,7 @@ namespace grouser::coupling {
 struct BodyProbe {
   std::size_t body{};     ///< index into the model's bodies
   base::Vec3d half;       ///< half of its edges [m]
-  base::Vec3d position_B; ///< of its centre, in the body's frame [m]
+  base::Vec3d position_B; ///< centre of the box in the body's frame [m]
 };
 
 /// [probe] mass of the grains whose centres lie in it [kg], the same on any number of ranks. All ranks call it.

@@ -28,12 +28,13 @@ void checkDepth(const PlacedShape& a, const std::string& body, const std::string
   constexpr double kMost = 0.02; // [-] of half the thickness
   double deepest = 0;
   Vec3d place;
-  for (const contact::SurfaceSample& s : a.points)
-    if (const Vec3d p = a.pose.toWorld(s.centre.as<double>()); overlap(p) > deepest) deepest = overlap(p), place = p;
+  for (const contact::SurfaceSample& s : a.points) {
+    const Vec3d p = a.pose.toWorld(s.centre.as<double>());
+    if (const double depth = overlap(p); depth > deepest) deepest = depth, place = p;
+  }
   if (deepest <= kMost * thickness) return;
   throw base::InputError(fmt::format("{}: body \"{}\" overlaps {} by {:.3g} m at ({:.3g}, {:.3g}, {:.3g}) m at the "
-                                     "start, more than {:.3g} m; move the "
-                                     "body",
+                                     "start, more than {:.3g} m; move the body",
                                      a.shape.place, body, other, deepest, place.x, place.y, place.z,
                                      kMost * thickness));
 }

@@ -38,7 +38,7 @@ struct MechanismSetup {
   multibody::Model model;
   multibody::SolverOptions solver;
   base::Vec3d gravity;                  ///< [m/s2]
-  double largestTurn;                   ///< of a body in a step [rad]
+  double largestTurn;                   ///< largest turn of a body in a step [rad]
   std::optional<StepControl> control{}; ///< empty: fixed steps
   std::vector<std::optional<base::Vec3d>>
       boxes{};                      ///< edges of each body as it is drawn [m]; empty: as its inertia has it
@@ -46,9 +46,9 @@ struct MechanismSetup {
   FoundationTable foundations{};    ///< between the shapes and what is rigid
   std::vector<BodyProbe> probes{};  ///< boxes in which the mass of grains is recorded
   std::optional<double> aboveBed{}; ///< clearance of the shapes above the settled bed [m]; empty: as the scene has it
-  std::string place{};              ///< of that key's section, in messages: "scene.toml:14: mechanism"
+  std::string place{};              ///< section of that key in messages: "scene.toml:14: mechanism"
 
-  // Beside a vehicle.
+  // Scenes with a vehicle.
   multibody::PartCounts ofVehicle{}; ///< parts of the vehicle, with which the model begins; 0 without
   std::vector<bool> hitched{}; ///< [body] whether it is set down with the vehicle, to which joints or springs tie it
   base::Pose chassis{};        ///< pose of the chassis in the model: X_WB

@@ -84,7 +84,7 @@ SurfaceBounds boundsOf(const BodyShape& shape, const multibody::Body& body) {
   const base::Mat3d R = pose.orientation.matrix();
   SurfaceBounds b;
   for (int a = 0; a < 3; ++a) {
-    const Vec3d axis{R.m[a][0], R.m[a][1], R.m[a][2]}; // of the world, in the shape's frame
+    const Vec3d axis{R.m[a][0], R.m[a][1], R.m[a][2]}; // world axis a in the shape's frame
     b.low[a] = pose.position[a] - farthestAlong(shape.shape, -axis);
     b.high[a] = pose.position[a] + farthestAlong(shape.shape, axis);
   }

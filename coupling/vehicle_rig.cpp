@@ -26,7 +26,7 @@ vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<doubl
   return assembleAt(setup, pose_W);
 }
 
-/// With the bodies of the scene, those that hang on the vehicle where it stands.
+/// Adds the bodies of the scene; hitched bodies move to where the vehicle stands.
 vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<MechanismSetup>& bodies) {
   if (!bodies) return assembly;
   const base::Pose chassis = assembly.model.bodies()[static_cast<std::size_t>(assembly.chassis)].pose;
@@ -34,7 +34,7 @@ vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<Mec
   return assembly;
 }
 
-/// Mass of the vehicle and of the bodies beside it that move [kg].
+/// Mass of the vehicle and of all moving bodies beside it [kg].
 double massOf(const vehicle::Assembly& assembly, const std::optional<MechanismSetup>& bodies) {
   double mass = assembly.mass;
   for (std::size_t b = bodies ? bodies->ofVehicle.bodies : assembly.model.bodies().size();

@@ -28,7 +28,7 @@ struct VehicleSetup;
 
 /// The vehicle as it is assembled with the vehicle frame at `pose_W`.
 vehicle::Assembly assembleAt(const VehicleSetup& setup, const base::Pose& pose_W);
-/// The same on level ground of height 0, the lowest grousers on it.
+/// Assembles the vehicle on level ground of height 0, which the lowest grousers touch.
 vehicle::Assembly assembleOnLevelGround(const VehicleSetup& setup);
 
 /// What ends a run before its time; empty where it is not asked.

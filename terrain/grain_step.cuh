@@ -162,7 +162,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     return static_cast<std::int64_t>(std::uint64_t{units} * units);
   }
 
-  /// What the contact at place `at` of the list keeps; null where the laws need nothing.
+  /// History of the contact at place `at` of the list; null if the laws have none.
   GROUSER_HD float* historyAt(std::int64_t at) const {
     return Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
   }

@@ -20,12 +20,12 @@ constexpr unsigned kMeasuring = contact::kGeneral | contact::kMeasured;
 
 /// Sums of a cell. Places are those of a grain's centre, from the centre of the cell, over the cell's edges.
 enum CellSum : int {
-  kVolume,         ///< of grains
+  kVolume,         ///< volume of grains
   kGrains,         ///< that may move
-  kContacts,       ///< of these
+  kContacts,       ///< contacts of these grains
   kHeldGrains,     ///< those with two contacts or more
-  kHeldContacts,   ///< of these
-  kMassIn,         ///< of grains that may move, as all that follow
+  kHeldContacts,   ///< contacts of these grains
+  kMassIn,         ///< mass of grains that may move, as in all sums below
   kMomentumIn,     ///< [3]
   kFirst = 9,      ///< [3] mass times place
   kSecond = 12,    ///< [6] mass times place times place
@@ -218,7 +218,7 @@ Tensor6 strainRateOf(const double* of, const Vec3d& edge) {
   const Vec3d row[3] = {{c[0][0], c[0][1], c[0][2]}, {c[1][0], c[1][1], c[1][2]}, {c[2][0], c[2][1], c[2][2]}};
   const Vec3d adjoint[3] = {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])};
   const double determinant = dot(row[0], adjoint[0]);
-  // Of a cell full of grains about 1/12^3; far below that the grains lie nearly in one plane.
+  // A cell full of grains has about 1/12^3; far below that the grains lie nearly in one plane.
   if (!(determinant > 1e-7)) return none;
   double gradient[3][3];
   for (int a = 0; a < 3; ++a)
@@ -259,7 +259,7 @@ std::array<double, kCellSums> valuesOf(const std::int64_t* sums, const CellScale
 FieldGrid fieldGrid(const Vec3d& low, const Vec3d& high, double edge, const PeriodicBoundaries& periodic) {
   FieldGrid grid{low, {}, {}, {}};
   for (int a = 0; a < 3; ++a) {
-    constexpr double kRounding = 1e-9, kMost = 1e9; // of a cell; more than any device holds
+    constexpr double kRounding = 1e-9, kMost = 1e9; // grains a cell; more than any device holds
     const double extent = high[a] - low[a];
     const double whole = std::clamp(std::floor(extent / edge + kRounding), 1.0, kMost);
     grid.cells[static_cast<std::size_t>(a)] = static_cast<int>(whole);

@@ -58,7 +58,7 @@ std::vector<std::uint64_t> cellShape(const terrain::FieldGrid& grid, std::uint64
   return shape;
 }
 
-/// Of the fields of a frame, as the file has it.
+/// Reads the grid of a frame's fields.
 terrain::FieldGrid gridIn(const support::Hdf5File& file, const std::string& frame) {
   terrain::FieldGrid grid;
   const std::vector<double> low = file.numbers(frame + kOrigin), cell = file.numbers(frame + kSpacing);
@@ -73,7 +73,7 @@ terrain::FieldGrid gridIn(const support::Hdf5File& file, const std::string& fram
 } // namespace
 
 std::uint64_t bytesOf(const SoilFields& fields) {
-  constexpr std::uint64_t kOwn = 4096; // what HDF5 adds for a dataset
+  constexpr std::uint64_t kOwn = 4096; // overhead of HDF5 for a dataset
   std::uint64_t bytes = 0;
   for (const FieldDataset& d : kFieldDatasets) bytes += kOwn + fields.grid.count() * d.width * sizeof(float);
   return bytes;

@@ -13,7 +13,7 @@
 /// Fields of the soil in frames.h5: /000012/fields/{origin, spacing, porosity [z, y, x], stress [z, y, x, 6], ...}.
 namespace grouser::output {
 
-/// Of the numbers of one frame.
+/// Size of the fields of one frame in the file [bytes].
 std::uint64_t bytesOf(const terrain::SoilFields& fields);
 /// `frame`: the group of the frame.
 void writeFields(support::Hdf5File& file, const std::string& frame, const terrain::SoilFields& fields);

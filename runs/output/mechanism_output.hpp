@@ -19,7 +19,7 @@ struct MechanismReading {
   const coupling::BodiesInContact& mechanism;
   std::vector<multibody::JointReaction> reactions;
   multibody::Totals now;
-  coupling::Mechanism::Drift drift;  ///< of a mechanism
+  coupling::Mechanism::Drift drift;  ///< zero for bodies beside a vehicle
   std::vector<base::Vec3d> contacts; ///< [body] [N]
 };
 /// `record`: names of the bodies, joints, springs and drives that are written; empty: all.

@@ -67,7 +67,7 @@ struct Frame {
   bool withFixed{false};         ///< the same on all ranks
   std::vector<std::uint32_t> ids;
   std::vector<base::Pose> partPoses;                 ///< one a part
-  std::shared_ptr<const terrain::SoilFields> fields; ///< of the soil, the same on all ranks; null without
+  std::shared_ptr<const terrain::SoilFields> fields; ///< fields of the soil, the same on all ranks; may be null
   /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
   std::array<std::vector<double>, 3> borders;
 };

@@ -6,7 +6,7 @@ import numpy
 
 import drawing
 
-COLUMNS = 2  # of panels
+COLUMNS = 2  # panels side by side
 
 
 def column(run, name):

@@ -18,7 +18,7 @@ SECTIONS = (
 
 
 def colour(share):
-    """Of a share from 0 to 1, as an SVG has it."""
+    """SVG colour of a value between 0 and 1."""
     at = min(max(share, 0.0), 1.0) * (len(RAMP) - 1)
     k = min(int(at), len(RAMP) - 2)
     return "#" + "".join(f"{round(c):02x}" for c in RAMP[k] + (at - k) * (RAMP[k + 1] - RAMP[k]))

@@ -275,7 +275,7 @@ struct PlotSection {
   double xScale = 1, xOffset = 0, yScale = 1, yOffset = 0;
   bool xFromStart = false, yFromStart = false;
   std::optional<std::array<double, 2>> xRange, yRange;
-  std::vector<double> levels;           ///< of horizontal lines, as drawn
+  std::vector<double> levels;           ///< heights of horizontal lines, in units of the axis
   std::vector<std::string> levelLabels; ///< one a level
   bool operator==(const PlotSection&) const = default;
 };
@@ -294,7 +294,7 @@ struct Output {
   int pictureWidth = 1600;
   std::optional<double> fieldsCell;                 ///< [m] edge of the cells of the soil's fields; empty: no fields
   std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] corners of their box; empty: around the grains
-  std::vector<PlotSection> panels;                  ///< of figure.png
+  std::vector<PlotSection> panels;                  ///< panels of figure.png
   bool operator==(const Output&) const = default;
 };
 

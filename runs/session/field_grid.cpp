@@ -17,7 +17,7 @@ struct Box {
   Vec3d low, high;
 };
 
-/// Around the grains of all ranks.
+/// Bounding box of the grains on all ranks.
 Box boxAround(const terrain::Grains& grains) {
   const terrain::GrainSnapshot mine = grains.snapshot();
   constexpr double kFar = 1e300;

@@ -56,7 +56,7 @@ private:
   DriveRecord drive_;
   std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
   std::optional<output::GrainsCsv> grainsCsv_;
-  std::optional<terrain::FieldGrid> fieldGrid_; ///< of the soil's fields in the frames; none without
+  std::optional<terrain::FieldGrid> fieldGrid_; ///< grid of the fields in the frames; empty without fields
 };
 
 } // namespace grouser::session

@@ -35,20 +35,20 @@ base::Pose poseOf(const scene::ShapeSection& s) {
 
 namespace {
 
-/// Of the inertia of a solid of revolution about z: across and along the axis.
+/// Inertia of a solid of revolution about z: moments across and along the axis.
 Mat3d round(double across, double along) { return Mat3d::diagonal({across, across, along}); }
 
 /// Moments of V = pi int a^2 dz over the height, where the radius a falls linearly from R to r:
 /// I_z = pi/2 int a^4 dz, I_x about the base = I_z / 2 + pi int a^2 z^2 dz.
 SolidMoments momentsOfCone(double R, double r, double h) {
   const double squares = R * R + R * r + r * r, volume = kPi * h / 3 * squares;
-  const double height = h / 4 * (R * R + 2 * R * r + 3 * r * r) / squares; // of the centre above the base
+  const double height = h / 4 * (R * R + 2 * R * r + 3 * r * r) / squares; // height of the centroid above the base
   const double along = kPi * h / 10 * (R * R * R * R + R * R * R * r + R * R * r * r + R * r * r * r + r * r * r * r);
   const double atBase = along / 2 + kPi * h * h * h * (R * R + 3 * R * r + 6 * r * r) / 30;
   return {volume, {0, 0, height - h / 2}, round(atBase - volume * height * height, along)};
 }
 
-/// What the inertia about a point gains where the centre lies `d` from it, of unit mass.
+/// Parallel-axis term of a unit mass whose centre lies `d` from the reference point.
 Mat3d steiner(const Vec3d& d) {
   Mat3d m{};
   for (int i = 0; i < 3; ++i)
@@ -81,7 +81,7 @@ SolidMoments momentsOf(const contact::SurfaceGeometry& g) {
                              v / 12 * (e.x * e.x + e.y * e.y)})};
   }
   if (g.shape == SurfaceShape::cone) return momentsOfCone(r, g.half.y, l);
-  const double cylinder = kPi * r * r * l; // of the cylinder
+  const double cylinder = kPi * r * r * l; // volume
   double volume = cylinder, across = cylinder / 12 * (3 * r * r + l * l), along = cylinder / 2 * r * r;
   if (g.shape == SurfaceShape::capsule) {
     // Two hemispheres, whose centres lie 3/8 r beyond the ends of the cylinder.

@@ -18,8 +18,8 @@ base::Pose poseOf(const scene::ShapeSection& shape);
 /// Volume and second moments of a solid.
 struct SolidMoments {
   double volume{};     ///< [m3]
-  base::Vec3d centre;  ///< of the volume [m]
-  base::Mat3d inertia; ///< of unit density about the centre [m5]
+  base::Vec3d centre;  ///< centroid [m]
+  base::Mat3d inertia; ///< about the centroid at unit density [m5]
 };
 
 /// Closed forms of a homogeneous box, cylinder, capsule (sphere) or cone, in its own frame.

@@ -39,7 +39,7 @@ std::vector<bool> hitchedBodies(const scene::Scene& scene, const multibody::Mode
     if ((is(joint.bodyA) && !moves(joint.bodyB)) || (is(joint.bodyB) && !moves(joint.bodyA)))
       scene.fail("joint", j - first.joints, "bodies",
                  "tie the vehicle to the world, which stands at another height once the vehicle is set down; use a "
-                 "[[spring]] or [[bushing]], or vehicle.chassis = \"fixed\"");
+                 "[[spring]] or [[bushing]]");
   }
   return hitched;
 }

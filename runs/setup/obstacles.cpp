@@ -35,7 +35,7 @@ std::vector<coupling::Obstacle> obstaclesOf(const scene::Scene& scene) {
   if (!scene.vehicle && !scene.mechanism.touches()) return all;
   const std::optional<VehicleSurface> own = vehicleSurface(scene);
   const auto add = [&](const coupling::SurfaceSetup& s, std::optional<std::size_t> place) {
-    double friction = 0; // of bodies by FoundationTable
+    double friction = 0; // bodies use a FoundationTable
     if (scene.vehicle)
       friction = own ? own->friction : pairLaw(scene, scene.vehicle->material, s.material, {}).friction;
     all.push_back({s, friction, place});

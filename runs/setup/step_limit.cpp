@@ -135,9 +135,8 @@ double leastInertia(const base::Mat3d& inertia) {
 /// A body on the springs of all grains that its shapes may touch at once: a dense layer on both sides of the largest
 /// face of each, at the grains' centres. Springs all over a face shift it by sum k / m and turn it by sum k r^2 / I,
 /// with r^2 a third of the largest.
-void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs) {
-  if (!scene.mechanism.touches()) return;
-  const coupling::MechanismSetup mechanism = mechanismSetup(scene);
+void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs,
+                    const coupling::MechanismSetup& mechanism) {
   for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
     const std::size_t index = mechanism.ofVehicle.bodies + b;
     const multibody::Body& body = mechanism.model.bodies()[index];
@@ -168,7 +167,7 @@ void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPa
 /// another mechanism, bodies that joints tie, or its own may press; 4 between two others (Gershgorin).
 std::vector<double> sidesPressed(const coupling::MechanismSetup& mechanism, const coupling::ContactParts& parts) {
   const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
-  std::vector<std::size_t> group(bodies.size()); // of bodies that joints tie: the first of them
+  std::vector<std::size_t> group(bodies.size()); // [body] smallest index among the bodies that joints tie to it
   for (std::size_t b = 0; b < bodies.size(); ++b) group[b] = b;
   for (const multibody::Joint& j : mechanism.model.joints()) {
     if (j.bodyA == multibody::kWorld || j.bodyB == multibody::kWorld) continue;
@@ -189,10 +188,8 @@ std::vector<double> sidesPressed(const coupling::MechanismSetup& mechanism, cons
 
 /// A body on the foundation under one of its shapes, which lies on its largest face or, where it is round, as deep as
 /// kDeep of its radius: springs K A that shift it by 1 / m and turn it by r^2 / I.
-void considerFoundations(StepLimit& limit, const scene::Scene& scene) {
-  if (!scene.mechanism.touches()) return;
+void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coupling::MechanismSetup& mechanism) {
   constexpr double kDeep = 0.01; // [radius]
-  const coupling::MechanismSetup mechanism = mechanismSetup(scene);
   coupling::ContactParts parts;
   coupling::addBodyParts(parts, mechanism, mechanism.model);
   const bool meetsRigid = mechanism.foundations.ground >= 0 || scene.vehicle || !obstaclesOf(scene).empty();
@@ -300,7 +297,10 @@ StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const 
     considerModes(limit, c);
   }
   considerFreeSurfaces(limit, scene, pairs);
-  considerBodies(limit, scene, pairs), considerFoundations(limit, scene);
+  if (scene.mechanism.touches()) {
+    const coupling::MechanismSetup mechanism = mechanismSetup(scene);
+    considerBodies(limit, scene, pairs, mechanism), considerFoundations(limit, scene, mechanism);
+  }
   limit.vehicle.clear();
   if (!scene.vehicle) return limit;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());

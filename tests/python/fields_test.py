@@ -43,7 +43,7 @@ class FieldsOfTheSoil(FolderTest):
             def force(name, axis):
                 return float(run[f"surfaces.{name}.force"][axis].value[-1])
             lid = float(run["surfaces.lid.position"]["z"].value[-1]) - 0.01
-            # Of the forces on the grains times their places: walls at the origin have none, the lid's friction is 0.
+            # Sum of the forces on the grains times their places: walls at the origin contribute 0, the lid has no friction.
             self.assertAlmostEqual(integral[0, 0] / (-force("right", "x") * SIDE), 1, delta=0.01)
             self.assertAlmostEqual(integral[1, 1] / (-force("back", "y") * SIDE), 1, delta=0.01)
             frame = run.frames[-1]

@@ -59,7 +59,7 @@ TEST(ConeShape, GapIsTheDistanceToTheNearestPointOfItsSurface) {
       const Vec3d p{any(dice), any(dice), any(dice)};
       const contact::SurfaceGap gap = gapTo(cone, p);
       const double rho = std::hypot(p.x, p.y);
-      double nearest = 1e9; // of the outline, sampled
+      double nearest = 1e9; // distance to the sampled outline
       for (int i = 0; i <= 4000; ++i) {
         const double t = i / 4000.0;
         nearest =

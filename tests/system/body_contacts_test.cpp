@@ -89,7 +89,7 @@ TEST(ShapePoints, CarryTheAreaOfTheShape) {
 }
 
 TEST(BodyContacts, RestOnAPlaneByModulusTimesVolume) {
-  const double modulus = 1e8; // of two equal materials
+  const double modulus = 1e8; // equal materials keep theirs
   const auto s =
       made(head({}, "foundation_modulus = 1e8\n") + kPlane + box("block", "[0.2, 0.1, 0.1]", 10, "[0, 0, 0.05]") +
            ball("ball", 0.05, 1, "[0, 1, 0.05]") + wheel(0.1, 0.08, 5, "[0, -1, 0.1]"));
@@ -253,7 +253,7 @@ TEST(BodyContacts, AStackBearsItsWeight) {
   s->restartMeans();
   advanceTo(*s, 0.7);
   const auto force = s->mechanism()->contactForces();
-  // What a body feels is what its own weight asks for.
+  // The contact force on each body balances its own weight.
   for (const auto& [body, mass] : {std::pair(0, 8.0), std::pair(1, 4.0), std::pair(2, 2.0)})
     EXPECT_NEAR(force[static_cast<std::size_t>(body)].z, mass * kGravity, 2e-3 * mass * kGravity) << body;
   EXPECT_NEAR(s->mechanism()->meanForceOn(0).z, -14 * kGravity, 2e-3 * 14 * kGravity) << "the plane";
@@ -325,7 +325,7 @@ TEST(BodyContacts, AStepThatTheFoundationDoesNotBearIsRefused) {
   const std::string message = messageOf(
       [] { made(head("time_step = 1e-3") + kPlane + box("plate", "[0.2, 0.2, 0.01]", 0.01, "[0, 0, 0.005]")); });
   EXPECT_NE(message.find("body \"plate\" of 0.01 kg on rigid surfaces or bodies"), std::string::npos) << message;
-  // At the step that is chosen the plate comes to rest.
+  // With the automatic step the plate comes to rest.
   const auto s = made(head() + kPlane + box("plate", "[0.2, 0.2, 0.01]", 0.01, "[0, 0, 0.0052]"));
   advanceTo(*s, 0.1);
   EXPECT_LT(norm(stateOf(*s).twist[0].v), 1e-4);

@@ -18,7 +18,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// What a grain lies on, with its upper side at z = 0.
+/// Supports of a grain, each with its upper side at z = 0.
 struct Support {
   const char* name;
   std::string text;
@@ -83,7 +83,7 @@ TEST_P(FieldsOnTheWay, ChangeNoBitOfTheRun) {
   for (int k = 0; k < 8; ++k) {
     const terrain::SoilFields a = fieldsOf(measured, terrain::fieldGrid({-1, -1, -1}, {1, 1, 1}, 0.1, {}));
     if (k == 7) {
-      plain.ledger(); // as a row does: it may sort the grains anew
+      plain.ledger(); // rows call it; it may sort the grains anew
       const terrain::SoilFields b = fieldsOf(plain, a.grid);
       EXPECT_EQ(a.stress, b.stress);
       EXPECT_EQ(a.porosity, b.porosity);

@@ -31,7 +31,7 @@ TEST(SoilFields, TwoPressedSpheresCarryForceTimesDistance) {
   const SoilFields fields = fieldsOf(grains, fieldGrid({-0.02, -0.02, -0.02}, {0.03, 0.03, 0.03}, 0.01, {}));
   const Tensor6 total = totalOf(fields);
   const double moment = -m.law.stiffness * overlap * distance; // pressed: negative
-  const double resolution = 1e-9 / overlap;                    // of places, in units of the overlap
+  const double resolution = 1e-9 / overlap;                    // resolution of positions [overlap]
   std::size_t k = 0;
   for (int a = 0; a < 3; ++a)
     for (int b = a; b < 3; ++b, ++k)
@@ -171,7 +171,7 @@ TEST(SoilFields, MeanStressOfABoxAtRestIsTheLoadOfItsWalls) {
 TEST(SoilFields, WeightAddsItsMomentToTheLoadsOfTheWalls) {
   const PressedBox box(true, 2, kToRest);
   const Tensor6 total = totalOf(box.fields(0.06));
-  double moment = 0; // of floor, lid and weight about the ground plane: sum of force times height
+  double moment = 0; // sum of force times height over floor, lid and weight
   const auto snapshot = box.grains->snapshot();
   for (const Vec3d& x : snapshot.position) moment += box.model.mass * box.model.gravity.z * x.z;
   moment += box.load(4) * box.low.z - box.load(5) * box.high.z;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr int kShoes = 12, kRows = 80;
 
-/// Of figure.png: a column against time, a component against another, and the sum of two.
+/// Three panels of figure.png: a column against time, a component against another, and the sum of two.
 const std::string kPanels = R"([[output.plot]]
 title = "Speed"
 y = ["vehicle.left.speed"]
