@@ -164,6 +164,16 @@ ContactLaw mixedLaw(const MaterialProperties& a, const MaterialProperties& b, co
   return law;
 }
 
+Foundation mixedFoundation(const MaterialProperties& a, const MaterialProperties& b, const PairProperties& pair) {
+  constexpr double kRatio = MaterialProperties::kTangentialStiffnessRatio;
+  constexpr double kRestitution = MaterialProperties::kRestitution;
+  const double ka = a.foundationModulus, kb = b.foundationModulus;
+  return {
+      2 * ka * kb / (ka + kb), pair.friction.value_or(std::min(a.friction, b.friction)),
+      pair.restitution.value_or(std::min(a.restitution.value_or(kRestitution), b.restitution.value_or(kRestitution))),
+      std::min(a.tangentialStiffnessRatio.value_or(kRatio), b.tangentialStiffnessRatio.value_or(kRatio))};
+}
+
 Coefficients<double> stiffest(const ContactLaw& law, double effectiveMass, double effectiveRadius, double speed) {
   const double overlap =
       law.hertz ? hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).deepest : 0;

@@ -24,6 +24,7 @@ struct MaterialProperties {
   static constexpr double kTangentialStiffnessRatio = 2.0 / 7;
   static constexpr double kLinearTangentialDampingRatio = 0.5, kHertzTangentialDampingRatio = 1;
   static constexpr double kPlasticity = 0.5, kPlasticDepth = 0.05;
+  static constexpr double kFoundationModulus = 1e8;
 
   double density = 2500; ///< [kg/m3] of the solid
   LawKind law = LawKind::linear;
@@ -45,6 +46,7 @@ struct MaterialProperties {
   std::optional<double> plasticDepth;      ///< [-] luding: of the smaller radius' overlap where k2 is greatest
   std::optional<double> adhesionStiffness; ///< [N/m] luding: k_c of the adhesive branch
   std::optional<double> crushingStrength;  ///< [Pa] of its grains against parts; empty: they do not crush
+  double foundationModulus = kFoundationModulus; ///< [N/m3] of its bodies against bodies and what is rigid
   bool operator==(const MaterialProperties&) const = default;
 
   /// Whether its elastic law is Hertz'; else linear springs.
@@ -90,6 +92,17 @@ struct MixingError : base::InputError {
 /// bit. Throws MixingError.
 ContactLaw mixedLaw(const MaterialProperties& a, const MaterialProperties& b, const PairProperties& pair = {},
                     std::optional<double> effectiveMass = {});
+
+/// Contact of two bodies, or of a body with a rigid surface: see PatchLaw.
+struct Foundation {
+  double modulus{};         ///< [N/m3] moduli in series doubled
+  double friction{};        ///< [-] the smaller one
+  double restitution{};     ///< [-] the smaller one
+  double tangentialRatio{}; ///< [-] the smaller one; 2/7 of hertz materials
+};
+/// What `pair` has of friction and restitution replaces the mixed value. A material with `damping` instead of
+/// restitution counts as one of restitution kRestitution.
+Foundation mixedFoundation(const MaterialProperties& a, const MaterialProperties& b, const PairProperties& pair = {});
 
 /// Coefficients of a contact as stiff as it gets: of a linear one always, of a Hertz one at the deepest overlap of an
 /// impact at `speed` [m/s].

@@ -155,16 +155,20 @@ std::vector<Disc> discsOf(const base::SphereSet& set) {
   return discs;
 }
 
+std::uint32_t mainDirection(const Vec3d& normal) {
+  int axis = 0;
+  for (int a = 1; a < 3; ++a)
+    if (std::fabs(normal[a]) > std::fabs(normal[axis])) axis = a;
+  return static_cast<std::uint32_t>(2 * axis + (normal[axis] > 0 ? 1 : 0));
+}
+
 std::vector<SurfaceSample> surfaceSamplesOf(const base::SphereSet& set) {
   std::vector<SurfaceSample> samples;
   samples.reserve(set.surfaceCount);
   for (std::size_t i = 0; i < set.surfaceCount; ++i) {
     const base::SetSphere& s = set.spheres[i];
-    int axis = 0;
-    for (int a = 1; a < 3; ++a)
-      if (std::fabs(s.normal[a]) > std::fabs(s.normal[axis])) axis = a;
-    const auto cluster = static_cast<std::uint32_t>(2 * axis + (s.normal[axis] > 0 ? 1 : 0));
-    samples.push_back({s.centre.as<float>(), static_cast<float>(s.radius), static_cast<float>(s.area), cluster});
+    samples.push_back(
+        {s.centre.as<float>(), static_cast<float>(s.radius), static_cast<float>(s.area), mainDirection(s.normal)});
   }
   return samples;
 }

@@ -96,6 +96,8 @@ struct SurfaceSample {
 };
 
 inline constexpr int kClusters = 6;
+/// The cluster of a surface with this normal, in the part's frame.
+std::uint32_t mainDirection(const base::Vec3d& normal);
 
 /// Discs and samples of a sphere set, in its order.
 std::vector<Disc> discsOf(const base::SphereSet& set);

@@ -16,13 +16,16 @@ enum class SurfaceShape : std::int32_t {
   tube,    ///< a wall without thickness, rho = radius and |z| <= half: in contact from inside and outside, open at both
            ///< ends
   capsule, ///< solid: all points within radius of the segment x = y = 0, |z| <= half; a sphere where half is 0
+  cone,    ///< solid about the z axis, truncated: its radius falls linearly from the base at z = -half to the tip at
+           ///< z = half, with flat ends
 };
 
 /// Shape and size, the same for ever.
 struct SurfaceGeometry {
   SurfaceShape shape{};
   base::Vec3d half; ///< box: half of its edges; cylinder, tube: x the radius, z half of the length; capsule: x the
-                    ///< radius, z half of the segment [m]
+                    ///< radius, z half of the segment; cone: x the radius of the base, y that of the tip, not above x,
+                    ///< z half of the length [m]
 };
 
 /// Distance from a point to the nearest point of a surface, and the direction there.
@@ -85,6 +88,27 @@ GROUSER_HD SurfaceGap gapToCapsule(const base::Vec3d& half, const base::Vec3d& p
   return {apart * (1 / distance), distance - half.x};
 }
 
+/// In the plane of axis and point the cone is a convex polygon: base, side from A = (R, -h) to B = (r, h), tip.
+GROUSER_HD SurfaceGap gapToCone(const base::Vec3d& half, const base::Vec3d& p) {
+  const double rho = sqrt(p.x * p.x + p.y * p.y);
+  const base::Vec3d radial = rho > 0 ? base::Vec3d{p.x / rho, p.y / rho, 0} : base::Vec3d{1, 0, 0};
+  const base::Vec3d up{0, 0, 1};
+  const double narrowing = half.x - half.y, length = sqrt(narrowing * narrowing + 4 * half.z * half.z);
+  const double nRho = 2 * half.z / length, nUp = narrowing / length; // normal of the side
+  const double below = -half.z - p.z, above = p.z - half.z;
+  const double beside = (rho - half.x) * nRho + (p.z + half.z) * nUp;
+  const double along = (p.z + half.z) * nRho - (rho - half.x) * nUp; // of the side, from A
+  if (below > 0 && rho <= half.x) return {-up, below};
+  if (above > 0 && rho <= half.y) return {up, above};
+  if (below > 0 || above > 0 || beside > 0) {
+    if (along <= 0) return roundedGap(radial, rho - half.x, -up, below);
+    if (along >= length) return roundedGap(radial, rho - half.y, up, above);
+    return {radial * nRho + up * nUp, beside};
+  }
+  if (beside >= below && beside >= above) return {radial * nRho + up * nUp, beside};
+  return below > above ? SurfaceGap{-up, below} : SurfaceGap{up, above};
+}
+
 } // namespace detail
 
 /// Exact; both in the surface's frame.
@@ -92,6 +116,7 @@ GROUSER_HD SurfaceGap gapTo(const SurfaceGeometry& g, const base::Vec3d& p_S) {
   if (g.shape == SurfaceShape::plane) return {{0, 0, 1}, p_S.z};
   if (g.shape == SurfaceShape::box) return detail::gapToBox(g.half, p_S);
   if (g.shape == SurfaceShape::capsule) return detail::gapToCapsule(g.half, p_S);
+  if (g.shape == SurfaceShape::cone) return detail::gapToCone(g.half, p_S);
   return detail::gapToRound(g, p_S);
 }
 
@@ -99,6 +124,22 @@ GROUSER_HD SurfaceGap gapTo(const SurfaceGeometry& g, const base::Vec3d& p_S) {
 inline base::Vec3d halfExtent(const SurfaceGeometry& g) {
   if (g.shape == SurfaceShape::box) return g.half;
   return {g.half.x, g.half.x, g.half.z + (g.shape == SurfaceShape::capsule ? g.half.x : 0)};
+}
+
+/// The shortest half extent of a shape that has an end [m].
+inline double thinnest(const SurfaceGeometry& g) {
+  const base::Vec3d half = halfExtent(g);
+  return fmin(half.x, fmin(half.y, half.z));
+}
+
+/// Largest p . d over the points p of a surface [m], for a unit vector d in its frame; not of a plane.
+inline double farthestAlong(const SurfaceGeometry& g, const base::Vec3d& d) {
+  const double up = fabs(d.z) * g.half.z, across = sqrt(d.x * d.x + d.y * d.y);
+  if (g.shape == SurfaceShape::box) return fabs(d.x) * g.half.x + fabs(d.y) * g.half.y + up;
+  if (g.shape == SurfaceShape::capsule) return g.half.x + up;
+  if (g.shape != SurfaceShape::cone) return across * g.half.x + up;
+  const double base = across * g.half.x - d.z * g.half.z, tip = across * g.half.y + d.z * g.half.z;
+  return base > tip ? base : tip;
 }
 
 } // namespace grouser::contact

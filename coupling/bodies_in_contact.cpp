@@ -9,11 +9,28 @@ namespace grouser::coupling {
 
 using base::Vec3d;
 
+BodiesInContact::DriveReading BodiesInContact::drive(int index) const {
+  return {model().drives()[static_cast<std::size_t>(index)].law.value(state_.time),
+          multibody::driveForce(model(), state_, index), multibody::drivePower(model(), state_, index)};
+}
+
+double BodiesInContact::axisSpringForce(int index) const {
+  const multibody::AxisSpring& s = model().axisSprings()[static_cast<std::size_t>(index)];
+  const multibody::AxisReading axis = multibody::axisReading(model(), state_, s.joint, s.axis);
+  return s.preload - s.stiffness * (axis.position - s.freePosition) - s.damping * axis.rate;
+}
+
+std::vector<bool> BodiesInContact::touchingBodies() const {
+  std::vector<bool> all(model().bodies().size());
+  for (const ContactPart& part : contactParts_.parts) all[part.body] = true;
+  return all;
+}
+
 void BodiesInContact::collectInto(std::initializer_list<ForceMeans*> all) {
   contacts_->collect(loads_);
   for (ForceMeans* means : all) {
     if (!means) continue;
-    means->sums.resize(touching_.count() + contacts_->surfaces());
+    means->sums.resize(contactParts_.count() + contacts_->surfaces());
     for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);
     ++means->steps;
   }
@@ -22,9 +39,15 @@ void BodiesInContact::collectInto(std::initializer_list<ForceMeans*> all) {
 std::vector<Vec3d> BodiesInContact::meanForces(const ForceMeans& means, std::size_t bodies) const {
   std::vector<Vec3d> forces(bodies);
   const double share = means.steps > 0 ? 1 / static_cast<double>(means.steps) : 0.0;
-  for (std::size_t c = 0; c < std::min(means.sums.size(), touching_.count()); ++c)
-    forces[touching_.parts[c].body] += contacts_->groundForceQuantum().value(means.sums[c]) * share;
+  for (std::size_t c = 0; c < std::min(means.sums.size(), contactParts_.count()); ++c)
+    forces[contactParts_.parts[c].body] += contacts_->groundForceQuantum().value(means.sums[c]) * share;
   return forces;
+}
+
+Vec3d BodiesInContact::meanForceOn(std::size_t obstacle) const {
+  const std::size_t place = contactParts_.count() + obstacle;
+  if (rowMeans_.steps == 0 || place >= rowMeans_.sums.size()) return {};
+  return contacts_->groundForceQuantum().value(rowMeans_.sums[place]) * (1 / static_cast<double>(rowMeans_.steps));
 }
 
 void BodiesInContact::enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const {

@@ -6,6 +6,7 @@
 #include "coupling/part_contacts.hpp"
 #include "coupling/step_observer.hpp"
 #include "multibody/readings.hpp"
+#include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 
 #include <cstdint>
@@ -30,9 +31,27 @@ public:
   virtual void collectLoads() = 0; ///< once the device has them
   virtual void advance() = 0;      ///< multibody step
 
+  virtual const multibody::Model& model() const = 0;
+  virtual const multibody::Solver& solver() const = 0;
   const multibody::State& state() const { return state_; }
+  multibody::Balance bodiesBalance() const { return multibody::balance(model(), state_, loads_); }
+
+  /// A drive now.
+  struct DriveReading {
+    double value = 0;  ///< what it imposes [rad/s, rad, N m, or m/s, m, N]
+    double torque = 0; ///< [N m] or [N]
+    double power = 0;  ///< [W]
+  };
+  DriveReading drive(int index) const;
+  /// Force [N] or torque [N m] of a spring on an axis at its present position and rate, stops left out.
+  double axisSpringForce(int index) const;
+  std::vector<bool> touchingBodies() const; ///< [body] whether it has a surface that touches something
+  /// [body] force of all contacts, mean since the last row [N]; zero without.
+  std::vector<base::Vec3d> contactForces() const { return meanForces(rowMeans_, model().bodies().size()); }
   const PartContacts& contacts() const { return *contacts_; }
   PartContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
+  /// Force of the bodies on an obstacle of the scene, mean since the last row [N].
+  base::Vec3d meanForceOn(std::size_t obstacle) const;
 
 protected:
   /// Sums over steps of the force of ground and surfaces on each contact part, then of that on each surface: whole
@@ -53,7 +72,8 @@ protected:
 
   multibody::State state_;
   multibody::Loads loads_;
-  ContactParts touching_;
+  ForceMeans rowMeans_; ///< since the last row
+  ContactParts contactParts_;
   std::unique_ptr<PartContacts> contacts_; ///< null where the bodies touch nothing
 };
 

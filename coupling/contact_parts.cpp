@@ -9,12 +9,18 @@ std::vector<int> ContactParts::surfaceOfPart() const {
   return all;
 }
 
+std::vector<int> ContactParts::pointsOfPart() const {
+  std::vector<int> all;
+  for (const ContactPart& part : parts) all.push_back(part.points);
+  return all;
+}
+
 std::vector<contact::PointTree> ContactParts::pointsOf(const std::vector<int>& touching) const {
-  std::vector<contact::PointTree> all(surfaces.size());
+  std::vector<contact::PointTree> all(pointSets);
   for (const int part : touching) {
-    const int surface = parts[static_cast<std::size_t>(part)].surface;
-    contact::PointTree& tree = all[static_cast<std::size_t>(surface)];
-    if (tree.nodes().empty()) tree = points(surface);
+    const int set = parts[static_cast<std::size_t>(part)].points;
+    contact::PointTree& tree = all[static_cast<std::size_t>(set)];
+    if (tree.nodes().empty()) tree = points(set);
   }
   return all;
 }

@@ -23,10 +23,13 @@ struct ContactPart {
   base::Pose pose_B;                ///< pose of the surface's frame P in the body's frame: X_BP
   int surface{};                    ///< index into ContactParts::surfaces; -1: the closed-form `shape`
   contact::SurfaceGeometry shape{}; ///< used if surface is -1
+  int points{-1};                   ///< index of its surface points, by which it touches what is rigid; -1: none
+  contact::PatchLaw foundation{};   ///< on rigid ground
   int material{};                   ///< index of its material among those of all parts
   double reach{};                   ///< farthest point of the surface from its body's centre of mass [m]
   bool meetsGrains = true;          ///< whether it touches grains
   bool meetsGround{};               ///< whether it touches rigid ground as a foot; a hull does so among the obstacles
+  bool fixed{};                     ///< its body never moves, so it touches nothing that rests
   bool isHull{};                    ///< whether it touches rigid ground with the obstacles
   std::size_t shown{};              ///< its place among the parts of the results' frames
 };
@@ -34,21 +37,33 @@ struct ContactPart {
 /// Acceleration that turns a total mass into the scale of loads, whatever the scene's gravity is [m/s2].
 inline constexpr double kLoadScale = 9.81;
 
+struct Obstacle;
+
 /// All parts that touch something, with their surfaces. Outlives the contacts that are made of it.
 struct ContactParts {
+  /// A part whose points touch the closed-form shape of another.
+  struct Pair {
+    int part{}, other{};
+    contact::PatchLaw law;
+  };
+
   std::vector<ContactPart> parts;
   std::vector<const base::SphereSet*> surfaces;
-  /// Surface points of a surface, for contact with rigid ground and obstacles.
-  std::function<contact::PointTree(int surface)> points;
-  /// Elastic foundation of the parts: its friction is that on rigid ground.
-  contact::PatchLaw foundation;
+  std::size_t pointSets{}; ///< number of values of ContactPart::points
+  /// Surface points of a set, for contact with rigid ground, obstacles and shapes.
+  std::function<contact::PointTree(int set)> points;
+  std::vector<Pair> pairs;
+  /// Elastic foundation of a part on an obstacle.
+  std::function<contact::PatchLaw(const ContactPart&, const Obstacle&)> onObstacle;
   double contactSize{}; ///< smallest feature at which parts and obstacles meet [m]
   double weight{};      ///< total weight [N], which scales the load quanta
 
   std::size_t count() const { return parts.size(); }
   /// [part] index of its surface.
   std::vector<int> surfaceOfPart() const;
-  /// [surface] points of those that a part of `touching` has; the others are empty.
+  /// [part] index of its surface points.
+  std::vector<int> pointsOfPart() const;
+  /// [set] points of those that a part of `touching` has; the others are empty.
   std::vector<contact::PointTree> pointsOf(const std::vector<int>& touching) const;
   contact::PartMotion motionOf(std::size_t part, const multibody::State& state) const;
 };

@@ -29,23 +29,18 @@ constexpr double kTurnDigits = 1e-6;
 
 } // namespace
 
-Mechanism::Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec, Ground* ground)
+Mechanism::Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec, Ground* ground,
+                     const std::vector<Obstacle>& obstacles, SphereSets* kept)
     : timeStep_(timeStep), largestTurn_(setup.largestTurn), model_(setup.model), solver_(model_, setup.solver) {
   state_ = multibody::makeState(model_), loads_ = multibody::makeLoads(model_);
   startBlow_ = beginMotion(setup, solver_, state_, loads_);
   if (setup.control) controller_ = std::make_unique<StepController>(*setup.control, setup.largestTurn);
   for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
-  if (setup.shapes.empty() || !ground) return;
-  touching_ = contactPartsOf(setup);
-  replicated_ = ground->traits().replicated, mostTravel_ = 0.5 * ground->traits().smallestGrain;
-  contacts_ =
-      std::make_unique<PartContacts>(touching_, nullptr, std::vector<Obstacle>{}, exec, timeStep_, ground, nullptr);
-}
-
-std::vector<bool> Mechanism::touchingBodies() const {
-  std::vector<bool> all(model_.bodies().size());
-  for (const ContactPart& part : touching_.parts) all[part.body] = true;
-  return all;
+  if (setup.shapes.empty()) return;
+  addBodyParts(contactParts_, setup, model_);
+  const GroundTraits traits = ground ? ground->traits() : GroundTraits{};
+  replicated_ = traits.replicated, mostTravel_ = 0.5 * std::min(traits.smallestGrain, contactParts_.contactSize);
+  contacts_ = std::make_unique<PartContacts>(contactParts_, nullptr, obstacles, exec, timeStep_, ground, kept);
 }
 
 void Mechanism::fail(base::Cause cause, const std::string& message) const {
@@ -95,20 +90,21 @@ void Mechanism::advance() {
   if (steps_ % kJudgeInterval == 0) judge();
 }
 
-/// A surface that moves half a radius in a step could pass through a grain without contact.
+/// A surface that moves half the radius of a grain, or a quarter of the thickness of a shape, in a step could pass
+/// through it without contact.
 void Mechanism::checkTravel() const {
   const double way = contacts_->lastTravel();
   if (!(way > mostTravel_)) return;
   std::size_t fastest = 0;
   double speed = -1;
-  for (const ContactPart& part : touching_.parts) {
+  for (const ContactPart& part : contactParts_.parts) {
     const multibody::Twist& V = state_.twist[part.body];
     if (const double bound = norm(V.v) + norm(V.w) * part.reach; bound > speed) speed = bound, fastest = part.body;
   }
   fail(base::Cause::thrownPart,
-       fmt::format("body \"{}\" moves at up to {:.4g} m/s, {:.4g} m a step, more than half the radius of the smallest "
-                   "grain ({:.4g} m): it could pass through grains without contact; set run.time_step to {} s or less, "
-                   "or limit what drives it",
+       fmt::format("body \"{}\" moves at up to {:.4g} m/s, {:.4g} m a step, more than {:.4g} m, half the radius of the "
+                   "smallest grain or a quarter of the thinnest shape: it could pass through without contact; set "
+                   "run.time_step to {} s or less, or limit what drives it",
                    model_.bodies()[fastest].name, speed, way, mostTravel_, base::roundedDown(mostTravel_ / speed, 4)));
 }
 
@@ -192,17 +188,6 @@ std::string Mechanism::bounceNote() {
                      steps, kBounceSteps);
 }
 
-Mechanism::DriveReading Mechanism::drive(int index) const {
-  return {model_.drives()[at(index)].law.value(state_.time), multibody::driveForce(model_, state_, index),
-          multibody::drivePower(model_, state_, index)};
-}
-
-double Mechanism::axisSpringForce(int index) const {
-  const multibody::AxisSpring& s = model_.axisSprings()[at(index)];
-  const multibody::AxisReading axis = multibody::axisReading(model_, state_, s.joint, s.axis);
-  return s.preload - s.stiffness * (axis.position - s.freePosition) - s.damping * axis.rate;
-}
-
 void Mechanism::addTo(Ledger& l) const {
   multibody::Balance bodies = bodiesBalance();
   bodies.driveWork += contacts_ ? applied_.work() : bodies.externalWork;
@@ -247,7 +232,8 @@ MechanismState Mechanism::save() const {
 void Mechanism::restore(const MechanismState& saved) {
   state_.restore(saved.bodies);
   if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5 ||
-      saved.touching.has_value() != touches() || (touches() && saved.touching->forces.size() > touching_.count()))
+      saved.touching.has_value() != touches() ||
+      (touches() && saved.touching->forces.size() > contactParts_.count() + contacts_->surfaces()))
     throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
   steps_ = static_cast<std::int64_t>(saved.judged[0]);

@@ -23,12 +23,12 @@ namespace grouser::coupling {
 /// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
 class Mechanism : public BodiesInContact {
 public:
-  /// `ground`: what the bodies' shapes touch, which outlives it; null: nothing.
+  /// `ground`: touches the bodies' shapes, and outlives it; null without. `obstacles`: surfaces at rest that the shapes
+  /// touch. `kept` as in VehicleParts.
   Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec = base::cpuExec(1),
-            Ground* ground = nullptr);
+            Ground* ground = nullptr, const std::vector<Obstacle>& obstacles = {}, SphereSets* kept = nullptr);
 
   bool touches() const { return contacts_ != nullptr; }
-  std::vector<bool> touchingBodies() const; ///< [body] whether it has a shape that touches something
   void collectLoads() override { collectInto({&rowMeans_}); }
 
   /// Throws base::InputError where the mechanism has nothing that the input could set.
@@ -41,21 +41,9 @@ public:
   void advance() override;
   static constexpr std::int64_t kJudgeInterval = 50;
 
-  const multibody::Model& model() const { return model_; }
-  const multibody::Solver& solver() const { return solver_; }
+  const multibody::Model& model() const override { return model_; }
+  const multibody::Solver& solver() const override { return solver_; }
 
-  /// What a drive does now.
-  struct DriveReading {
-    double value = 0;  ///< what it imposes [rad/s, rad, N m, or m/s, m, N]
-    double torque = 0; ///< [N m] or [N]
-    double power = 0;  ///< [W]
-  };
-  DriveReading drive(int index) const;
-  /// Force [N] or torque [N m] of a spring on an axis at its present position and rate, stops left out.
-  double axisSpringForce(int index) const;
-
-  /// Energies and momenta of now; works and losses since the first step.
-  multibody::Balance bodiesBalance() const { return multibody::balance(model_, state_, loads_); }
   void addTo(Ledger& ledger) const;
 
   /// Kinetic energy that the drives gave in an impact, since the velocities of the scene did not fit theirs [J].
@@ -81,9 +69,6 @@ public:
   };
   Drift drift() const;
   void restartMeans() { worst_ = {}, rowMeans_.restart(); }
-
-  /// [body] force of all contacts, mean since restartMeans() [N]; zero without.
-  std::vector<base::Vec3d> contactForces() const { return meanForces(rowMeans_, model_.bodies().size()); }
 
   /// What its steps were; null where they are fixed.
   const StepController* controller() const { return controller_.get(); }
@@ -115,7 +100,6 @@ private:
   std::unique_ptr<StepController> controller_; ///< null: fixed steps
   std::vector<double> startTurn_;              ///< of each body in the first step [rad]
   AppliedLoads applied_;                       ///< from outside, where bodies touch something
-  ForceMeans rowMeans_;
   ReplicatedWork replicated_;
   double mostTravel_ = 0; ///< largest travel of a surface point in a step [m]
 };

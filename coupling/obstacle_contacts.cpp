@@ -18,7 +18,7 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
                                                          const std::vector<Obstacle>& obstacles,
                                                          const terrain::HeightField* hullOn, const Model& model,
                                                          const base::Comm& comm, SphereSets* kept) {
-  if (obstacles.empty() && !hullOn) return nullptr;
+  if (obstacles.empty() && !hullOn && parts.pairs.empty()) return nullptr;
   std::unique_ptr<ObstacleContacts> made(new ObstacleContacts);
   std::vector<PartCut> cuts;
   for (const Obstacle& o : obstacles)
@@ -33,25 +33,31 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
   std::vector<RigidContacts::Pair> pairs;
   std::vector<int> touching;
   using Kind = RigidContacts::Surface::Kind;
-  const auto meet = [&](int part) {
-    pairs.push_back({part, static_cast<int>(surfaces.size()) - 1});
+  const auto meet = [&](int part, const contact::PatchLaw& law) {
+    pairs.push_back({part, static_cast<int>(surfaces.size()) - 1, law});
     touching.push_back(part);
   };
   for (const Obstacle& o : obstacles) {
     surfaces.push_back({o.surface.mesh ? Kind::mesh : Kind::shape, o.surface.geometry, o.surface.mesh ? nextMesh++ : -1,
-                        count + static_cast<int>(surfaces.size()), o.friction});
+                        count + static_cast<int>(surfaces.size())});
     made->motions_.push_back(startingPose(o.surface).motion);
-    for (int part = 0; part < count; ++part) meet(part);
+    for (int part = 0; part < count; ++part)
+      if (const ContactPart& p = parts.parts[static_cast<std::size_t>(part)]; !p.fixed)
+        meet(part, parts.onObstacle(p, o));
   }
   if (hullOn) {
-    surfaces.push_back({Kind::field, {}, -1, count + static_cast<int>(surfaces.size()), parts.foundation.friction});
+    surfaces.push_back({Kind::field, {}, -1, count + static_cast<int>(surfaces.size())});
     made->motions_.push_back({{}, base::Mat3d::identity(), {}, {}, {}});
     for (int part = 0; part < count; ++part)
-      if (parts.parts[static_cast<std::size_t>(part)].isHull) meet(part);
+      if (const ContactPart& p = parts.parts[static_cast<std::size_t>(part)]; p.isHull) meet(part, p.foundation);
+  }
+  for (const ContactParts::Pair& pair : parts.pairs) {
+    surfaces.push_back({Kind::shape, parts.parts[static_cast<std::size_t>(pair.other)].shape, -1, pair.other});
+    meet(pair.part, pair.law);
   }
   made->contacts_ =
-      std::make_unique<RigidContacts>(RigidContacts::Model{parts.foundation, model.quanta, model.timeStep},
-                                      parts.pointsOf(touching), parts.surfaceOfPart(), surfaces, pairs, meshes, hullOn);
+      std::make_unique<RigidContacts>(RigidContacts::Model{model.quanta, model.timeStep}, parts.pointsOf(touching),
+                                      parts.pointsOfPart(), surfaces, pairs, meshes, hullOn);
   return made;
 }
 

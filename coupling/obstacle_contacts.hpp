@@ -14,7 +14,8 @@
 
 namespace grouser::coupling {
 
-/// The surfaces at rest that all parts of a vehicle meet, and rigid ground where the hull meets that, too.
+/// Parts on what is rigid beside their feet's ground: the surfaces at rest, which all parts touch, rigid ground for the
+/// hull, and the shapes of other parts (ContactParts::pairs).
 class ObstacleContacts {
 public:
   struct Model {

@@ -76,7 +76,8 @@ double topOf(const SurfaceSetup& surface, double x, double y) {
     cutSlab(p.z, d.z, half.z, low, high), cutRound(p, d, half.x, low, high);
     break;
   case terrain::SurfaceShape::tube:
-  case terrain::SurfaceShape::capsule: // bodies alone have that
+  case terrain::SurfaceShape::capsule: // bodies alone have that and the next
+  case terrain::SurfaceShape::cone:
     return kNoTop;
   }
   if (low > high) return kNoTop;

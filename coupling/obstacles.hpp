@@ -10,10 +10,10 @@
 
 namespace grouser::coupling {
 
-/// A surface at rest as the parts of a vehicle meet it.
+/// A surface at rest as the parts of a vehicle and bodies meet it.
 struct Obstacle {
   SurfaceSetup surface;
-  double friction{};                        ///< [-] of shoes, wheels and hull on it
+  double friction{};                        ///< [-] of shoes, wheels and hull on it; bodies have a FoundationTable
   std::optional<std::size_t> amongSurfaces; ///< its place among surfacesOf(); empty: a plane that is a wall to grains
 };
 

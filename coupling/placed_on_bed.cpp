@@ -49,14 +49,21 @@ bool isOver(int axis, double place, double radius, const SurfaceBounds& b, const
   return reaches(place) || reaches(place + period) || reaches(place - period);
 }
 
-/// How far to lift what these bounds hold, so that its lowest point stands `above` over the highest grain under it.
-double liftOf(const std::vector<Row>& rows, const SurfaceBounds& bounds, double above,
-              const terrain::PeriodicBoundaries& sides, const std::string& place, const base::Comm& comm) {
+/// Highest point of the grains under these bounds, on any rank [m]; kNoGrain where there is none.
+double topUnder(const std::vector<Row>& rows, const SurfaceBounds& bounds, const terrain::PeriodicBoundaries& sides,
+                const base::Comm& comm) {
   double top = kNoGrain;
   for (const Row& g : rows)
     if (isOver(0, g.position.x, g.radius, bounds, sides) && isOver(1, g.position.y, g.radius, bounds, sides))
       top = std::max(top, g.position.z + g.radius);
   comm.maximum(&top, 1);
+  return top;
+}
+
+/// How far to lift what these bounds hold, so that its lowest point stands `above` over the highest grain under it.
+double liftOf(const std::vector<Row>& rows, const SurfaceBounds& bounds, double above,
+              const terrain::PeriodicBoundaries& sides, const std::string& place, const base::Comm& comm) {
+  const double top = topUnder(rows, bounds, sides, comm);
   if (top == kNoGrain)
     throw base::InputError(fmt::format("{}.above_bed [m]: no grain of the bed lies under it, between x = {:.6g} and "
                                        "{:.6g} m, y = {:.6g} and {:.6g} m; move it over the bed, or give its height "
@@ -70,6 +77,18 @@ SurfaceBounds boundsOf(const SurfaceSetup& s) {
   if (s.geometry.shape == terrain::SurfaceShape::plane && !s.mesh)
     return {{-kWide, -kWide, s.start.position.z}, {kWide, kWide, kWide}};
   return boundsOf(s, s.start);
+}
+
+SurfaceBounds boundsOf(const BodyShape& shape, const multibody::Body& body) {
+  const base::Pose pose = multibody::compose(body.pose, shape.pose_B);
+  const base::Mat3d R = pose.orientation.matrix();
+  SurfaceBounds b;
+  for (int a = 0; a < 3; ++a) {
+    const Vec3d axis{R.m[a][0], R.m[a][1], R.m[a][2]}; // of the world, in the shape's frame
+    b.low[a] = pose.position[a] - farthestAlong(shape.shape, -axis);
+    b.high[a] = pose.position[a] + farthestAlong(shape.shape, axis);
+  }
+  return b;
 }
 
 SurfaceBounds boundsOf(const std::vector<terrain::GrainSpec>& grains) {
@@ -247,7 +266,7 @@ std::vector<double> liftsOnto(const terrain::Grains& bed, const GroundSetup& sce
 
 void lift(GroundSetup& scene, const std::vector<double>& lifts) {
   GrainsSetup& grains = *scene.grains;
-  if (lifts.size() != scene.surfaces.size() + grains.onBed.size())
+  if (lifts.size() < scene.surfaces.size() + grains.onBed.size()) // behind them may stand that of a mechanism
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   for (Obstacle& o : scene.obstacles)
     if (o.amongSurfaces) o.surface.lift(lifts[*o.amongSurfaces]);
@@ -263,6 +282,22 @@ void lift(GroundSetup& scene, const std::vector<double>& lifts) {
   }
 }
 
+double liftOnto(const terrain::Grains& bed, const GroundSetup& scene, const MechanismSetup& mechanism,
+                const base::Comm& comm) {
+  const std::vector<Row> rows = rowsOf(bed);
+  double way = kNoGrain;
+  for (const BodyShape& s : mechanism.shapes) {
+    const SurfaceBounds bounds = boundsOf(s, mechanism.model.bodies()[s.body]);
+    const double top = topUnder(rows, bounds, scene.grains->boundaries.periodic, comm);
+    if (top != kNoGrain) way = std::max(way, top + *mechanism.aboveBed - bounds.low.z);
+  }
+  if (way == kNoGrain)
+    throw base::InputError(fmt::format("{}.above_bed [m]: no grain of the bed lies under a shape of a body; move the "
+                                       "bodies over the bed, or remove the key",
+                                       mechanism.place));
+  return way;
+}
+
 void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const base::Comm& comm) {
   const std::vector<Row> rows = rowsOf(bed);
   for (const SurfaceSetup& s : scene.surfaces)
@@ -270,12 +305,13 @@ void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const bas
   for (const PlacedGrains& p : scene.grains->onBed) requireRoomFor(p, scene);
 }
 
-void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const base::Comm& comm) {
+void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const multibody::Model& model,
+                 const base::Comm& comm) {
   if (mechanism.shapes.empty()) return;
   const std::vector<Row> rows = rowsOf(grains);
   const double most = grains.model().maxEntryOverlap;
   for (const BodyShape& s : mechanism.shapes) {
-    const multibody::Body& body = mechanism.model.bodies()[s.body];
+    const multibody::Body& body = model.bodies()[s.body];
     const base::Pose pose = multibody::compose(body.pose, s.pose_B);
     const double reach = norm(halfExtent(s.shape));
     const Deepest d = deepestOf(rows, comm, [&](const Row& g) {

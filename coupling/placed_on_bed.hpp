@@ -18,12 +18,19 @@ std::vector<double> liftsOnto(const terrain::Grains& bed, const GroundSetup& sce
 /// Lifts them. Throws InputError when the lifts are of another scene.
 void lift(GroundSetup& scene, const std::vector<double>& lifts);
 
+/// How far to lift a mechanism, so that each of its shapes is at least aboveBed over the highest grain under it [m].
+/// Throws InputError where no grain is under any of them. All ranks call it, and all get the same.
+double liftOnto(const terrain::Grains& bed, const GroundSetup& scene, const MechanismSetup& mechanism,
+                const base::Comm& comm);
+
 /// Throws InputError where a surface or mesh would stand in a grain of the settled bed, or a placed grain in a mesh or
 /// wall: with the numbers, and what helps. All ranks call it.
 void requireRoom(const terrain::Grains& bed, const GroundSetup& scene, const base::Comm& comm);
 
-/// Throws InputError where a body of a mechanism stands in a grain at the start. All ranks call it.
-void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const base::Comm& comm);
+/// Throws InputError where a body of a mechanism stands in a grain at the start. `model` as in addBodyParts(). All
+/// ranks call it.
+void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism, const multibody::Model& model,
+                 const base::Comm& comm);
 
 /// Gives the grains of a settled bed the walls, surfaces, materials and radii of the whole scene: `ground` holds the
 /// bed alone before, and the same grains as the scene knows them after, where they lie and with the springs of their

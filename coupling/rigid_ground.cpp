@@ -16,13 +16,14 @@ GroundTraits RigidGround::traits() const {
 
 LoadQuanta RigidGround::meet(const PartsOnGround& on) {
   using Contacts = terrain::RigidContacts;
-  const Contacts::Surface field{Contacts::Surface::Kind::field, {}, -1, -1, on.parts.foundation.friction};
+  const Contacts::Surface field{Contacts::Surface::Kind::field, {}, -1, -1};
   std::vector<Contacts::Pair> pairs;
   std::vector<int> feet;
   for (std::size_t c = 0; c < on.parts.count(); ++c)
-    if (on.parts.parts[c].meetsGround) feet.push_back(static_cast<int>(c)), pairs.push_back({feet.back(), 0});
-  feet_ = std::make_unique<Contacts>(Contacts::Model{on.parts.foundation, on.quanta, on.timeStep},
-                                     on.parts.pointsOf(feet), on.parts.surfaceOfPart(), std::vector{field}, pairs,
+    if (const ContactPart& part = on.parts.parts[c]; part.meetsGround)
+      feet.push_back(static_cast<int>(c)), pairs.push_back({feet.back(), 0, part.foundation});
+  feet_ = std::make_unique<Contacts>(Contacts::Model{on.quanta, on.timeStep}, on.parts.pointsOf(feet),
+                                     on.parts.pointsOfPart(), std::vector{field}, pairs,
                                      std::vector<const base::SphereSet*>{}, &*laid_.rigid);
   return {on.quanta.force, on.quanta.torque};
 }

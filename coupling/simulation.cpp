@@ -34,16 +34,20 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
       requireRoom(*laid_.grains, setup_.ground, comm);
       takeIntoScene(laid_, setup_.ground, exec, comm);
     }
+    if (setup_.mechanism && setup_.mechanism->aboveBed) {
+      lifts_.push_back(liftOnto(*laid_.grains, setup_.ground, *setup_.mechanism, comm));
+      setup_.mechanism->model.translate({0, 0, lifts_.back()});
+    }
   } else {
     laid_ = buildGround(setup_.ground, exec, comm);
   }
   makeActingGround();
   if (setup_.vehicle) makeVehicle(spheres);
-  if (setup_.mechanism) makeMechanism();
+  if (setup_.mechanism && !setup_.vehicle) makeMechanism(spheres);
   if (laid_.grains) laid_.grains->setSteps(0);
   makeSurfaces(nullptr);
   if (isPutOnBed()) putGrains(laid_, setup_.ground);
-  if (laid_.grains && setup_.mechanism) requireRoom(*laid_.grains, *setup_.mechanism, comm);
+  if (setup_.mechanism) requireRoomForBodies();
   makeMeshContacts(spheres);
   start_ = wholeLedger();
   addGrains();
@@ -169,9 +173,17 @@ void Simulation::makeVehicle(SphereSets* spheres, std::optional<double> lift) {
   touching_ = vehicle_.get();
 }
 
-void Simulation::makeMechanism() {
-  mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep, exec_, ground_.get());
+void Simulation::makeMechanism(SphereSets* spheres) {
+  mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep, exec_, ground_.get(),
+                                           setup_.ground.obstacles, spheres);
   if (mechanism_->touches()) touching_ = mechanism_.get();
+}
+
+/// Throws InputError where a body of the mechanism overlaps something at the start.
+void Simulation::requireRoomForBodies() {
+  const multibody::Model& model = vehicle_ ? vehicle_->model() : mechanism_->model();
+  if (laid_.grains) requireRoom(*laid_.grains, *setup_.mechanism, model, comm_);
+  requireApart(*setup_.mechanism, model, setup_.ground.obstacles, laid_.rigid ? &*laid_.rigid : nullptr);
 }
 
 /// Makes the surfaces and gives the grains their poses of this step. The grains were built with the poses of t = 0, so

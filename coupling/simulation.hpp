@@ -112,8 +112,9 @@ private:
   PressedGrain pressed(std::uint32_t grain);
   std::string impactNote(const Ledger& now) const;
   void makeActingGround();
-  void makeMechanism();
+  void makeMechanism(SphereSets* spheres);
   void makeVehicle(SphereSets* spheres, std::optional<double> lift = {});
+  void requireRoomForBodies();
   void makeSurfaces(const SurfaceStates* former);
   void makeMeshContacts(SphereSets* spheres);
   bool hasBed() const { return setup_.ground.grains && setup_.ground.grains->bed; }

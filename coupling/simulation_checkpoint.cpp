@@ -57,7 +57,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
       settled_(state.settled), lifts_(state.lifts), gravity_(setup_.gravity), steps_(state.steps) {
   if (state.grains.has_value() != (laid_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
-      state.mechanism.has_value() != setup_.mechanism.has_value() ||
+      state.mechanism.has_value() != (setup_.mechanism && !setup_.vehicle) ||
       state.surfaces.has_value() != (laid_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   makeActingGround();
@@ -69,8 +69,11 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
     makeVehicle(spheres, state.vehicle->lift);
     vehicle_->restore(*state.vehicle);
   }
-  if (setup_.mechanism) {
-    makeMechanism();
+  if (setup_.mechanism && !setup_.vehicle) {
+    if (setup_.mechanism->aboveBed && lifts_.empty())
+      throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+    if (setup_.mechanism->aboveBed) setup_.mechanism->model.translate({0, 0, lifts_.back()});
+    makeMechanism(spheres);
     mechanism_->restore(*state.mechanism);
   }
   inputs_.restore(state.inputs);

@@ -2,6 +2,7 @@
 #include "coupling/vehicle_parts.hpp"
 
 #include "contact/part_surface.hpp"
+#include "coupling/obstacles.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "vehicle/shoe_points.hpp"
 
@@ -95,6 +96,9 @@ void VehicleParts::cut(const std::vector<std::size_t>& meshes, std::size_t hull,
 ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoesAlone) const {
   ContactParts all;
   for (const base::SphereSet& set : sets_) all.surfaces.push_back(&set);
+  const vehicle::ContactSpec& spec = assembly.spec.contact;
+  const contact::PatchLaw foundation{spec.foundationModulus, spec.relaxationTime, spec.frictionGround,
+                                     spec.tangentialRatio};
   for (std::size_t c = 0; c < contactParts_.size(); ++c) {
     const vehicle::Part& part = assembly.parts[partOf(c)];
     const bool isShoe = part.kind == vehicle::PartKind::kShoe;
@@ -102,6 +106,8 @@ ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoe
                          .body = static_cast<std::size_t>(part.body),
                          .pose_B = part.pose_B,
                          .surface = static_cast<int>(meshOfPart_[partOf(c)]),
+                         .points = static_cast<int>(meshOfPart_[partOf(c)]),
+                         .foundation = foundation,
                          .reach = reach_[c],
                          .meetsGrains = isShoe || !shoesAlone,
                          .isHull = part.kind == vehicle::PartKind::kChassis,
@@ -109,9 +115,13 @@ ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoe
   }
   for (const int part : assembly.groundParts)
     all.parts[static_cast<std::size_t>(contactIndex(part))].meetsGround = true;
-  all.points = [this](int surface) { return points(static_cast<std::size_t>(surface)); };
-  const vehicle::ContactSpec& spec = assembly.spec.contact;
-  all.foundation = {spec.foundationModulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
+  all.pointSets = sets_.size();
+  all.points = [this](int set) { return points(static_cast<std::size_t>(set)); };
+  all.onObstacle = [](const ContactPart& part, const Obstacle& o) {
+    contact::PatchLaw law = part.foundation;
+    law.friction = o.friction;
+    return law;
+  };
   all.contactSize = contactSize(assembly.spec);
   all.weight = assembly.mass * kLoadScale;
   return all;

@@ -20,14 +20,27 @@ namespace {
 vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<double(double, double)>& surfaceHeight,
                             double lift) {
   const Placement& place = setup.place;
-  vehicle::AssemblyOptions options;
-  options.fixChassis = setup.fixChassis;
-  options.guide = setup.guide, options.right = !setup.single;
-  options.drive = setup.driver.drive;
-  options.pose_W = setup.onTerrain ? setDown(setup.spec, place, setup.clearance, surfaceHeight)
-                                   : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
-  options.pose_W.position.z += lift;
-  return vehicle::assemble(setup.spec, options);
+  base::Pose pose_W = setup.onTerrain ? setDown(setup.spec, place, setup.clearance, surfaceHeight)
+                                      : vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading);
+  pose_W.position.z += lift;
+  return assembleAt(setup, pose_W);
+}
+
+/// With the bodies of the scene, those that hang on the vehicle where it stands.
+vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<MechanismSetup>& bodies) {
+  if (!bodies) return assembly;
+  const base::Pose chassis = assembly.model.bodies()[static_cast<std::size_t>(assembly.chassis)].pose;
+  assembly.model.append(bodies->model, bodies->ofVehicle, bodies->hitched, bodies->chassis, chassis);
+  return assembly;
+}
+
+/// Mass of the vehicle and of the bodies beside it that move [kg].
+double massOf(const vehicle::Assembly& assembly, const std::optional<MechanismSetup>& bodies) {
+  double mass = assembly.mass;
+  for (std::size_t b = bodies ? bodies->ofVehicle.bodies : assembly.model.bodies().size();
+       b < assembly.model.bodies().size(); ++b)
+    if (const multibody::Body& body = assembly.model.bodies()[b]; !body.fixed) mass += body.mass;
+  return mass;
 }
 
 GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() : GroundTraits{}; }
@@ -109,14 +122,16 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
                                             traitsOf(ground).comm, kept, traitsOf(ground).smallestGrain,
                                             shapesAlone(setup))),
       lift_(lift ? *lift : liftFor(setup, ground, *parts_, surfaceHeight)),
-      assembly_(assembled(*setup.vehicle, surfaceHeight, lift_)),
+      assembly_(withBodies(assembled(*setup.vehicle, surfaceHeight, lift_), setup.mechanism)),
       solver_(std::make_unique<multibody::Solver>(assembly_.model)), driver_(setup.vehicle->driver),
       thickestStone_(setup.vehicle->thickestStone), heading_(setup.vehicle->place.heading),
       observer_(std::make_unique<vehicle::Observer>(assembly_, observerOptions())),
-      blows_(assembly_.mass * norm(gravity_)), gear_{assembly_, *parts_} {
+      carried_(massOf(assembly_, setup.mechanism)), blows_(carried_ * norm(gravity_)), gear_{assembly_, *parts_} {
   state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
-  touching_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
-  contacts_ = std::make_unique<PartContacts>(touching_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);
+  contactParts_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
+  if (setup.mechanism) addBodyParts(contactParts_, *setup.mechanism, assembly_.model);
+  contacts_ =
+      std::make_unique<PartContacts>(contactParts_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
 
@@ -192,19 +207,13 @@ Vec3d VehicleRig::groundForce(const ForceMeans& means) const {
   return sum;
 }
 
-Vec3d VehicleRig::meanForceOn(std::size_t obstacle) const {
-  const std::size_t place = touching_.count() + obstacle;
-  if (rowMeans_.steps == 0 || place >= rowMeans_.sums.size()) return {};
-  return contacts_->groundForceQuantum().value(rowMeans_.sums[place]) * (1 / static_cast<double>(rowMeans_.steps));
-}
-
 /// Lets a driver that waits know whether the vehicle rests.
 std::string VehicleRig::judgeRest() {
   if (!driver_.waits() || !contacts_->onGround()) return {};
   const double g = norm(gravity_);
   const Vec3d down = g > 0 ? gravity_ * (1 / g) : Vec3d{0, 0, -1};
   return driver_.judge(state_.time, dot(state_.twist[assembly_.chassis].v, down),
-                       g > 0 ? -dot(groundForce(alarmMeans_), down) / (assembly_.mass * g) : 0.0);
+                       g > 0 ? -dot(groundForce(alarmMeans_), down) / (carried_ * g) : 0.0);
 }
 
 /// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.
@@ -313,7 +322,7 @@ VehicleState VehicleRig::save() const {
 }
 
 void VehicleRig::restore(const VehicleState& s) {
-  const std::size_t most = touching_.count() + contacts_->surfaces(), swings = swings_.save().size();
+  const std::size_t most = contactParts_.count() + contacts_->surfaces(), swings = swings_.save().size();
   if (s.groundForces.size() > most || s.alarmForces.size() > most ||
       (s.judged.size() != swings && s.judged.size() != swings + vehicle::BlowMeter::kNumbers))
     throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");

@@ -39,6 +39,8 @@ public:
   void collectLoads() override;
   void advance() override;
 
+  const multibody::Model& model() const override { return assembly_.model; }
+  const multibody::Solver& solver() const override { return *solver_; }
   const vehicle::Assembly& assembly() const { return assembly_; }
   const VehicleParts& parts() const { return *parts_; }
 
@@ -54,8 +56,6 @@ public:
   const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
   /// Sum over all parts, mean since restartMeans() [N].
   base::Vec3d meanGroundForce() const { return groundForce(rowMeans_); }
-  /// Of the vehicle on one of setup.ground.obstacles, mean since restartMeans() [N].
-  base::Vec3d meanForceOn(std::size_t obstacle) const;
   /// When the drive began [s]; empty while it waits for the vehicle to rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }
   /// Steps between two calls of alarm(), and of those that look at the pull of the tracks, which takes a millisecond.
@@ -70,8 +70,6 @@ public:
   /// on.
   const std::string& ended() const { return ended_; }
 
-  /// The books of the bodies alone; what contacts of parts hold and lose is in contacts().ledger().
-  multibody::Balance bodiesBalance() const { return multibody::balance(assembly_.model, state_, loads_); }
   /// Adds the bodies' energies and momenta, and those of contacts of parts with parts and ground.
   void addTo(Ledger& ledger) const;
 
@@ -114,9 +112,10 @@ private:
   double thickestStone_, heading_; ///< for observers [m], [rad]
   std::unique_ptr<vehicle::Observer> observer_;
   std::optional<Watch> watch_;
+  double carried_; ///< mass that the ground carries at rest [kg]: the vehicle and the bodies beside it
   vehicle::BlowMeter blows_;
   PartContacts::RunningGear gear_;
-  ForceMeans rowMeans_, alarmMeans_;
+  ForceMeans alarmMeans_;
   SwingGrowth swings_;          ///< of track and arms
   std::int64_t stalledSteps_{}; ///< for which driven tracks have not moved the hull
   std::string ended_;

@@ -17,4 +17,18 @@ base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, dou
                                ground.ahead, ground.left);
 }
 
+vehicle::Assembly assembleAt(const VehicleSetup& setup, const base::Pose& pose_W) {
+  vehicle::AssemblyOptions options;
+  options.fixChassis = setup.fixChassis;
+  options.guide = setup.guide, options.right = !setup.single;
+  options.drive = setup.driver.drive;
+  options.pose_W = pose_W;
+  return vehicle::assemble(setup.spec, options);
+}
+
+vehicle::Assembly assembleOnLevelGround(const VehicleSetup& setup) {
+  const Placement& place = setup.place;
+  return assembleAt(setup, vehicle::placeOnGround(setup.spec, place.x, place.y, 0, 0, place.heading));
+}
+
 } // namespace grouser::coupling

@@ -24,6 +24,13 @@ struct Placement {
 base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,
                    const std::function<double(double, double)>& surfaceHeight);
 
+struct VehicleSetup;
+
+/// The vehicle as it is assembled with the vehicle frame at `pose_W`.
+vehicle::Assembly assembleAt(const VehicleSetup& setup, const base::Pose& pose_W);
+/// The same on level ground of height 0, the lowest grousers on it.
+vehicle::Assembly assembleOnLevelGround(const VehicleSetup& setup);
+
 /// What ends a run before its time; empty where it is not asked.
 struct StopSetup {
   std::optional<double> distance; ///< [m] from where it was set down

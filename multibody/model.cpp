@@ -301,6 +301,42 @@ int Model::addCoupling(const Coupling& given) {
   return static_cast<int>(couplings_.size()) - 1;
 }
 
+PartCounts Model::counts() const {
+  return {bodies_.size(),   joints_.size(), axisSprings_.size(), pointSprings_.size(),
+          bushings_.size(), drives_.size(), couplings_.size()};
+}
+
+void Model::append(const Model& all, const PartCounts& from, const std::vector<bool>& moved, const Pose& X_from,
+                   const Pose& X_to) {
+  const auto add = [](const auto& parts, std::size_t first, const auto& addOne) {
+    for (std::size_t i = first; i < parts.size(); ++i) addOne(i, parts[i]);
+  };
+  add(all.bodies(), from.bodies, [&](std::size_t i, Body body) {
+    if (moved[i]) {
+      const Quat turn = X_to.orientation * X_from.orientation.conjugate();
+      body.pose = compose(X_to, compose(inverse(X_from), body.pose));
+      body.v_WB = rotate(turn, body.v_WB), body.w_WB = rotate(turn, body.w_WB);
+    }
+    addBody(body);
+  });
+  add(all.joints(), from.joints, [&](std::size_t, const Joint& joint) { addJoint(joint); });
+  add(all.axisSprings(), from.axisSprings, [&](std::size_t, const AxisSpring& spring) { addAxisSpring(spring); });
+  add(all.pointSprings(), from.pointSprings, [&](std::size_t, const PointSpring& spring) { addPointSpring(spring); });
+  add(all.bushings(), from.bushings, [&](std::size_t, const Bushing& bushing) { addBushing(bushing); });
+  add(all.drives(), from.drives, [&](std::size_t, const Drive& drive) { addDrive(drive); });
+  add(all.couplings(), from.couplings, [&](std::size_t, const Coupling& coupling) { addCoupling(coupling); });
+}
+
+void Model::translate(const Vec3d& way) {
+  for (Body& body : bodies_) body.pose.position += way;
+  const auto hold = [&](int body, Vec3d& point) {
+    if (body == kWorld) point += way;
+  };
+  for (Joint& j : joints_) hold(j.bodyA, j.frame_A.position), hold(j.bodyB, j.frame_B.position);
+  for (PointSpring& s : pointSprings_) hold(s.bodyA, s.point_A), hold(s.bodyB, s.point_B);
+  for (Bushing& b : bushings_) hold(b.bodyA, b.frame_A.position), hold(b.bodyB, b.frame_B.position);
+}
+
 int Model::bodyIndex(const std::string& name) const { return indexByName(bodies_, "body", name); }
 int Model::jointIndex(const std::string& name) const { return indexByName(joints_, "joint", name); }
 

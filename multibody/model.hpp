@@ -4,6 +4,7 @@
 #include "base/vec.hpp"
 #include "multibody/time_law.hpp"
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -158,6 +159,11 @@ struct Coupling {
   double offset = std::numeric_limits<double>::quiet_NaN(); ///< [rad] or [m]; not a number: as the bodies are placed
 };
 
+/// How many parts of each kind a mechanism has.
+struct PartCounts {
+  std::size_t bodies{}, joints{}, axisSprings{}, pointSprings{}, bushings{}, drives{}, couplings{};
+};
+
 /// The mechanism. Every add... checks what it is given, throws PartError, and returns an index.
 class Model {
 public:
@@ -171,6 +177,8 @@ public:
   int addBushing(const Bushing& bushing);
   int addDrive(const Drive& drive);
   int addCoupling(const Coupling& coupling);
+  /// Moves all bodies by `way` [m], with what joints, springs and bushings hold in the world.
+  void translate(const Vec3d& way);
 
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Joint>& joints() const { return joints_; }
@@ -179,6 +187,12 @@ public:
   const std::vector<Bushing>& bushings() const { return bushings_; }
   const std::vector<Drive>& drives() const { return drives_; }
   const std::vector<Coupling>& couplings() const { return couplings_; }
+
+  PartCounts counts() const;
+  /// Adds the parts of `all` beyond `from`; up to there `all` has the parts of this model, in another place. Bodies of
+  /// `moved` ([body of all]) move from the frame `X_from` to `X_to` with them.
+  void append(const Model& all, const PartCounts& from, const std::vector<bool>& moved, const Pose& X_from,
+              const Pose& X_to);
 
   /// Index by name; throws PartError if there is none.
   int bodyIndex(const std::string& name) const;

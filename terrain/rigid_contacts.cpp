@@ -218,12 +218,11 @@ void RigidContacts::press(std::size_t pair, const PartMotion* motion, contact::P
   const std::optional<Plane> plane = planeOf(surface, motion, part);
   if (plane ? plane->height < -tree.reach() : !mayTouch(surface, motion, part.origin, tree.reach())) return;
 
-  contact::PatchLaw law = model_.law;
-  law.friction = surface.friction;
+  Vec3d velocity = part.velocityAt(part.origin), spin = part.spin; // relative to the surface
+  if (surface.motion >= 0)
+    velocity -= motion[surface.motion].velocityAt(part.origin), spin -= motion[surface.motion].spin;
   const contact::PointPress pointPress{
-      law,
-      model_.timeStep,
-      {transposedTimes(part.rotation, part.velocityAt(part.origin)), transposedTimes(part.rotation, part.spin)}};
+      of.law, model_.timeStep, {transposedTimes(part.rotation, velocity), transposedTimes(part.rotation, spin)}};
   std::optional<BoxInPart> box;
   if (surface.kind == Surface::Kind::shape && surface.geometry.shape == SurfaceShape::box)
     box.emplace(surface.geometry.half, motion[surface.motion], part);
@@ -237,8 +236,8 @@ void RigidContacts::press(std::size_t pair, const PartMotion* motion, contact::P
     contact::PatchPressure& pressure = press.planar;
     if (press.any) pressure += contact::sumOf(press.other);
     if (!(pressure.area > 0)) continue;
-    patches_.press(pair * contact::kClusters + static_cast<std::size_t>(cluster), law, motion, of.part, surface.motion,
-                   inWorld(pressure, part), loads);
+    patches_.press(pair * contact::kClusters + static_cast<std::size_t>(cluster), of.law, motion, of.part,
+                   surface.motion, inWorld(pressure, part), loads);
   }
 }
 

@@ -15,8 +15,9 @@
 
 namespace grouser::terrain {
 
-/// Contacts of rigid parts with fixed rigid surfaces: height-field, planes, boxes, cylinders, meshes. Surface points of
-/// the part press on an elastic foundation. Runs on the host in SIMD lanes of eight points, without contact lists.
+/// Contacts of rigid parts with rigid surfaces: height-field, planes, boxes, cylinders, capsules, meshes. A surface may
+/// move, such as the shape of another part. Surface points of the part press on an elastic foundation. Runs on the host
+/// in SIMD lanes of eight points, without contact lists.
 class RigidContacts {
 public:
   /// A surface. Its pose is stored with the motions of the parts.
@@ -26,14 +27,13 @@ public:
     SurfaceGeometry geometry; ///< of a shape
     int set{-1};              ///< of a mesh: its sphere set
     int motion{-1};           ///< index of its motion and load; -1: a height-field whose load is not needed
-    double friction{};        ///< [-] against all parts
   };
   /// A part that may touch a surface.
   struct Pair {
     int part{}, surface{};
+    contact::PatchLaw law;
   };
   struct Model {
-    contact::PatchLaw law; ///< but for its friction
     contact::PatchQuanta quanta;
     double timeStep{};
   };

@@ -66,11 +66,8 @@ public:
 private:
   int cells(double length) const { return std::max(1, static_cast<int>(std::ceil(length / spacing_ - 1e-9))); }
   void put(const Vec3d& at, double area, const Vec3d& n) {
-    const int axis = std::fabs(n.x) >= std::fabs(n.y) && std::fabs(n.x) >= std::fabs(n.z) ? 0
-                     : std::fabs(n.y) >= std::fabs(n.z)                                   ? 1
-                                                                                          : 2;
-    const auto cluster = static_cast<std::uint32_t>(2 * axis + (n[axis] > 0 ? 1 : 0));
-    points_.push_back({(at - n * radius_).as<float>(), static_cast<float>(radius_), static_cast<float>(area), cluster});
+    points_.push_back({(at - n * radius_).as<float>(), static_cast<float>(radius_), static_cast<float>(area),
+                       contact::mainDirection(n)});
   }
 
   double spacing_, radius_;

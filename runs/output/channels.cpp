@@ -49,7 +49,8 @@ Columns<coupling::Surfaces::Observation> surfaceColumns(const std::string& name,
 
 Columns<base::Vec3d> obstacleColumns(const std::string& name) {
   Columns<base::Vec3d> c("obstacles/" + name + "/");
-  c.add("force", "N", "of the vehicle on it, mean since the last row", [](const base::Vec3d& force) { return force; });
+  c.add("force", "N", "of vehicle and bodies on it, mean since the last row",
+        [](const base::Vec3d& force) { return force; });
   return c;
 }
 

@@ -117,9 +117,10 @@ double sizeOf(const multibody::Model& model) {
 class MechanismColumns {
 public:
   MechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
-                   const std::vector<std::string>& record)
-      : model_(model), touching_(touching), record_(record) {
-    addBodies(), addJoints(), addSprings(), addBushings(), addDrives(), addCouplings(), addWhole();
+                   const std::vector<std::string>& record, const multibody::PartCounts& from)
+      : model_(model), touching_(touching), record_(record), from_(from) {
+    addBodies(), addJoints(), addSprings(), addBushings(), addDrives(), addCouplings();
+    if (from_.bodies == 0) addWhole();
   }
   const Columns<MechanismReading>& all() const { return columns_; }
 
@@ -127,8 +128,9 @@ private:
   using Reading = MechanismReading;
 
   /// Calls add(i, "bodies/NAME/", part) for the parts of a kind that are recorded.
-  template <class Part, class Add> void forKept(const std::vector<Part>& parts, const char* group, const Add& add) {
-    for (std::size_t i = 0; i < parts.size(); ++i)
+  template <class Part, class Add>
+  void forKept(const std::vector<Part>& parts, std::size_t from, const char* group, const Add& add) {
+    for (std::size_t i = from; i < parts.size(); ++i)
       if (isKept(record_, parts[i].name)) add(i, fmt::format("{}/{}/", group, parts[i].name), parts[i]);
   }
   /// A number or vector that is found in a step: not known before the first.
@@ -148,7 +150,7 @@ private:
   bool turnsAbout(int joint, multibody::JointAxis axis) const { return turns(jointOf(model_, joint), axis); }
 
   void addBodies() {
-    forKept(model_.bodies(), "bodies", [&](std::size_t i, const std::string& path, const auto&) {
+    forKept(model_.bodies(), from_.bodies, "bodies", [&](std::size_t i, const std::string& path, const auto&) {
       const auto pose = [i](const Reading& r) -> const base::Pose& { return r.mechanism.state().pose[i]; };
       const auto twist = [i](const Reading& r) -> const multibody::Twist& { return r.mechanism.state().twist[i]; };
       columns_.add(path + "position", "m", "of the centre of mass", [=](const Reading& r) { return pose(r).position; });
@@ -165,15 +167,17 @@ private:
   }
 
   void addJoints() {
-    forKept(model_.joints(), "joints", [&](std::size_t i, const std::string& path, const multibody::Joint& joint) {
-      addOfStep(path + "force", "N",
-                "on the second body from the first, with springs and drives of the axis, without couplings; world "
-                "components",
-                [i](const Reading& r) { return r.reactions[i].force; });
-      addOfStep(path + "torque", "N m", "the same, about the joint",
-                [i](const Reading& r) { return r.reactions[i].torque; });
-      for (const NamedAxis& a : axesOf(joint)) addAxis(static_cast<int>(i), path + a.prefix, a);
-    });
+    forKept(model_.joints(), from_.joints, "joints",
+            [&](std::size_t i, const std::string& path, const multibody::Joint& joint) {
+              addOfStep(
+                  path + "force", "N",
+                  "on the second body from the first, with springs and drives of the axis, without couplings; world "
+                  "components",
+                  [i](const Reading& r) { return r.reactions[i].force; });
+              addOfStep(path + "torque", "N m", "the same, about the joint",
+                        [i](const Reading& r) { return r.reactions[i].torque; });
+              for (const NamedAxis& a : axesOf(joint)) addAxis(static_cast<int>(i), path + a.prefix, a);
+            });
   }
   void addAxis(int joint, const std::string& path, const NamedAxis& a) {
     const auto axis = [joint, which = a.axis](const Reading& r) {
@@ -188,22 +192,24 @@ private:
   }
 
   void addSprings() {
-    forKept(model_.pointSprings(), "springs", [&](std::size_t i, const std::string& path, const auto&) {
-      addOfStep(path + "force", "N", "positive pushes apart",
-                [i](const Reading& r) { return r.mechanism.state().spring[i].force; });
-      columns_.add(path + "length", "m", "between its ends",
-                   [i](const Reading& r) { return r.mechanism.state().spring[i].length; });
-    });
-    forKept(model_.axisSprings(), "springs", [&](std::size_t i, const std::string& path, const auto& spring) {
-      if (!isSpring(spring)) return;
-      columns_.add(path + "force", turnsAbout(spring.joint, spring.axis) ? "N m" : "N",
-                   "on the second body along the axis",
-                   [i](const Reading& r) { return r.mechanism.axisSpringForce(static_cast<int>(i)); });
-    });
+    forKept(model_.pointSprings(), from_.pointSprings, "springs",
+            [&](std::size_t i, const std::string& path, const auto&) {
+              addOfStep(path + "force", "N", "positive pushes apart",
+                        [i](const Reading& r) { return r.mechanism.state().spring[i].force; });
+              columns_.add(path + "length", "m", "between its ends",
+                           [i](const Reading& r) { return r.mechanism.state().spring[i].length; });
+            });
+    forKept(model_.axisSprings(), from_.axisSprings, "springs",
+            [&](std::size_t i, const std::string& path, const auto& spring) {
+              if (!isSpring(spring)) return;
+              columns_.add(path + "force", turnsAbout(spring.joint, spring.axis) ? "N m" : "N",
+                           "on the second body along the axis",
+                           [i](const Reading& r) { return r.mechanism.axisSpringForce(static_cast<int>(i)); });
+            });
   }
 
   void addBushings() {
-    forKept(model_.bushings(), "bushings", [&](std::size_t i, const std::string& path, const auto&) {
+    forKept(model_.bushings(), from_.bushings, "bushings", [&](std::size_t i, const std::string& path, const auto&) {
       const auto bushing = [i](const Reading& r) { return r.mechanism.state().bushing[i]; };
       addOfStep(path + "force", "N", "on the second body, world components",
                 [=](const Reading& r) { return bushing(r).force; });
@@ -217,25 +223,28 @@ private:
   }
 
   void addDrives() {
-    forKept(model_.drives(), "drives", [&](std::size_t i, const std::string& path, const multibody::Drive& d) {
-      const bool turning = turnsAbout(d.joint, d.axis);
-      const auto drive = [i](const Reading& r) { return r.mechanism.drive(static_cast<int>(i)); };
-      columns_.add(path + "value", driveUnit(d.kind, turning), "what it imposes",
-                   [=](const Reading& r) { return drive(r).value; });
-      addOfStep(path + "torque", turning ? "N m" : "N", "that it takes",
-                [=](const Reading& r) { return drive(r).torque; });
-      addOfStep(path + "power", "W", "that it gives to the mechanism",
-                [=](const Reading& r) { return drive(r).power; });
-    });
+    forKept(model_.drives(), from_.drives, "drives",
+            [&](std::size_t i, const std::string& path, const multibody::Drive& d) {
+              const bool turning = turnsAbout(d.joint, d.axis);
+              const auto drive = [i](const Reading& r) { return r.mechanism.drive(static_cast<int>(i)); };
+              columns_.add(path + "value", driveUnit(d.kind, turning), "what it imposes",
+                           [=](const Reading& r) { return drive(r).value; });
+              addOfStep(path + "torque", turning ? "N m" : "N", "that it takes",
+                        [=](const Reading& r) { return drive(r).torque; });
+              addOfStep(path + "power", "W", "that it gives to the mechanism",
+                        [=](const Reading& r) { return drive(r).power; });
+            });
   }
 
   void addCouplings() {
-    forKept(model_.couplings(), "couplings", [&](std::size_t i, const std::string& path, const auto& coupling) {
-      addOfStep(path + "force", turnsAbout(coupling.joint2, coupling.axis2) ? "N m" : "N",
-                "on the second axis, beside what the joint's force and torque hold; the first feels minus the ratio "
-                "times it",
-                [i](const Reading& r) { return r.mechanism.state().coupling[i].force; });
-    });
+    forKept(model_.couplings(), from_.couplings, "couplings",
+            [&](std::size_t i, const std::string& path, const auto& coupling) {
+              addOfStep(
+                  path + "force", turnsAbout(coupling.joint2, coupling.axis2) ? "N m" : "N",
+                  "on the second axis, beside what the joint's force and torque hold; the first feels minus the ratio "
+                  "times it",
+                  [i](const Reading& r) { return r.mechanism.state().coupling[i].force; });
+            });
   }
 
   void addWhole() {
@@ -255,19 +264,29 @@ private:
   const multibody::Model& model_;
   const std::vector<bool>& touching_;
   const std::vector<std::string>& record_;
+  const multibody::PartCounts from_;
   Columns<MechanismReading> columns_;
 };
 
 } // namespace
 
-MechanismReading::MechanismReading(const coupling::Mechanism& m)
-    : mechanism(m), reactions(m.solver().reactions(m.state())), now(m.bodiesBalance().now), drift(m.drift()),
+MechanismReading::MechanismReading(const coupling::BodiesInContact& m, const coupling::Mechanism::Drift& openings)
+    : mechanism(m), reactions(m.solver().reactions(m.state())), now(m.bodiesBalance().now), drift(openings),
       contacts(m.contactForces()) {}
 
 Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
-                                           const std::vector<std::string>& record) {
-  const MechanismColumns columns(model, touching, record);
+                                           const std::vector<std::string>& record,
+                                           const multibody::PartCounts& ofVehicle) {
+  const MechanismColumns columns(model, touching, record, ofVehicle);
   return columns.all();
+}
+
+Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names) {
+  Columns<std::vector<double>> columns("bodies/");
+  for (std::size_t p = 0; p < names.size(); ++p)
+    columns.add(names[p] + "/grain_mass", "kg", "of the grains with centres in the box of probe_size",
+                [p](const std::vector<double>& masses) { return masses[p]; });
+  return columns;
 }
 
 std::string integratorText(const multibody::SolverOptions& options) {
@@ -307,7 +326,7 @@ std::vector<FramePart> mechanismParts(const coupling::MechanismSetup& setup) {
   const multibody::Model& model = setup.model;
   const double size = sizeOf(model);
   std::vector<FramePart> parts;
-  for (std::size_t b = 0; b < model.bodies().size(); ++b) {
+  for (std::size_t b = setup.ofVehicle.bodies; b < model.bodies().size(); ++b) {
     const multibody::Body& body = model.bodies()[b];
     FramePart part{body.name, body.fixed ? PartKind::fixed : kBodyKinds[b % std::size(kBodyKinds)], {}};
     std::vector<Vec3d> ends;
@@ -318,7 +337,7 @@ std::vector<FramePart> mechanismParts(const coupling::MechanismSetup& setup) {
     const bool isSmall = !ends.empty() || body.fixed || body.point;
     const Vec3d fallback =
         isSmall ? Vec3d{1, 1, 1} * (kCentre * size) : boxOf(body, kLeastEdge * size, kGreatestEdge * size);
-    const std::optional<Vec3d>& box = setup.boxes[b];
+    const std::optional<Vec3d>& box = setup.boxes[b - setup.ofVehicle.bodies];
     for (const coupling::BodyShape& s : setup.shapes)
       if (s.body == b) addShape(part.mesh, s);
     const bool isShaped = !part.mesh.vertices.empty();

@@ -11,19 +11,26 @@
 /// What a run writes of a mechanism.
 namespace grouser::output {
 
-/// A mechanism at the time of a row. What acts on its bodies is found in a step: before the first it is NaN.
+/// A mechanism, or the bodies beside a vehicle, at the time of a row. What acts on its bodies is found in a step:
+/// before the first it is NaN.
 struct MechanismReading {
-  explicit MechanismReading(const coupling::Mechanism& m);
-  const coupling::Mechanism& mechanism;
+  explicit MechanismReading(const coupling::BodiesInContact& bodies, const coupling::Mechanism::Drift& drift = {});
+  explicit MechanismReading(const coupling::Mechanism& m) : MechanismReading(m, m.drift()) {}
+  const coupling::BodiesInContact& mechanism;
   std::vector<multibody::JointReaction> reactions;
   multibody::Totals now;
-  coupling::Mechanism::Drift drift;
+  coupling::Mechanism::Drift drift;  ///< of a mechanism
   std::vector<base::Vec3d> contacts; ///< [body] [N]
 };
 /// `record`: names of the bodies, joints, springs and drives that are written; empty: all.
-/// `touching`: [body] whether contacts act on it.
+/// `touching`: [body] whether contacts act on it. `ofVehicle`: parts of a vehicle with which the model begins; they
+/// have no columns, nor has the mechanism as a whole then.
 Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
-                                           const std::vector<std::string>& record);
+                                           const std::vector<std::string>& record,
+                                           const multibody::PartCounts& ofVehicle = {});
+
+/// Mass of the grains in the probes of bodies, `names` those of the bodies; of a source the masses [kg].
+Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names);
 
 /// "RATTLE of order 2, springs implicit".
 std::string integratorText(const multibody::SolverOptions& options);
@@ -31,7 +38,8 @@ std::string integratorText(const multibody::SolverOptions& options);
 /// Lines about the size of a mechanism: bodies, joints, freedoms, rows held more than once.
 std::string mechanismSize(const coupling::Mechanism& mechanism);
 
-/// Each body as a box and thin bars to its joints, for pictures and ParaView.
+/// Each body as its shapes, or a box and thin bars to its joints, for pictures and ParaView; without those of a
+/// vehicle.
 std::vector<FramePart> mechanismParts(const coupling::MechanismSetup& setup);
 
 } // namespace grouser::output

@@ -11,7 +11,7 @@ namespace grouser::output {
 
 /// The plots that runs/plots/ can draw from a results.h5.
 inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage",   "surface", "bed",
-                                                   "drive",        "mechanism", "ledger"};
+                                                   "drive",        "mechanism", "ledger",  "figure"};
 
 /// Draws `names` as NAME.png into `folder` by Python and matplotlib, and returns the files drawn; a plot whose
 /// quantities the results lack is left out. Where Python or a package is missing nothing is drawn, and `warning` says

@@ -122,6 +122,7 @@ std::vector<FileField> resultFields() {
   for (const auto& channels :
        {terrainColumns().channels(), surfaceColumns("NAME", true).channels(), obstacleColumns("NAME").channels(),
         hitchColumns().channels(), gearColumns().channels(), ledgerColumns().channels(),
+        probeColumns({"NAME"}).channels(),
         mechanismColumns(modelOfAll(), std::vector<bool>(modelOfAll().bodies().size(), true), {}).channels()})
     for (const Channel& c : channels) add(fields, c);
   return fields;

@@ -4,6 +4,8 @@
 #include "base/math.hpp"
 #include "runs/output/plane_mesh.hpp"
 
+#include <algorithm>
+
 namespace grouser::output {
 
 using base::TriangleMesh;
@@ -36,20 +38,24 @@ TriangleMesh boxMesh(const Vec3d& half) {
   return mesh;
 }
 
-TriangleMesh roundMesh(double radius, double half, bool hollow) {
+/// `tip`: radius of the upper end, `radius` that of the lower one.
+TriangleMesh roundMesh(double radius, double tip, double half, bool hollow) {
   constexpr int kSides = 64;
   TriangleMesh mesh;
   std::vector<Vec3d> top, bottom;
   for (int k = 0; k < kSides; ++k) {
-    const double angle = 2 * base::kPi * k / kSides, x = radius * base::cos(angle), y = radius * base::sin(angle);
-    top.push_back({x, y, half});
-    bottom.insert(bottom.begin(), {x, y, -half});
+    const double angle = 2 * base::kPi * k / kSides, x = base::cos(angle), y = base::sin(angle);
+    top.push_back({tip * x, tip * y, half});
+    bottom.push_back({radius * x, radius * y, -half});
   }
   for (std::size_t k = 0; k < kSides; ++k) {
-    const Vec3d a = top[k], b = top[(k + 1) % kSides], down{0, 0, -2 * half};
-    addFace(mesh, hollow ? std::vector{a, b, b + down, a + down} : std::vector{a, a + down, b + down, b});
+    const std::size_t next = (k + 1) % kSides;
+    const Vec3d a = top[k], b = top[next], c = bottom[next], d = bottom[k];
+    addFace(mesh, hollow ? std::vector{a, b, c, d} : std::vector{a, d, c, b});
   }
-  if (!hollow) addFace(mesh, top), addFace(mesh, bottom);
+  if (hollow) return mesh;
+  std::reverse(bottom.begin(), bottom.end());
+  addFace(mesh, top), addFace(mesh, bottom);
   return mesh;
 }
 
@@ -87,7 +93,9 @@ TriangleMesh shapeMesh(const contact::SurfaceGeometry& shape) {
     return boxMesh(shape.half);
   case SurfaceShape::cylinder:
   case SurfaceShape::tube:
-    return roundMesh(shape.half.x, shape.half.z, shape.shape == SurfaceShape::tube);
+    return roundMesh(shape.half.x, shape.half.x, shape.half.z, shape.shape == SurfaceShape::tube);
+  case SurfaceShape::cone:
+    return roundMesh(shape.half.x, shape.half.y, shape.half.z, false);
   case SurfaceShape::capsule:
     return capsuleMesh(shape.half.x, shape.half.z);
   case SurfaceShape::plane:

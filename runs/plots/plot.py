@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, surface, bed, drive,
-ledger, mechanism. A plot whose quantities the results lack is left out.
+ledger, mechanism, figure. A plot whose quantities the results lack is left out.
 """
 import pathlib
 
@@ -12,6 +12,7 @@ import h5py
 import bed
 import drawing
 import drive
+import figure
 import ledger
 import mechanism
 import series
@@ -19,7 +20,7 @@ import shoes
 import surface
 
 PLOTS = {"shoe_heights": shoes.heights, "sinkage": shoes.sinkage, "surface": surface.plot, "bed": bed.plot,
-         "drive": drive.plot, "ledger": ledger.plot, "mechanism": mechanism.plot}
+         "drive": drive.plot, "ledger": ledger.plot, "mechanism": mechanism.plot, "figure": figure.plot}
 
 
 def main():
@@ -27,11 +28,11 @@ def main():
     with h5py.File(results, "r") as file:
         run = series.Run(file)
         for name in names:
-            figure = PLOTS[name](run)
-            if figure is not None:
+            drawn = PLOTS[name](run)
+            if drawn is not None:
                 if run.text("soil_meets") not in ("", "all"):
-                    figure.text(0.995, 0.995, f"soil contact: track {run.text('soil_meets')} only", fontsize=7, ha="right", va="top")
-                drawing.save(figure, pathlib.Path(folder) / f"{name}.png", dpi=150)
+                    drawn.text(0.995, 0.995, f"soil contact: track {run.text('soil_meets')} only", fontsize=7, ha="right", va="top")
+                drawing.save(drawn, pathlib.Path(folder) / f"{name}.png", dpi=150)
 
 
 if __name__ == "__main__":

@@ -19,6 +19,11 @@ class Run:
         values = item["value"][:] if "value" in item else item[:]
         return values[: len(self.time)] if "value" in item else float(values[0])
 
+    def components(self, path):
+        """Names of the components of a vector."""
+        names = self._file[path]["value"].attrs.get("labels", [])
+        return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
+
     def text(self, name):
         """A fact of the run; "" where it has none of this name."""
         value = self._file.attrs.get(name, "")

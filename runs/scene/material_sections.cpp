@@ -141,6 +141,10 @@ Table<Material> materialTable() {
       .above(0)
       .atMost(10);
   addPlasticity(t);
+  t.add("foundation_modulus", &S::foundationModulus, "N/m3",
+        "bodies against bodies, rigid ground, planes and obstacles: pressure over overlap (Winkler foundation)")
+      .atLeast(1e3)
+      .atMost(1e14);
   t.add("crushing_strength", &S::crushingStrength, "Pa",
         "sigma_f of the grains: against parts of a vehicle and meshes their normal force is at most sigma_f d^2 (d: "
         "diameter), beyond which they crush (docs/crushing.md); without it they do not")

@@ -18,10 +18,19 @@ Table<BodySection> bodyTable() {
   using S = BodySection;
   Table<S> t("[body]", "A rigid body of a mechanism");
   t.add("name", &S::name, "", "what joints and springs call it; \"world\" is the ground's").required();
-  t.add("mass", &S::mass, "kg", "required unless the body is fixed").above(0).atMost(1e12);
+  t.add("mass", &S::mass, "kg",
+        "of a body with shapes the volume of these times density where not given; otherwise required unless the body "
+        "is fixed")
+      .above(0)
+      .atMost(1e12);
+  t.add("density", &S::density, "kg/m3",
+        "of its shapes, instead of mass: mass and inertia are the sums over them, overlaps counted twice; that of the "
+        "material where not given")
+      .above(0)
+      .atMost(1e6);
   t.add("inertia", &S::inertia, "kg m2",
         "about the centre of mass in the body's axes: xx, yy, zz, or these with the entries xy, xz, yz of the matrix; "
-        "of a uniform box where not given");
+        "of a uniform box, or of the shapes filled uniformly, where not given");
   t.add("box", &S::box, "m", "edges of the box that is drawn; without one it follows from mass and inertia")
       .above(0)
       .atMost(1e5);
@@ -35,19 +44,28 @@ Table<BodySection> bodyTable() {
   t.add("fixed", &S::fixed, "", "never moves");
   t.add("point", &S::point, "", "a mass without extent or inertia, for spherical and distance joints and springs");
   t.add("material", &S::material, "", "name of the material of its shapes; required with [[body.shape]]");
+  t.add("probe_size", &S::probe, "m",
+        "edges of a box in the body's frame; the mass of the grains with centres within is recorded as grain_mass")
+      .above(0)
+      .atMost(1e5);
+  t.add("probe_position", &S::probePosition, "m", "of the centre of that box, in the body's frame");
   return t;
 }
 
 Table<ShapeSection> shapeTable() {
   using S = ShapeSection;
   Table<S> t("[body.shape]", "Surface by which the body above it touches grains; a body may have several");
-  t.add("kind", &S::kind, "", "sphere, box, cylinder or capsule").required();
+  t.add("kind", &S::kind, "", "sphere, box, cylinder, capsule or cone").required();
   t.add("size", &S::size, "m", "edges of a box").above(0).atMost(1e5);
-  t.add("radius", &S::radius, "m", "of a sphere, cylinder or capsule").above(0).atMost(1e5);
-  t.add("length", &S::length, "m", "of a cylinder; of a capsule without its caps").above(0).atMost(1e5);
-  t.add("position", &S::position, "m", "of its centre, in the body's frame").atLeast(-1e5).atMost(1e5);
+  t.add("radius", &S::radius, "m", "of a sphere, cylinder or capsule; of a cone at its base").above(0).atMost(1e5);
+  t.add("tip_radius", &S::tipRadius, "m", "of a truncated cone at its tip; 0 where not given").atLeast(0).atMost(1e5);
+  t.add("length", &S::length, "m", "of a cylinder or cone; of a capsule without its caps").above(0).atMost(1e5);
+  t.add("position", &S::position, "m", "of its centre (of a cone half-way up), in the body's frame")
+      .atLeast(-1e5)
+      .atMost(1e5);
   t.add("axis", &S::axis, "-",
-        "of a cylinder or capsule, in the body's frame, z where not given; with angle: about which a box is turned");
+        "of a cylinder or capsule, of a cone from base to tip, in the body's frame, z where not given; with angle: "
+        "about which a box is turned");
   t.add("angle", &S::angle, "deg", "of a box about axis, right-handed").atLeast(-3600).atMost(3600);
   return t;
 }
@@ -160,21 +178,20 @@ void checkCompany(const Section& section, const Scene& scene) {
   const auto touches = [](const Section& body) { return body.has("shape"); };
   const std::vector<Section> bodies = root.list("body");
   const bool anyTouches = std::any_of(bodies.begin(), bodies.end(), touches);
-  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "terrain"})
-    if (root.has(other) && !anyTouches)
+  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain"})
+    if (root.has(other) && !anyTouches && !root.has("vehicle"))
       section.fail("", fmt::format("is incompatible with {}, since no body has a shape that could touch it; add "
                                    "[[body.shape]], or give the mechanism a scene of its own",
                                    other));
-  for (const char* other : {"mesh", "vehicle"})
-    if (root.has(other))
-      section.fail("", fmt::format("is incompatible with {}: bodies do not touch it; remove one of them", other));
-  if (scene.terrain && !scene.terrain->granular())
-    section.fail("", "is incompatible with rigid [terrain]: bodies do not touch it; use a granular terrain");
+  const bool bed = scene.terrain && scene.terrain->granular();
+  if (root.has("mesh") && (bed || root.has("grain") || root.has("grains") || root.has("source")))
+    section.fail("", "is incompatible with mesh beside grains; use boxes and cylinders, or remove the grains");
 }
 
 void checkShape(const Section& section, const ShapeSection& s) {
   const bool isBox = s.kind == ShapeKind::box;
-  const bool isLong = s.kind == ShapeKind::cylinder || s.kind == ShapeKind::capsule;
+  const bool isCone = s.kind == ShapeKind::cone;
+  const bool isLong = s.kind == ShapeKind::cylinder || s.kind == ShapeKind::capsule || isCone;
   const std::string kind(base::wordOf(s.kind));
   const auto need = [&](bool needed, bool given, const char* key, const char* example) {
     if (needed && !given)
@@ -184,6 +201,9 @@ void checkShape(const Section& section, const ShapeSection& s) {
   need(isBox, s.size.has_value(), "size", "size = [0.2, 0.2, 0.1]");
   need(!isBox, s.radius.has_value(), "radius", "radius = 0.1");
   need(isLong, s.length.has_value(), "length", "length = 0.2");
+  if (s.tipRadius && !isCone) section.fail("tip_radius", fmt::format("does not apply to a {}; remove it", kind));
+  if (s.tipRadius && *s.tipRadius > *s.radius)
+    section.fail("tip_radius", fmt::format("[m] is above radius, {:g} m; swap them and reverse axis", *s.radius));
   if (s.axis && norm(*s.axis) == 0) section.fail("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
   if (s.axis && s.kind == ShapeKind::sphere) section.fail("axis", "does not apply to a sphere; remove it");
   if (s.angle && !isBox) section.fail("angle", fmt::format("does not apply to a {}; remove it", kind));
@@ -197,13 +217,19 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
     body.shapes.push_back(shape.read(shapeTable()));
     checkShape(shape, body.shapes.back());
   }
-  if (body.shapes.empty() && !body.material.empty())
-    section.fail("material", "has no effect without a shape; add [[body.shape]], or remove it");
+  if (section.has("probe_position") && !body.probe)
+    section.fail("probe_position", "[m] has no effect without probe_size; add the edges of the box, or remove it");
+  for (const char* key : {"material", "density"})
+    if (body.shapes.empty() && section.has(key))
+      section.fail(key, "has no effect without a shape; add [[body.shape]], or remove it");
+  if (body.density && body.mass) section.fail("density", "[kg/m3] and mass exclude each other; remove one");
+  if (body.density && body.fixed) section.fail("density", "[kg/m3] has no effect on a fixed body; remove it");
   if (body.shapes.empty()) return;
   if (body.point)
     section.fail("point", "has no inertia, which [[body.shape]] needs; remove it, and give inertia or box");
   if (body.material.empty()) section.fail("material", "is missing, which [[body.shape]] needs; add the name of one");
   requireMaterial(scene, section, "material", body.material);
+  if (!body.mass && !body.fixed && !body.density) body.density = scene.material(body.material).density;
   if (scene.run.tolerance)
     scene.fail("run", "tolerance", "controls the steps of a mechanism alone; remove it, or the shapes of the bodies");
 }
@@ -211,6 +237,7 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
 /// Contact forces stay the same over a step. Symplectic Euler takes them as it takes those of grains; RATTLE would move
 /// bodies by them twice, and a stiff contact would gain energy in each step.
 void setIntegrator(const Section& root, Scene& scene) {
+  if (scene.vehicle && !scene.mechanism.empty()) scene.run.integrator = multibody::Integrator::kSymplecticEuler;
   if (!scene.mechanism.touches()) return;
   constexpr std::size_t kMostShapes = 255; // as a grain's list of parts counts them
   std::size_t shapes = 0;
@@ -250,6 +277,29 @@ SectionEntry bodies() {
   return entry;
 }
 
+Table<MechanismPlacement> placementTable() {
+  Table<MechanismPlacement> t("mechanism", "Placement of all bodies of a mechanism together");
+  t.add("above_bed", &MechanismPlacement::aboveBed, "m",
+        "lifts bodies, joints and all that is held by the world together until each shape is at least this far above "
+        "the highest grain under it, once the bed has settled")
+      .atLeast(0)
+      .atMost(1e5);
+  return t;
+}
+
+void checkPlacement(const Section& section, MechanismPlacement& placement, const Scene& scene) {
+  if (!placement.aboveBed) return;
+  if (scene.document->root().has("vehicle"))
+    section.fail("above_bed",
+                 "[m] is not supported beside [vehicle], with which bodies are set down that joints tie to "
+                 "it; remove it");
+  if (!scene.mechanism.touches())
+    section.fail("above_bed", "[m] places shapes of bodies, of which there are none; add [[body.shape]], or remove it");
+  if (!scene.terrain || !scene.terrain->granular())
+    section.fail("above_bed", "[m] requires a bed of grains; add a granular [terrain], or remove it and set the "
+                              "positions of the bodies");
+}
+
 /// One kind of part of a mechanism. A text or list that is empty was not given, and is not written.
 template <class Part>
 SectionEntry part(const std::string& name, std::vector<Part> MechanismSections::*parts, base::Table<Part> table) {
@@ -266,7 +316,10 @@ SectionList mechanismSections() {
           part("spring", &M::springs, springTable()),
           part("bushing", &M::bushings, bushingTable()),
           part("drive", &M::drives, driveTable()),
-          part("coupling", &M::couplings, couplingTable())};
+          part("coupling", &M::couplings, couplingTable()),
+          optional<MechanismPlacement>(
+              "mechanism", [](auto& scene) -> auto& { return scene.mechanism.placement; }, placementTable(),
+              checkPlacement)};
 }
 
 } // namespace grouser::scene::detail

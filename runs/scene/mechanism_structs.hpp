@@ -18,9 +18,11 @@ namespace grouser::scene {
 struct ShapeSection {
   ShapeKind kind = ShapeKind::sphere;
   std::optional<base::Vec3d> size;      ///< [m] edges of a box
-  std::optional<double> radius, length; ///< [m]
+  std::optional<double> radius, length; ///< [m]; of a cone the base and the height
+  std::optional<double> tipRadius;      ///< [m] of a cone; empty: 0
   base::Vec3d position;                 ///< [m] of its centre, in the body's frame
-  std::optional<base::Vec3d> axis;      ///< cylinder, capsule: its direction; box: the axis that angle turns about
+  std::optional<base::Vec3d> axis;      ///< cylinder, capsule: its direction; cone: from base to tip; box: the axis
+                                        ///< that angle turns about
   std::optional<double> angle;          ///< [deg]
   bool operator==(const ShapeSection&) const = default;
 };
@@ -28,8 +30,9 @@ struct ShapeSection {
 /// [[body]]
 struct BodySection {
   std::string name;
-  std::optional<double> mass;      ///< [kg]; required unless fixed
-  std::vector<double> inertia;     ///< xx, yy, zz (, xy, xz, yz) [kg m2]; empty: of the box
+  std::optional<double> mass;      ///< [kg]; empty: of its shapes, or fixed
+  std::optional<double> density;   ///< [kg/m3] of its shapes; empty: mass is given
+  std::vector<double> inertia;     ///< xx, yy, zz (, xy, xz, yz) [kg m2]; empty: of the box, else of its shapes
   std::optional<base::Vec3d> box;  ///< [m] edges: what is drawn, and the inertia where none is given
   base::Vec3d position;            ///< of the centre of mass [m]
   std::optional<base::Vec3d> axis; ///< with angle: how the body's frame is turned from the world's
@@ -40,6 +43,8 @@ struct BodySection {
   bool point = false;               ///< a mass without extent
   std::string material;             ///< contact material of its shapes
   std::vector<ShapeSection> shapes; ///< empty: it touches nothing
+  std::optional<base::Vec3d> probe; ///< [m] edges of the box within which the mass of grains is recorded
+  base::Vec3d probePosition;        ///< [m] of its centre, in the body's frame
   bool operator==(const BodySection&) const = default;
 };
 
@@ -103,8 +108,15 @@ struct CouplingSection {
   bool operator==(const CouplingSection&) const = default;
 };
 
+/// [mechanism]: placement of all bodies together.
+struct MechanismPlacement {
+  std::optional<double> aboveBed; ///< [m] between the shapes and the settled bed under them
+  bool operator==(const MechanismPlacement&) const = default;
+};
+
 /// All of a mechanism, in the file's order.
 struct MechanismSections {
+  std::optional<MechanismPlacement> placement;
   std::vector<BodySection> bodies;
   std::vector<JointSection> joints;
   std::vector<SpringSection> springs;

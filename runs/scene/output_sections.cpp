@@ -46,6 +46,29 @@ Table<Output> outputTable() {
   return t;
 }
 
+Table<PlotSection> plotTable() {
+  using S = PlotSection;
+  Table<S> t("[output.plot]", "A panel of figure.png: columns of the results against time or another column");
+  t.add("x", &S::x, "", "column across, as timeseries.csv names it, e.g. \"bodies.cone.position.z\"");
+  t.add("y", &S::y, "", "columns upwards").required();
+  t.add("sum", &S::sum, "", "draw the sum of these as one curve");
+  t.add("labels", &S::labels, "", "of the curves in the legend");
+  t.add("title", &S::title, "", "above the panel");
+  t.add("x_label", &S::xLabel, "", "quantity and unit at the axis");
+  t.add("y_label", &S::yLabel, "", "quantity and unit at the axis").required();
+  t.add("x_scale", &S::xScale, "-", "factor of x, or a change of its unit");
+  t.add("x_offset", &S::xOffset, "as the axis", "added to x times its factor");
+  t.add("x_from_start", &S::xFromStart, "", "subtract the first value of x before");
+  t.add("x_range", &S::xRange, "as the axis", "limits; as the values need where not given");
+  t.add("y_scale", &S::yScale, "-", "factor of y, or a change of its unit");
+  t.add("y_offset", &S::yOffset, "as the axis", "added to y times its factor");
+  t.add("y_from_start", &S::yFromStart, "", "subtract the first value of each y before");
+  t.add("y_range", &S::yRange, "as the axis", "limits; as the values need where not given");
+  t.add("levels", &S::levels, "as the axis", "heights of dashed lines to compare with");
+  t.add("level_labels", &S::levelLabels, "", "of these in the legend");
+  return t.leaveOutEmpty();
+}
+
 Table<Parallel> parallelTable() {
   using S = Parallel;
   Table<S> t("parallel", "Runs on several ranks (mpirun -np N); the answer is the same for any number of them");
@@ -102,6 +125,38 @@ void checkOutput(const Section& section, Output& output, const Scene& scene) {
   if (!output.record.empty()) checkRecord(section, output, scene);
 }
 
+void checkPlot(const Section& section, PlotSection& plot, const Scene&) {
+  if (plot.y.empty()) section.fail("y", "is empty; name a column, e.g. \"bodies.cone.position.z\"");
+  const std::size_t curves = plot.sum ? 1 : plot.y.size();
+  if (!plot.labels.empty() && plot.labels.size() != curves)
+    section.fail("labels", fmt::format("must have one entry for each of {} curves; correct the list", curves));
+  if (plot.levelLabels.size() != plot.levels.size())
+    section.fail("level_labels",
+                 fmt::format("must have one entry for each of {} levels; correct the list", plot.levels.size()));
+  for (const auto& [key, range] : {std::pair{"x_range", plot.xRange}, std::pair{"y_range", plot.yRange}})
+    if (range && !((*range)[0] < (*range)[1])) section.fail(key, "must be the lower limit, then the upper; swap them");
+}
+
+/// [output] with its [[output.plot]]s.
+SectionEntry output() {
+  SectionEntry entry = single<Output>("output", &Scene::output, outputTable(), checkOutput, {"plot"});
+  const Table<PlotSection> table = plotTable();
+  entry.read = [table, read = std::move(entry.read)](const Section& root, Scene& scene) {
+    read(root, scene);
+    if (!root.has("output")) return;
+    for (const Section& section : root.section("output").list("plot"))
+      scene.output.panels.push_back(readChecked<PlotSection>(section, table, checkPlot, scene));
+  };
+  entry.write = [table, write = std::move(entry.write)](const Scene& scene) {
+    std::string text = write(scene);
+    for (const PlotSection& plot : scene.output.panels) text += written<PlotSection>("[[output.plot]]", table, plot);
+    return text;
+  };
+  entry.describe = [table, describe = std::move(entry.describe)] { return describe() + "\n" + base::describe(table); };
+  for (const std::string& key : fullKeys("output.plot", table)) entry.keys.push_back(key);
+  return entry;
+}
+
 void checkParallel(const Section& section, Parallel& parallel, const Scene&) {
   const std::vector<double>* cuts[] = {&parallel.cutsX, &parallel.cutsY, &parallel.cutsZ};
   for (int a = 0; a < 3; ++a)
@@ -122,8 +177,7 @@ void checkParallel(const Section& section, Parallel& parallel, const Scene&) {
 } // namespace
 
 SectionList outputSections() {
-  return {single("output", &Scene::output, outputTable(), checkOutput),
-          single("parallel", &Scene::parallel, parallelTable(), checkParallel)};
+  return {output(), single("parallel", &Scene::parallel, parallelTable(), checkParallel)};
 }
 
 } // namespace grouser::scene::detail

@@ -113,7 +113,7 @@ void checkOrder(const Section& run, const RunSettings& settings) {
 void checkTolerance(const Section& section, const RunSettings& run, const Scene& scene) {
   if (!run.tolerance) return;
   if (run.timeStep) section.fail("tolerance", "[m/s or rad/s] stands beside time_step; keep one of the two");
-  if (!scene.document->root().has("body"))
+  if (!scene.document->root().has("body") || scene.document->root().has("vehicle"))
     section.fail("tolerance", "[m/s or rad/s] is of mechanisms alone: grains and vehicles take fixed steps; remove it");
   if (run.integrator != multibody::Integrator::kRattle || run.integratorOrder != 2)
     section.fail("tolerance", "[m/s or rad/s] needs integrator = \"rattle\" with integrator_order = 2; choose these");

@@ -265,6 +265,21 @@ struct Stop {
   bool operator==(const Stop&) const = default;
 };
 
+/// [[output.plot]]: a panel of figure.png. What is drawn is scale * (value - start) + offset, where start is the first
+/// value if from_start asks for it, else 0.
+struct PlotSection {
+  std::string x = "time";
+  std::vector<std::string> y, labels;
+  bool sum = false; ///< one curve, the sum of y
+  std::string xLabel = "time [s]", yLabel, title;
+  double xScale = 1, xOffset = 0, yScale = 1, yOffset = 0;
+  bool xFromStart = false, yFromStart = false;
+  std::optional<std::array<double, 2>> xRange, yRange;
+  std::vector<double> levels;           ///< of horizontal lines, as drawn
+  std::vector<std::string> levelLabels; ///< one a level
+  bool operator==(const PlotSection&) const = default;
+};
+
 /// [output]
 struct Output {
   std::string folder;              ///< empty: out/NAME of the scene file
@@ -279,6 +294,7 @@ struct Output {
   int pictureWidth = 1600;
   std::optional<double> fieldsCell;                 ///< [m] edge of the cells of the soil's fields; empty: no fields
   std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] corners of their box; empty: around the grains
+  std::vector<PlotSection> panels;                  ///< of figure.png
   bool operator==(const Output&) const = default;
 };
 

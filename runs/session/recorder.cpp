@@ -145,7 +145,8 @@ void Recorder::begin(const RunRequest& options, const storage::Checkpoint* forme
     if (const auto surface = undisturbedSurface(simulation_.ground())) writer_.surface(*surface);
   }
   if (const auto& bed = simulation_.ground().structure) writer_.bed(*bed);
-  if (setup.mechanism) parts_ = output::mechanismParts(*setup.mechanism);
+  if (setup.mechanism)
+    for (output::FramePart& part : output::mechanismParts(*setup.mechanism)) parts_.push_back(std::move(part));
   if (const coupling::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i)
       parts_.push_back({surfaces->surface(i).name, output::PartKind::surface,
@@ -218,9 +219,14 @@ output::Frame Recorder::currentFrame() const {
   if (const auto& grains = simulation_.ground().grains)
     addGrains(frame, *grains, record_.output.contactForces,
               simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerMotion());
-  if (const coupling::VehicleRig* rig = simulation_.vehicle())
+  if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p)
       frame.partPoses.push_back(vehicle::partPose(rig->assembly().parts[p], rig->state()));
+    if (const auto& bodies = simulation_.setup().mechanism)
+      frame.partPoses.insert(frame.partPoses.end(),
+                             rig->state().pose.begin() + static_cast<std::ptrdiff_t>(bodies->ofVehicle.bodies),
+                             rig->state().pose.end());
+  }
   if (const coupling::Mechanism* mechanism = simulation_.mechanism()) frame.partPoses = mechanism->state().pose;
   if (const coupling::Surfaces* surfaces = simulation_.surfaces())
     for (std::size_t i = 0; i < surfaces->count(); ++i) frame.partPoses.push_back(surfaces->pose(i, frame.step));

@@ -1,12 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/session/row_columns.hpp"
 
+#include "base/table.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "vehicle/observation_table.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace grouser::session {
+
+namespace {
+
+/// Throws InputError where a plot draws a column that the rows lack.
+void requirePlotted(const std::vector<output::Channel>& channels, const std::vector<setup::PlottedColumn>& plots) {
+  std::vector<std::string> known = {"time"};
+  for (const output::Channel& c : channels) {
+    std::string path = c.path;
+    std::replace(path.begin(), path.end(), '/', '.');
+    if (c.width == 1) known.push_back(path);
+    for (const std::string& column : c.columns) known.push_back(path + "." + column);
+  }
+  for (const setup::PlottedColumn& p : plots)
+    if (std::find(known.begin(), known.end(), p.column) == known.end())
+      throw base::InputError(fmt::format("{} names no column of the results, \"{}\"; did you mean \"{}\"?", p.place,
+                                         p.column, base::nearestWord(p.column, known)));
+}
+
+/// Bodies of the vehicle or, without one, of the mechanism.
+const coupling::BodiesInContact& bodiesOf(const coupling::Simulation& simulation) {
+  if (simulation.vehicle()) return *simulation.vehicle();
+  return *simulation.mechanism();
+}
+
+} // namespace
 
 RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetup& output) : simulation_(simulation) {
   const bool grains = simulation.ground().grains != nullptr;
@@ -15,7 +44,11 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
     add(output::mechanismColumns(simulation.mechanism()->model(), simulation.mechanism()->touchingBodies(),
                                  output.record),
         [&s = simulation](const Now&) { return output::MechanismReading(*s.mechanism()); });
+  addProbes();
   if (rig) addVehicle(output.shoeForces);
+  if (const auto& bodies = simulation.setup().mechanism; rig && bodies)
+    add(output::mechanismColumns(rig->model(), rig->touchingBodies(), output.record, bodies->ofVehicle),
+        [&s = simulation](const Now&) { return output::MechanismReading(*s.vehicle()); });
   if (grains)
     add(output::terrainColumns(), [&s = simulation](const Now& now) {
       const terrain::Grains& bed = *s.ground().grains;
@@ -32,6 +65,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
   // A mechanism without contacts has no contact impulses to balance.
   add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches()),
       [](const Now& now) { return now.ledger; });
+  requirePlotted(channels_, output.plots);
 }
 
 output::Row RowColumns::row() const {
@@ -53,6 +87,18 @@ void RowColumns::addVehicle(bool shoeForces) {
   });
 }
 
+void RowColumns::addProbes() {
+  coupling::Simulation& s = simulation_;
+  if (!s.setup().mechanism || !s.ground().grains) return;
+  std::vector<std::string> names;
+  for (const coupling::BodyProbe& p : s.setup().mechanism->probes)
+    names.push_back(bodiesOf(s).model().bodies()[p.body].name);
+  if (!names.empty())
+    add(output::probeColumns(names), [&s](const Now&) {
+      return coupling::grainMassIn(s.setup().mechanism->probes, bodiesOf(s).state(), *s.ground().grains, s.comm());
+    });
+}
+
 void RowColumns::addSurfaces() {
   coupling::Simulation& s = simulation_;
   if (const coupling::Surfaces* surfaces = s.surfaces())
@@ -61,8 +107,7 @@ void RowColumns::addSurfaces() {
           [&s, i](const Now&) { return s.surfaces()->observe(i, s.steps()); });
   const std::vector<coupling::Obstacle>& obstacles = s.setup().ground.obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i)
-    add(output::obstacleColumns(obstacles[i].surface.name),
-        [&s, i](const Now&) { return s.vehicle()->meanForceOn(i); });
+    add(output::obstacleColumns(obstacles[i].surface.name), [&s, i](const Now&) { return bodiesOf(s).meanForceOn(i); });
 }
 
 void RowColumns::add(const std::vector<output::Channel>& channels, Append append) {

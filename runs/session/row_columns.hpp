@@ -29,6 +29,7 @@ private:
   using Append = std::function<void(const Now&, std::vector<double>&)>;
 
   void addVehicle(bool shoeForces);
+  void addProbes();
   void addSurfaces();
   void add(const std::vector<output::Channel>& channels, Append append);
   /// Columns whose source `find` finds for each row.

@@ -7,7 +7,9 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/laws.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace grouser::setup {
@@ -46,12 +48,11 @@ std::string bodyContactsNote(const scene::Scene& scene) {
   const auto add = [&](bool has, const char* what) {
     if (has) others += (others.empty() ? "" : ", ") + std::string(what);
   };
-  add(scene.mechanism.bodies.size() > 1, "each other");
-  add(!scene.planes.empty(), "planes");
-  add(!scene.boxes.empty(), "boxes");
-  add(!scene.cylinders.empty(), "cylinders");
-  add(scene.terrain.has_value(), "the walls and floor of the terrain");
-  return others.empty() ? "" : fmt::format("bodies touch grains only; they pass through {}", others);
+  const auto moves = [](const coupling::SurfaceSetup& s) { return s.moves; };
+  const std::vector<SceneSurface> surfaces = surfacesOf(scene);
+  add(std::any_of(surfaces.begin(), surfaces.end(), moves), "planes, boxes, cylinders and meshes that move");
+  add(scene.terrain && scene.terrain->granular(), "the walls and floor of the terrain");
+  return others.empty() ? "" : fmt::format("bodies pass through {}; a driven [[body]] touches bodies", others);
 }
 
 } // namespace grouser::setup

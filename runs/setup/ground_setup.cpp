@@ -183,17 +183,18 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   const std::optional<VehicleSurface> ofSoil = vehicleSurface(scene);
   std::vector<std::string> parts = shapeMaterials(scene);
   if (scene.vehicle)
-    parts = {scene.vehicle->material};
-  else if (!scene.meshes.empty())
+    parts.insert(parts.begin(), scene.vehicle->material);
+  else if (parts.empty() && !scene.meshes.empty())
     parts = {scene.meshes.front().material};
   if (parts.empty()) return all;
   // Of one mass, damping is a constant; of many it follows from each contact's.
   const std::optional<double> mass = kinds.many() ? std::nullopt : std::optional(grainMass);
-  for (const std::string& part : parts)
+  for (std::size_t p = 0; p < parts.size(); ++p)
     for (const std::string& soil : kinds.material) {
+      const bool likeSoil = ofSoil && p == 0; // a vehicle without a material
       // Patches on parts keep springs, but no plastic state.
-      const contact::ContactLaw law = pairLaw(scene, soil, ofSoil ? soil : part, mass).elastic();
-      all.laws.push_back(ofSoil ? ofSoil->with(law) : law);
+      const contact::ContactLaw law = pairLaw(scene, soil, likeSoil ? soil : parts[p], mass).elastic();
+      all.laws.push_back(likeSoil ? ofSoil->with(law) : law);
     }
   for (const std::string& soil : kinds.material) {
     all.massPerCube.push_back(base::sphereMass(scene.material(soil).density, 1));

@@ -7,6 +7,7 @@
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/grain_space.hpp"
+#include "runs/setup/hitched_bodies.hpp"
 #include "runs/setup/mechanism_model.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 
@@ -51,7 +52,9 @@ template <class Check> void withPlace(const Section& section, const Check& check
 }
 
 void checkMechanism(const Section& root, const scene::Scene& scene) {
-  MechanismBuilder builder;
+  const std::optional<vehicle::Assembly> vehicle = vehicleOf(scene);
+  MechanismBuilder builder = vehicle ? MechanismBuilder(*vehicle) : MechanismBuilder();
+  const std::size_t firstJoint = builder.model().joints().size();
   scene::forEachKind(scene.mechanism, [&](const char* key, const auto& sections) {
     const std::vector<Section> places = root.list(key);
     for (std::size_t k = 0; k < sections.size(); ++k) withPlace(places[k], [&] { builder.add(sections[k]); });
@@ -63,16 +66,19 @@ void checkMechanism(const Section& root, const scene::Scene& scene) {
   }
   const std::vector<Section> joints = root.list("joint");
   for (std::size_t j = 0; j < joints.size(); ++j)
-    withPlace(joints[j], [&] { checkStartVelocity(builder.model(), static_cast<int>(j)); });
+    withPlace(joints[j], [&] { checkStartVelocity(builder.model(), static_cast<int>(firstJoint + j)); });
   checkWhole(root, builder.model(), scene);
+  if (vehicle) hitchedBodies(scene, builder.model(), *vehicle);
 }
 
 /// Grains feel all surfaces, vehicles those that rest.
 void requireFelt(const Section& section, const scene::Scene& scene, const SceneSurface& s) {
-  if (scene.vehicle && !s.moves) return;
-  if (scene.vehicle)
-    section.fail("", "moves in a scene without grains, and a vehicle meets surfaces that rest alone; let it rest, or "
-                     "remove it");
+  const bool others = scene.vehicle || scene.mechanism.touches();
+  if (others && !s.moves) return;
+  if (others)
+    section.fail("",
+                 "moves in a scene without grains, and vehicle and bodies touch surfaces at rest only; let it rest, "
+                 "or remove it");
   section.fail("", s.kind == coupling::SurfaceKind::plane
                        ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
                        : "stands in a scene without grains, and nothing else touches it; remove it");

@@ -4,9 +4,11 @@
 #include "base/math.hpp"
 #include "base/table.hpp"
 #include "multibody/part_error.hpp"
+#include "runs/setup/body_mass.hpp"
 #include "runs/setup/mechanism_frames.hpp"
 #include "runs/support/orientation.hpp"
 #include "runs/support/result_names.hpp"
+#include "vehicle/assembly.hpp"
 
 #include <fmt/format.h>
 
@@ -24,16 +26,43 @@ using multibody::JointType;
 
 namespace {
 
-Mat3d inertiaOf(const scene::BodySection& b) {
+/// The centre of the shapes may lie beside the origin of the body's frame, its centre of mass, by this share of the
+/// size of the body [-]: that of positions typed with a few digits.
+constexpr double kCentred = 1e-3;
+
+/// Mass and inertia of the shapes, uniformly of `density`.
+SolidMoments shapesMoments(const scene::BodySection& b) {
+  const SolidMoments m = momentsOf(b);
+  double size = 0;
+  for (const scene::ShapeSection& s : b.shapes)
+    size = std::max(size, norm(s.position) + norm(halfExtent(geometryOf(s))));
+  if (norm(m.centre) > kCentred * size)
+    throw support::SectionFault(
+        "shape",
+        fmt::format("has its centre of mass at [{0:.6g}, {1:.6g}, {2:.6g}] m in the body's frame, whose origin "
+                    "must be the centre of mass; subtract that from shape.position of each shape and add it "
+                    "to position of the body, or give mass and inertia",
+                    m.centre.x, m.centre.y, m.centre.z));
+  return m;
+}
+
+Mat3d inertiaOf(const scene::BodySection& b, double mass) {
   const std::vector<double>& i = b.inertia;
   if (i.size() == 3) return Mat3d::diagonal({i[0], i[1], i[2]});
   if (i.size() == 6) return {{{i[0], i[3], i[4]}, {i[3], i[1], i[5]}, {i[4], i[5], i[2]}}};
   if (!i.empty())
     throw support::SectionFault("inertia",
                                 "[kg m2] must have 3 entries (xx, yy, zz) or 6 (then xy, xz, yz); give one of these");
+  if (!b.box && !b.shapes.empty()) {
+    const SolidMoments moments = shapesMoments(b);
+    Mat3d inertia = moments.inertia;
+    for (auto& row : inertia.m)
+      for (double& entry : row) entry *= mass / moments.volume;
+    return inertia;
+  }
   if (!b.box) throw support::SectionFault("inertia", "[kg m2] is missing; add it, or the edges of a box");
   const Vec3d e = *b.box;
-  const double m = *b.mass / 12;
+  const double m = mass / 12;
   return Mat3d::diagonal({m * (e.y * e.y + e.z * e.z), m * (e.x * e.x + e.z * e.z), m * (e.x * e.x + e.y * e.y)});
 }
 
@@ -87,6 +116,11 @@ void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits
 
 } // namespace
 
+MechanismBuilder::MechanismBuilder(const vehicle::Assembly& vehicle) : model_(vehicle.model) {
+  for (const multibody::Body& body : model_.bodies()) names_.insert("body " + body.name);
+  bodies_["vehicle"] = vehicle.chassis, names_.insert("body vehicle");
+}
+
 void MechanismBuilder::checkName(const std::string& kind, const std::string& name) {
   if (name == "world") throw support::SectionFault("name", "is the name of the ground; choose another");
   if (const std::string fault = support::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
@@ -101,7 +135,7 @@ int MechanismBuilder::body(const std::string& key, const std::string& name) cons
   if (name == "world") return multibody::kWorld;
   if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
   std::vector<std::string> known = {"world"};
-  for (const multibody::Body& b : model_.bodies()) known.push_back(b.name);
+  for (const auto& [body, index] : bodies_) known.push_back(body);
   throw support::SectionFault(
       key, fmt::format("names no body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
 }
@@ -115,7 +149,7 @@ std::pair<int, int> MechanismBuilder::twoBodies(const std::vector<std::string>& 
 int MechanismBuilder::joint(const std::string& key, const std::string& name) const {
   if (const auto found = joints_.find(name); found != joints_.end()) return found->second;
   std::vector<std::string> known;
-  for (const multibody::Joint& j : model_.joints()) known.push_back(j.name);
+  for (const auto& [joint, index] : joints_) known.push_back(joint);
   throw support::SectionFault(key, known.empty() ? "names no joint, for there is none; add a [[joint]]"
                                                  : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
                                                                base::nearestWord(name, known)));
@@ -153,12 +187,12 @@ void MechanismBuilder::add(const scene::BodySection& b) {
   body.pose = {b.position, support::orientationOf(b.axis, b.angle, b.orientation)};
   body.v_WB = b.velocity, body.w_WB = b.spin;
   if (!b.fixed) {
-    if (!b.mass) throw support::SectionFault("mass", "[kg] is missing; add it, or set fixed = true");
-    body.mass = *b.mass;
+    if (!b.mass && !b.density) throw support::SectionFault("mass", "[kg] is missing; add it, or set fixed = true");
+    body.mass = b.mass ? *b.mass : *b.density * shapesMoments(b).volume;
     if (b.point && !b.inertia.empty())
       throw support::SectionFault("inertia",
                                   "[kg m2] stands beside point = true; a point has none: remove one of the two");
-    if (!b.point) body.inertia_B = inertiaOf(b);
+    if (!b.point) body.inertia_B = inertiaOf(b, body.mass);
   }
   bodies_[b.name] = handed({"inertia", "mass", "velocity", "point"}, [&] { return model_.addBody(body); });
 }
@@ -286,8 +320,8 @@ void MechanismBuilder::add(const scene::CouplingSection& c) {
   handed({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
 }
 
-multibody::Model buildModel(const scene::MechanismSections& sections) {
-  MechanismBuilder builder;
+multibody::Model buildModel(const scene::MechanismSections& sections, const vehicle::Assembly* vehicle) {
+  MechanismBuilder builder = vehicle ? MechanismBuilder(*vehicle) : MechanismBuilder();
   scene::forEachKind(sections, [&](const char*, const auto& list) {
     for (const auto& section : list) builder.add(section);
   });

@@ -12,12 +12,19 @@
 #include <utility>
 #include <vector>
 
+namespace grouser::vehicle {
+struct Assembly;
+}
+
 /// From the sections of a scene file to the model that multibody/ solves.
 namespace grouser::setup {
 
 /// Adds section after section and checks each against what has been added so far. Throws SectionFault.
 class MechanismBuilder {
 public:
+  MechanismBuilder() = default;
+  /// Begins with the vehicle's parts; "vehicle" names its chassis.
+  explicit MechanismBuilder(const vehicle::Assembly& vehicle);
   void add(const scene::BodySection& body);
   void add(const scene::JointSection& joint);
   void add(const scene::SpringSection& spring);
@@ -44,7 +51,8 @@ private:
   std::set<std::string> names_; ///< "body rod"
 };
 
-multibody::Model buildModel(const scene::MechanismSections& sections);
+/// `vehicle`: with whose parts the model begins; null without.
+multibody::Model buildModel(const scene::MechanismSections& sections, const vehicle::Assembly* vehicle = nullptr);
 
 /// Throws SectionFault, for key "" of joint `index`, where the velocities of its two bodies at the start do not go
 /// together with it. Velocities must agree to 1e-5 of their size.

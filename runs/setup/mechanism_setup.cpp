@@ -5,9 +5,13 @@
 #include "base/math.hpp"
 #include "base/rounded.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/body_mass.hpp"
+#include "runs/setup/hitched_bodies.hpp"
+#include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_model.hpp"
+#include "runs/setup/obstacles.hpp"
 #include "runs/setup/time_scales.hpp"
-#include "runs/support/orientation.hpp"
+#include "runs/setup/vehicle_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -171,19 +175,30 @@ std::vector<std::string> shapeMaterials(const scene::Scene& scene) {
 
 namespace {
 
-contact::SurfaceGeometry geometryOf(const scene::ShapeSection& s) {
-  using contact::SurfaceShape;
-  switch (s.kind) {
-  case scene::ShapeKind::box:
-    return {SurfaceShape::box, *s.size * 0.5};
-  case scene::ShapeKind::cylinder:
-    return {SurfaceShape::cylinder, {*s.radius, 0, 0.5 * *s.length}};
-  case scene::ShapeKind::capsule:
-    return {SurfaceShape::capsule, {*s.radius, 0, 0.5 * *s.length}};
-  case scene::ShapeKind::sphere:
-    break;
-  }
-  return {SurfaceShape::capsule, {*s.radius, 0, 0}};
+/// Foundations of the shapes on each other, on the surfaces at rest and on rigid terrain.
+coupling::FoundationTable foundationsOf(const scene::Scene& scene) {
+  coupling::FoundationTable table;
+  table.materials = shapeMaterials(scene);
+  const std::size_t ofShapes = table.materials.size();
+  const auto indexOf = [&table](const std::string& material) {
+    const int index = table.indexOf(material);
+    if (static_cast<std::size_t>(index) == table.materials.size()) table.materials.push_back(material);
+    return index;
+  };
+  for (const coupling::Obstacle& o : obstaclesOf(scene)) indexOf(o.surface.material);
+  if (ofShapes > 0 && scene.terrain && !scene.terrain->granular()) table.ground = indexOf(scene.terrain->material);
+  for (std::size_t a = 0; a < ofShapes; ++a)
+    for (const std::string& b : table.materials) {
+      const contact::PairProperties* pair = scene.contact(table.materials[a], b);
+      table.laws.push_back(contact::mixedFoundation(scene.material(table.materials[a]), scene.material(b),
+                                                    pair ? *pair : contact::PairProperties{}));
+    }
+  if (!scene.vehicle) return table;
+  const std::optional<VehicleSurface> own = vehicleSurface(scene);
+  for (std::size_t a = 0; a < ofShapes; ++a)
+    table.onVehicle.push_back(own ? own->friction
+                                  : pairLaw(scene, scene.vehicle->material, table.materials[a], {}).friction);
+  return table;
 }
 
 /// The shapes of all bodies, in the order of the file.
@@ -193,12 +208,8 @@ std::vector<coupling::BodyShape> shapesOf(const scene::Scene& scene) {
   for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
     const scene::BodySection& body = scene.mechanism.bodies[b];
     for (const scene::ShapeSection& s : body.shapes) {
-      const bool isBox = s.kind == scene::ShapeKind::box;
-      const base::Quat turn = isBox    ? support::orientationOf(s.axis, s.angle, {})
-                              : s.axis ? support::turnFromZ(base::normalized(*s.axis))
-                                       : base::Quat{};
       const auto material = std::find(materials.begin(), materials.end(), body.material) - materials.begin();
-      all.push_back({b, {s.position, turn}, geometryOf(s), static_cast<int>(material), scene.placeOf("body", b)});
+      all.push_back({b, poseOf(s), geometryOf(s), static_cast<int>(material), scene.placeOf("body", b)});
     }
   }
   return all;
@@ -207,10 +218,25 @@ std::vector<coupling::BodyShape> shapesOf(const scene::Scene& scene) {
 } // namespace
 
 coupling::MechanismSetup mechanismSetup(const scene::Scene& scene) {
-  coupling::MechanismSetup setup{
-      buildModel(scene.mechanism), solverOptions(scene.run), scene.run.gravity, largestTurn(scene.run), {}, {}, {}};
+  const std::optional<vehicle::Assembly> vehicle = vehicleOf(scene);
+  coupling::MechanismSetup setup{.model = buildModel(scene.mechanism, vehicle ? &*vehicle : nullptr),
+                                 .solver = solverOptions(scene.run),
+                                 .gravity = scene.run.gravity,
+                                 .largestTurn = largestTurn(scene.run)};
+  if (vehicle) {
+    setup.ofVehicle = vehicle->model.counts();
+    setup.chassis = vehicle->model.bodies()[static_cast<std::size_t>(vehicle->chassis)].pose;
+    setup.hitched = hitchedBodies(scene, setup.model, *vehicle);
+  }
   for (const scene::BodySection& body : scene.mechanism.bodies) setup.boxes.push_back(body.box);
-  setup.shapes = shapesOf(scene);
+  setup.shapes = shapesOf(scene), setup.foundations = foundationsOf(scene);
+  for (coupling::BodyShape& s : setup.shapes) s.body += setup.ofVehicle.bodies;
+  for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b)
+    if (const scene::BodySection& body = scene.mechanism.bodies[b]; body.probe)
+      setup.probes.push_back({setup.ofVehicle.bodies + b, *body.probe * 0.5, body.probePosition});
+  if (scene.mechanism.placement) setup.aboveBed = scene.mechanism.placement->aboveBed;
+  if (setup.aboveBed)
+    setup.place = scene.document ? scene.document->root().section("mechanism").origin() + ": mechanism" : "mechanism";
   if (scene.run.tolerance)
     setup.control = {*scene.run.tolerance, kLongestStep, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod)};
   return setup;

@@ -32,10 +32,12 @@ std::vector<SceneSurface> wallsOf(const scene::Scene& scene) {
 
 std::vector<coupling::Obstacle> obstaclesOf(const scene::Scene& scene) {
   std::vector<coupling::Obstacle> all;
-  if (!scene.vehicle) return all;
+  if (!scene.vehicle && !scene.mechanism.touches()) return all;
   const std::optional<VehicleSurface> own = vehicleSurface(scene);
   const auto add = [&](const coupling::SurfaceSetup& s, std::optional<std::size_t> place) {
-    const double friction = own ? own->friction : pairLaw(scene, scene.vehicle->material, s.material, {}).friction;
+    double friction = 0; // of bodies by FoundationTable
+    if (scene.vehicle)
+      friction = own ? own->friction : pairLaw(scene, scene.vehicle->material, s.material, {}).friction;
     all.push_back({s, friction, place});
   };
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);

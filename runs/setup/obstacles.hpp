@@ -11,8 +11,9 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Planes, boxes, cylinders and meshes of a scene that nothing moves; empty without a vehicle. Friction is that of
-/// vehicle.material and the surface's where the scene gives the vehicle one, else friction_ground of its file.
+/// Planes, boxes, cylinders and meshes of a scene that nothing moves; empty without a vehicle or bodies with shapes.
+/// Friction is that of vehicle.material and the surface's where the scene gives the vehicle one, else friction_ground
+/// of its file.
 std::vector<coupling::Obstacle> obstaclesOf(const scene::Scene& scene);
 
 /// Whether the hull of the scene's vehicle touches anything.

@@ -18,6 +18,12 @@ struct RunSetup {
   double checkpointInterval{}; ///< [s]; 0: only at the end
 };
 
+/// A column that [[output.plot]] draws.
+struct PlottedColumn {
+  std::string column; ///< "bodies.cone.position.z"
+  std::string place;  ///< of its key, in messages: "scene.toml:14: output.plot.0.x"
+};
+
 /// What a run writes.
 struct OutputSetup {
   std::vector<std::string> record;   ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
@@ -29,6 +35,7 @@ struct OutputSetup {
   int pictureWidth{};                               ///< [px]
   std::optional<double> fieldsCell;                 ///< [m] edge of the cells of the soil's fields; empty: no fields
   std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] of their box; empty: around the grains
+  std::vector<PlottedColumn> plots;
 };
 
 /// What a scene says of its run beside the simulation itself.

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 #include <vector>
 
 namespace grouser::setup {
@@ -138,13 +139,14 @@ void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPa
   if (!scene.mechanism.touches()) return;
   const coupling::MechanismSetup mechanism = mechanismSetup(scene);
   for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
-    const multibody::Body& body = mechanism.model.bodies()[b];
+    const std::size_t index = mechanism.ofVehicle.bodies + b;
+    const multibody::Body& body = mechanism.model.bodies()[index];
     if (body.fixed) continue;
     const double inertia = leastInertia(body.inertia_B);
     for (const auto& [material, radius, largest] : pairs.kinds.kinds) {
       double touching = 0, turning = 0;
       for (const coupling::BodyShape& s : mechanism.shapes) {
-        if (s.body != b) continue;
+        if (s.body != index) continue;
         const Vec3d reach = halfExtent(s.shape) + Vec3d{radius, radius, radius};
         const double most = 2 * mostTouching(scene, {contact::SurfaceShape::box, reach}, radius);
         touching += most;
@@ -159,6 +161,68 @@ void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPa
                    fmt::format("body \"{}\" of {:g} kg on up to {:.0f} grains", body.name, body.mass, touching),
                    fmt::format("raise body.{}.mass or its inertia", b));
     }
+  }
+}
+
+/// [body] Factor of a contact's springs for bodies that give way on the other side, too: 1 on what is fixed; 2 where
+/// another mechanism, bodies that joints tie, or its own may press; 4 between two others (Gershgorin).
+std::vector<double> sidesPressed(const coupling::MechanismSetup& mechanism, const coupling::ContactParts& parts) {
+  const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
+  std::vector<std::size_t> group(bodies.size()); // of bodies that joints tie: the first of them
+  for (std::size_t b = 0; b < bodies.size(); ++b) group[b] = b;
+  for (const multibody::Joint& j : mechanism.model.joints()) {
+    if (j.bodyA == multibody::kWorld || j.bodyB == multibody::kWorld) continue;
+    const std::size_t a = group[static_cast<std::size_t>(j.bodyA)], b = group[static_cast<std::size_t>(j.bodyB)];
+    for (std::size_t& g : group)
+      if (g == a || g == b) g = std::min(a, b);
+  }
+  std::vector<std::set<std::size_t>> partners(bodies.size());
+  for (const coupling::ContactParts::Pair& pair : parts.pairs) {
+    const auto bodyOf = [&](int part) { return mechanism.shapes[static_cast<std::size_t>(part)].body; };
+    const std::size_t a = bodyOf(pair.part), b = bodyOf(pair.other);
+    if (!bodies[a].fixed && !bodies[b].fixed) partners[a].insert(group[b]), partners[b].insert(group[a]);
+  }
+  std::vector<double> sides;
+  for (const std::set<std::size_t>& p : partners) sides.push_back(p.empty() ? 1 : p.size() == 1 ? 2 : 4);
+  return sides;
+}
+
+/// A body on the foundation under one of its shapes, which lies on its largest face or, where it is round, as deep as
+/// kDeep of its radius: springs K A that shift it by 1 / m and turn it by r^2 / I.
+void considerFoundations(StepLimit& limit, const scene::Scene& scene) {
+  if (!scene.mechanism.touches()) return;
+  constexpr double kDeep = 0.01; // [radius]
+  const coupling::MechanismSetup mechanism = mechanismSetup(scene);
+  coupling::ContactParts parts;
+  coupling::addBodyParts(parts, mechanism, mechanism.model);
+  const bool meetsRigid = mechanism.foundations.ground >= 0 || scene.vehicle || !obstaclesOf(scene).empty();
+  if (!meetsRigid && parts.pairs.empty()) return;
+  const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
+  const std::vector<double> sides = sidesPressed(mechanism, parts);
+  std::vector<double> springs(bodies.size()), dampers(bodies.size()); // [1/s2], [1/s]
+  for (const coupling::BodyShape& s : mechanism.shapes) {
+    const multibody::Body& body = bodies[s.body];
+    if (body.fixed) continue;
+    const Vec3d half = halfExtent(s.shape);
+    const double area = coupling::largestPatch(s.shape, kDeep * s.shape.half.x);
+    const double arm2 = norm2(s.pose_B.position) + norm2(half) / 3;
+    double rate = 0, decay = 0;
+    for (std::size_t other = 0; other < mechanism.foundations.materials.size(); ++other) {
+      const contact::Foundation& f = mechanism.foundations.between(s.material, static_cast<int>(other));
+      const contact::PatchLaw law = coupling::patchLaw(f, s.shape, body.mass, norm(scene.run.gravity));
+      const double stiffness = law.modulus * area * (1 / body.mass + arm2 / leastInertia(body.inertia_B));
+      rate = std::max(rate, stiffness), decay = std::max(decay, stiffness * law.relaxation);
+    }
+    springs[s.body] = std::max(springs[s.body], sides[s.body] * rate);
+    dampers[s.body] = std::max(dampers[s.body], sides[s.body] * decay);
+  }
+  for (std::size_t b = mechanism.ofVehicle.bodies; b < bodies.size(); ++b) {
+    const std::size_t section = b - mechanism.ofVehicle.bodies;
+    if (springs[b] > 0) limit.bounce = std::min(limit.bounce, base::kPi / std::sqrt(springs[b]));
+    considerBoth(limit, springs[b], dampers[b],
+                 fmt::format("body \"{}\" of {:g} kg on rigid surfaces or bodies", bodies[b].name, bodies[b].mass),
+                 fmt::format("raise body.{}.mass, or lower foundation_modulus of material.{}", section,
+                             scene.mechanism.bodies[section].material));
   }
 }
 
@@ -236,7 +300,7 @@ StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const 
     considerModes(limit, c);
   }
   considerFreeSurfaces(limit, scene, pairs);
-  considerBodies(limit, scene, pairs);
+  considerBodies(limit, scene, pairs), considerFoundations(limit, scene);
   limit.vehicle.clear();
   if (!scene.vehicle) return limit;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
@@ -303,7 +367,7 @@ StepLimit stepLimit(const scene::Scene& scene) {
 double shortestContact(const scene::Scene& scene) { return shortestOf(grainContacts(scene, ContactPairs(scene))); }
 
 double chooseTimeStep(const scene::Scene& scene) {
-  if (!scene.mechanism.empty() && !scene.mechanism.touches()) return mechanismTimeStep(scene);
+  if (!scene.mechanism.empty() && !scene.mechanism.touches() && !scene.vehicle) return mechanismTimeStep(scene);
   const ContactPairs pairs(scene);
   checkSoftness(scene, pairs);
   const std::vector<GrainContact> contacts = grainContacts(scene, pairs);
@@ -312,12 +376,13 @@ double chooseTimeStep(const scene::Scene& scene) {
   // Where a contact is to have more or fewer steps than usual, so has all that grains do, down to the limits.
   const double coarser = scene::kStepsPerContact / scene.run.stepsPerContact;
   double automatic = contact > 0 ? contact / scene.run.stepsPerContact : kVehicleTimeStep;
-  automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step});
+  automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step,
+                        limit.bounce / scene.run.stepsPerContact});
   for (const auto& [material, radius, largest] : pairs.kinds.kinds)
     automatic =
         std::min(automatic, coarser * kRayleighShare * contact::rayleighTimeOf(scene.material(material), radius));
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
-  if (!scene.mechanism.empty()) automatic = std::min(automatic, mechanismTimeStep(scene));
+  if (!scene.mechanism.empty() && !scene.vehicle) automatic = std::min(automatic, mechanismTimeStep(scene));
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
@@ -362,16 +427,20 @@ double leverOf(const SceneSurface& s) {
 
 void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
   if (!scene.mechanism.touches()) return;
-  const double most = kRounding * 0.5 * pairs.kinds.smallest / timeStep;
-  for (const coupling::BodyShape& s : mechanismSetup(scene).shapes) {
-    const scene::BodySection& body = scene.mechanism.bodies[s.body];
+  const coupling::MechanismSetup mechanism = mechanismSetup(scene);
+  double smallest = pairs.kinds.any() ? pairs.kinds.smallest : base::kInfinity;
+  for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, thinnest(s.shape));
+  const double most = kRounding * 0.5 * smallest / timeStep;
+  for (const coupling::BodyShape& s : mechanism.shapes) {
+    const std::size_t section = s.body - mechanism.ofVehicle.bodies;
+    const scene::BodySection& body = scene.mechanism.bodies[section];
     const double speed = norm(body.velocity) + norm(body.spin) * (norm(s.pose_B.position) + norm(halfExtent(s.shape)));
     if (speed > most)
-      scene.fail("body", s.body, "velocity",
-                 fmt::format("[m/s] and spin move a shape by up to {:.4g} m in a step of {:.3g} s, more than half the "
-                             "radius of the smallest grain, so it could pass through grains; lower them, or set "
-                             "run.time_step to {} s or less",
-                             speed * timeStep, timeStep, base::roundedDown(0.5 * pairs.kinds.smallest / speed, 4)));
+      scene.fail("body", section, "velocity",
+                 fmt::format("[m/s] and spin move a shape by up to {:.4g} m in a step of {:.3g} s, more than {:.4g} m, "
+                             "half the radius of the smallest grain or a quarter of the thinnest shape, so it could "
+                             "pass through; lower them, or set run.time_step to {} s or less",
+                             speed * timeStep, timeStep, 0.5 * smallest, base::roundedDown(0.5 * smallest / speed, 4)));
   }
 }
 

@@ -32,6 +32,8 @@ struct StepLimit {
   /// Up to which every motion decays that sticking contacts make together. Between the two, strong dashpots let grains
   /// at rest tremble, by as much as Coulomb's limit and forces that only push allow.
   double calm = std::numeric_limits<double>::infinity();
+  /// Duration of the shortest bounce of a body on a rigid surface or body [s].
+  double bounce = std::numeric_limits<double>::infinity();
   std::vector<Bound> vehicle; ///< limits that contacts of the vehicle with itself and with rigid ground set
 };
 

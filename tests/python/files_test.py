@@ -111,6 +111,7 @@ class FilesOfResults(FolderTest):
         self.run_and_look(moving, "moving")
         bodies = grouser.Scene.read(ROOT / "tests/scenes/bodies.toml")
         bodies["run.duration"] = 0.01
+        bodies["body"][0]["probe_size"] = [0.1, 0.1, 0.1]
         self.run_and_look(bodies, "bodies")
         bushing = grouser.Scene.read(ROOT / "runs/mechanisms/andrews.toml")
         bushing["run.duration"] = 0.001

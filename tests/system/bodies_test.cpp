@@ -199,8 +199,10 @@ TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
   EXPECT_EQ(setup::bodyContactsNote(alone), "");
   EXPECT_TRUE(setup::freeSurfaceNotes(alone).empty());
   const scene::Scene light = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 0.01) +
-                                     "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n");
-  EXPECT_EQ(setup::bodyContactsNote(light), "bodies touch grains only; they pass through planes");
+                                     "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\nvelocity = [0, 0, -0.1]\n");
+  EXPECT_EQ(setup::bodyContactsNote(light),
+            "bodies pass through planes, boxes, cylinders and meshes that move; a driven "
+            "[[body]] touches bodies");
   ASSERT_EQ(setup::freeSurfaceNotes(light).size(), 1u);
   EXPECT_NE(setup::freeSurfaceNotes(light)[0].find("body \"cube\" has a mass of 0.01 kg"), std::string::npos);
 }

@@ -16,7 +16,14 @@ namespace {
 using base::Vec3d;
 using contact::PartLoad;
 using contact::PartMotion;
-using Surface = RigidContacts::Surface;
+/// A surface with its friction against the plate.
+struct Surface {
+  using Kind = RigidContacts::Surface::Kind;
+  Kind kind{};
+  SurfaceGeometry geometry;
+  int set{-1}, motion{-1};
+  double friction{};
+};
 using contact::testing::atRest;
 using contact::testing::plate;
 
@@ -33,21 +40,21 @@ contact::PatchQuanta quanta() {
 
 /// A plate of which a face lies 30 mm below its origin, and one surface.
 struct Bench {
-  RigidContacts::Model model{{kModulus, 0, 0, 0.8}, quanta(), kStep};
+  RigidContacts::Model model{quanta(), kStep};
   base::SphereSet part = plate(0.05, 0.005, kSpacing), other = plate(0.2, 0.005, 0.008);
   PartMotion at; ///< of the surface
   std::unique_ptr<RigidContacts> contacts;
   std::vector<PartLoad> loads{2};
 
-  Bench(Surface surface, const PartMotion& place, const HeightField* field = nullptr, double relaxation = 0)
+  Bench(const Surface& surface, const PartMotion& place, const HeightField* field = nullptr, double relaxation = 0)
       : at(place) {
-    model.law.relaxation = relaxation;
-    surface.motion = 1;
+    const contact::PatchLaw law{kModulus, relaxation, surface.friction, 0.8};
     std::vector<contact::PointTree> points;
     points.emplace_back(contact::surfaceSamplesOf(part));
-    contacts = std::make_unique<RigidContacts>(model, std::move(points), std::vector<int>{0},
-                                               std::vector<Surface>{surface}, std::vector<RigidContacts::Pair>{{0, 0}},
-                                               std::vector<const base::SphereSet*>{&other}, field);
+    contacts = std::make_unique<RigidContacts>(
+        model, std::move(points), std::vector<int>{0},
+        std::vector<RigidContacts::Surface>{{surface.kind, surface.geometry, surface.set, 1}},
+        std::vector<RigidContacts::Pair>{{0, 0, law}}, std::vector<const base::SphereSet*>{&other}, field);
   }
   void step(const Vec3d& origin, const base::Quat& turn = {1, 0, 0, 0}, const Vec3d& velocity = {}) {
     PartMotion a = atRest(origin, turn);

@@ -24,6 +24,22 @@ namespace fs = std::filesystem;
 
 constexpr int kShoes = 12, kRows = 80;
 
+/// Of figure.png: a column against time, a component against another, and the sum of two.
+const std::string kPanels = R"([[output.plot]]
+title = "Speed"
+y = ["vehicle.left.speed"]
+y_label = "speed [m/s]"
+levels = [0.2]
+level_labels = ["wanted"]
+[[output.plot]]
+x = "vehicle.position.x"
+x_from_start = true
+y = ["vehicle.position.z", "vehicle.left.speed"]
+labels = ["sum"]
+sum = true
+y_label = "sum"
+)";
+
 /// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises. The last shoe
 /// comes down at row 60 only.
 class Plots : public FolderTest {
@@ -38,7 +54,8 @@ protected:
     const std::vector<Channel> ledger = ledgerColumns().channels();
     channels.insert(channels.end(), ledger.begin(), ledger.end());
     RunWriter writer(
-        folder_, setup::provenanceOf(setup::parseScene(goodScene(), std::string(GROUSER_SOURCE_DIR) + "/scene.toml")),
+        folder_,
+        setup::provenanceOf(setup::parseScene(goodScene() + kPanels, std::string(GROUSER_SOURCE_DIR) + "/scene.toml")),
         channels, {});
     writer.constant(output::kPitchRadius, 0.245);
     writer.surface({{0, 1, 2}, {-1, 1}, {0, 0.1, 0.2, 0.1, 0.2, 0.3}, "bilinear"});

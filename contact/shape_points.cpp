@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact/shape_points.hpp"
+
+#include "base/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace grouser::contact {
+
+using base::Vec3d;
+
+namespace {
+
+constexpr int kCellsOfEdge = 24, kLeastCells = 4, kMostCells = 48; ///< between two edges
+constexpr int kAround = 512;                                       ///< points round a cylinder
+constexpr int kRings = 12;                                         ///< of the end of a cylinder
+constexpr int kLatitudes = 96;                                     ///< of a sphere
+
+/// Points on an edge stand this far within their face, so that a face does not press along its edges where another one
+/// lies on a plane [half of the face].
+constexpr double kInset = 0.005;
+
+/// Cells of a stretch between two edges, and the share of node k of them: half at either end (trapezoidal rule).
+int cellsOf(double length, double spacing) {
+  return std::clamp(static_cast<int>(std::ceil(length / spacing - 1e-9)), kLeastCells, kMostCells);
+}
+double shareOf(int k, int cells) { return (k == 0 || k == cells ? 0.5 : 1.0) / cells; }
+double nodeOf(int k, int cells) { return (1 - kInset) * (2.0 * k / cells - 1); } ///< of half the stretch
+
+class Points {
+public:
+  void put(const Vec3d& at, double area, const Vec3d& normal) {
+    all_.push_back({at.as<float>(), 0, static_cast<float>(area), mainDirection(normal)});
+  }
+
+  void box(const Vec3d& half) {
+    const double spacing = 2 * std::max({half.x, half.y, half.z}) / kCellsOfEdge;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+      const int nu = cellsOf(2 * half[u], spacing), nv = cellsOf(2 * half[v], spacing);
+      for (const double side : {-1.0, 1.0})
+        for (int i = 0; i <= nu; ++i)
+          for (int j = 0; j <= nv; ++j) {
+            Vec3d at, normal;
+            at[axis] = side * half[axis], normal[axis] = side;
+            at[u] = half[u] * nodeOf(i, nu), at[v] = half[v] * nodeOf(j, nv);
+            put(at, 4 * half[u] * half[v] * shareOf(i, nu) * shareOf(j, nv), normal);
+          }
+    }
+  }
+
+  /// The side of a cylinder or cone about z, of radius `low` at its lower and `high` at its upper end.
+  void side(double low, double high, double half) {
+    const double slant = std::sqrt((low - high) * (low - high) + 4 * half * half);
+    const int cells = cellsOf(slant, std::max(low, high) / 8);
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * base::kPi * (i + 0.5) / kAround;
+      const Vec3d out{base::cos(angle), base::sin(angle), 0};
+      const Vec3d normal = (out * (2 * half) + Vec3d{0, 0, low - high}) * (1 / slant);
+      for (int j = 0; j <= cells; ++j) {
+        const double at = nodeOf(j, cells), radius = 0.5 * (low + high) + 0.5 * at * (high - low);
+        put(out * radius + Vec3d{0, 0, half * at}, 2 * base::kPi * radius / kAround * slant * shareOf(j, cells),
+            normal);
+      }
+    }
+  }
+
+  /// The end of a cylinder or cone about z, at the height z.
+  void end(double radius, double z) {
+    if (!(radius > 0)) return;
+    const double step = radius / kRings;
+    for (int ring = 0; ring <= kRings; ++ring) {
+      const double r = ring * step, inner = std::max(0.0, r - 0.5 * step), outer = std::min(radius, r + 0.5 * step);
+      const int around = ring == kRings ? kAround : std::max(1, 6 * ring);
+      const double area = base::kPi * (outer * outer - inner * inner) / around;
+      for (int k = 0; k < around; ++k) {
+        const double angle = 2 * base::kPi * (k + 0.5) / around;
+        put(Vec3d{base::cos(angle), base::sin(angle), 0} * (r * (1 - kInset)) + Vec3d{0, 0, z}, area, {0, 0, z});
+      }
+    }
+  }
+
+  /// Two halves of a sphere about the ends of a segment along z.
+  void caps(double radius, double half) {
+    const double step = base::kPi / kLatitudes;
+    for (int k = 0; k < kLatitudes; ++k) {
+      const double from = k * step, middle = from + 0.5 * step, across = base::sin(middle), along = base::cos(middle);
+      const int around = std::max(4, static_cast<int>(2 * kLatitudes * across));
+      const double area = 2 * base::kPi * radius * radius * (base::cos(from) - base::cos(from + step)) / around;
+      for (int i = 0; i < around; ++i) {
+        const double angle = 2 * base::kPi * (i + 0.5 * (k % 2)) / around;
+        const Vec3d out{across * base::cos(angle), across * base::sin(angle), along};
+        put(out * radius + Vec3d{0, 0, along > 0 ? half : -half}, area, out);
+      }
+    }
+  }
+
+  std::vector<SurfaceSample> take() { return std::move(all_); }
+
+private:
+  std::vector<SurfaceSample> all_;
+};
+
+} // namespace
+
+std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape) {
+  Points points;
+  const Vec3d& half = shape.half;
+  if (shape.shape == SurfaceShape::box) points.box(half);
+  const bool isCone = shape.shape == SurfaceShape::cone;
+  if (isCone || shape.shape == SurfaceShape::cylinder) {
+    const double tip = isCone ? half.y : half.x;
+    points.side(half.x, tip, half.z), points.end(half.x, -half.z), points.end(tip, half.z);
+  }
+  if (shape.shape == SurfaceShape::capsule) {
+    points.caps(half.x, half.z);
+    if (half.z > 0) points.side(half.x, half.x, half.z);
+  }
+  return points.take();
+}
+
+} // namespace grouser::contact

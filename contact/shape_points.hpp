@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/part_surface.hpp"
+#include "contact/surface_geometry.hpp"
+
+#include <vector>
+
+namespace grouser::contact {
+
+/// Surface points of a closed-form solid (box, cylinder, cone, capsule) in its own frame, each with its share of the
+/// area [m2]. The spacing is a share of the shape's size: about 1/24 of the longest edge of a box, 1/80 of a turn or
+/// finer where the shape is round. Edges of boxes and cylinders have points of both faces that meet there, 0.5 % of
+/// half the face within it.
+std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape);
+
+} // namespace grouser::contact

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/mixing.hpp"
+#include "contact/patch_law.hpp"
+#include "contact/surface_geometry.hpp"
+
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// Foundations between the materials of bodies and of everything rigid that they may touch.
+struct FoundationTable {
+  std::vector<std::string> materials;    ///< those of the bodies first, in the order of BodyShape::material
+  std::vector<contact::Foundation> laws; ///< [material of a body * materials.size() + any material]
+  int ground{-1};                        ///< material of rigid terrain; -1: there is none
+  std::vector<double> onVehicle; ///< [material of a body] friction on parts of the vehicle [-]; empty without one
+
+  const contact::Foundation& between(int body, int other) const {
+    return laws[static_cast<std::size_t>(body) * materials.size() + static_cast<std::size_t>(other)];
+  }
+  int indexOf(const std::string& material) const; ///< of a material that is in the table
+};
+
+/// Largest area that a shape can lay on a plane [m2]: a face of a box, the end or a strip of a cylinder, a cap of a
+/// sphere. Strips and caps are those at an overlap of `overlap` [m].
+double largestPatch(const contact::SurfaceGeometry& shape, double overlap);
+
+/// Overlap at which `load` [N] presses a shape on a plane, on the least of its faces, strips and caps [m].
+double restingOverlap(const contact::SurfaceGeometry& shape, double modulus, double load);
+
+/// Law of a shape with a mass [kg] of its own. The relaxation gives the law's restitution to small bounces of the free
+/// shape about its rest on a plane under `gravity` [m/s2], on a patch of mean stiffness: larger faces and harder blows
+/// on curved shapes lose more, strips, edges and corners less.
+contact::PatchLaw patchLaw(const contact::Foundation& foundation, const contact::SurfaceGeometry& shape, double mass,
+                           double gravity);
+
+} // namespace grouser::coupling

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/error.hpp"
+#include "contact/shape_points.hpp"
+#include "coupling/mechanism_setup.hpp"
+#include "coupling/obstacles.hpp"
+#include "terrain/height_field.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <functional>
+
+namespace grouser::coupling {
+
+using base::Vec3d;
+
+namespace {
+
+/// A shape in the world as the mechanism starts.
+struct PlacedShape {
+  const BodyShape& shape;
+  base::Pose pose;
+  std::vector<contact::SurfaceSample> points;
+};
+
+/// Throws where points of `a` lie too deep in what `overlap` [m] measures. `other`: its name.
+void checkDepth(const PlacedShape& a, const std::string& body, const std::string& other, double thickness,
+                const std::function<double(const Vec3d&)>& overlap) {
+  constexpr double kMost = 0.02; // [-] of half the thickness
+  double deepest = 0;
+  Vec3d place;
+  for (const contact::SurfaceSample& s : a.points)
+    if (const Vec3d p = a.pose.toWorld(s.centre.as<double>()); overlap(p) > deepest) deepest = overlap(p), place = p;
+  if (deepest <= kMost * thickness) return;
+  throw base::InputError(fmt::format("{}: body \"{}\" overlaps {} by {:.3g} m at ({:.3g}, {:.3g}, {:.3g}) m at the "
+                                     "start, more than {:.3g} m; move the "
+                                     "body",
+                                     a.shape.place, body, other, deepest, place.x, place.y, place.z,
+                                     kMost * thickness));
+}
+
+} // namespace
+
+void requireApart(const MechanismSetup& setup, const multibody::Model& model, const std::vector<Obstacle>& obstacles,
+                  const terrain::HeightField* terrain) {
+  if (setup.shapes.empty()) return;
+  const std::vector<multibody::Body>& bodies = model.bodies();
+  std::vector<PlacedShape> placed;
+  for (const BodyShape& s : setup.shapes)
+    placed.push_back({s, multibody::compose(bodies[s.body].pose, s.pose_B), contact::shapePoints(s.shape)});
+  const auto nameOf = [&](const PlacedShape& a) { return bodies[a.shape.body].name; };
+  for (const PlacedShape& a : placed) {
+    if (bodies[a.shape.body].fixed) continue;
+    const double reach = norm(halfExtent(a.shape.shape)), thickness = thinnest(a.shape.shape);
+    if (terrain && setup.foundations.ground >= 0)
+      checkDepth(a, nameOf(a), "the ground", thickness,
+                 [&](const Vec3d& p) { return terrain->height(p.x, p.y) - p.z; });
+    for (const Obstacle& o : obstacles)
+      if (overlapAt(o.surface, o.surface.start, a.pose.position, reach) > 0)
+        checkDepth(a, nameOf(a), o.surface.name, thickness,
+                   [&](const Vec3d& p) { return overlapAt(o.surface, o.surface.start, p, 0); });
+  }
+  ContactParts parts;
+  addBodyParts(parts, setup, model);
+  for (const ContactParts::Pair& pair : parts.pairs) {
+    const PlacedShape &a = placed[static_cast<std::size_t>(pair.part)],
+                      &b = placed[static_cast<std::size_t>(pair.other)];
+    const auto overlap = [&b](const Vec3d& p) { return -contact::gapTo(b.shape.shape, b.pose.toBody(p)).distance; };
+    if (overlap(a.pose.position) + norm(halfExtent(a.shape.shape)) > 0)
+      checkDepth(a, nameOf(a), fmt::format("body \"{}\"", nameOf(b)),
+                 std::min(thinnest(a.shape.shape), thinnest(b.shape.shape)), overlap);
+  }
+}
+
+} // namespace grouser::coupling

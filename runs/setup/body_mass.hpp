@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "contact/surface_geometry.hpp"
+
+namespace grouser::scene {
+struct BodySection;
+struct ShapeSection;
+} // namespace grouser::scene
+
+namespace grouser::setup {
+
+/// A shape of a [[body]] as contacts see it, and where its frame S stands in the body's: X_BS.
+contact::SurfaceGeometry geometryOf(const scene::ShapeSection& shape);
+base::Pose poseOf(const scene::ShapeSection& shape);
+
+/// Volume and second moments of a solid.
+struct SolidMoments {
+  double volume{};     ///< [m3]
+  base::Vec3d centre;  ///< of the volume [m]
+  base::Mat3d inertia; ///< of unit density about the centre [m5]
+};
+
+/// Closed forms of a homogeneous box, cylinder, capsule (sphere) or cone, in its own frame.
+SolidMoments momentsOf(const contact::SurfaceGeometry& shape);
+
+/// All shapes of a body in its frame, about their common centre (Huygens-Steiner). Where shapes overlap, the overlap
+/// counts for each.
+SolidMoments momentsOf(const scene::BodySection& body);
+
+} // namespace grouser::setup
