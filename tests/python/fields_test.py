@@ -76,6 +76,7 @@ class FieldsOfTheSoil(FolderTest):
     def test_lie_where_their_grain_is_and_go_on_where_a_run_is_resumed(self):
         scene = grouser.Scene({**MINIMAL, "grain": [{"position": [0.03, 0.05, 0.1], "radius": 0.01, "material": "glass",
                                                      "velocity": [1, 2, 3]}]})
+        scene["run.frame_interval"] = 0.005
         scene["output"] = {**MINIMAL["output"], "fields_cell": 0.02, "fields_low": [0, 0, 0], "fields_high": [0.06, 0.08, 0.2]}
         with scene.run(self.folder / "one") as run:
             porosity = run.fields("porosity")
