@@ -217,7 +217,7 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
     body.shapes.push_back(shape.read(shapeTable()));
     checkShape(shape, body.shapes.back());
   }
-  if (section.has("probe_position") && !body.probe)
+  if (!body.probe && norm(body.probePosition) > 0)
     section.fail("probe_position", "[m] has no effect without probe_size; add the edges of the box, or remove it");
   for (const char* key : {"material", "density"})
     if (body.shapes.empty() && section.has(key))

