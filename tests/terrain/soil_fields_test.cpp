@@ -77,6 +77,17 @@ TEST(SoilFields, GrainsCountOnceWhereverPlanesCutThem) {
   EXPECT_NEAR(solid, 40 * ball, 40 * 2e-7 * ball) << "radii are single precision, volumes go as their cube";
 }
 
+TEST(SoilFields, ABallCutByAPlaneFillsASphericalSegmentOnEitherSide) {
+  const GrainModel m = ball(1e-5);
+  const double h = 0.3 * m.radius; // above the plane
+  Grains grains(testExec(), m, {}, {{{0.005, 0.005, 0.01 - m.radius + h}, {}, {}}});
+  grains.refreshNeighbours();
+  const SoilFields fields = fieldsOf(grains, fieldGrid({0, 0, 0}, {0.01, 0.01, 0.02}, 0.01, {}));
+  ASSERT_EQ(fields.grid.cells, (std::array{1, 1, 2}));
+  const double segment = base::kPi * h * h * (m.radius - h / 3);
+  EXPECT_NEAR((1 - fields.porosity[1]) * fields.grid.cellVolume() / segment, 1, 1e-5) << "places in whole units";
+}
+
 TEST(SoilFields, LinearVelocityFieldHasItsStrainRate) {
   // A turn, which has none, and a shear with stretch on top.
   const Vec3d spin{3, -2, 5};
