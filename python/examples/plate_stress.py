@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Presses a plate into a settled bed and compares the vertical stress below its middle with Boussinesq's.
+"""Presses a plate into a settled bed and compares the vertical stress below it with Boussinesq's.
 
     python/examples/plate_stress.py [FOLDER] [SEEDS] [PICTURE]      # default: out/plate_stress, 4 seeds, no picture
 """
@@ -27,32 +27,39 @@ def scene_of(seed: int) -> grouser.Scene:
     scene["material.steel"] = {"stiffness": 1e5, "restitution": 0.3, "friction": 0.3}
     scene["terrain"] = {"heightmap": "heightmaps/flat.png", "size": [SIDE, SIDE], "height_range": [0, 0],
                         "material": "sand", "grain_radius": 0.01, "depth": DEPTH}
-    scene.add("box", name="plate", position=[SIDE / 2, SIDE / 2, 0], above_bed=0.001, size=[PLATE, PLATE, 0.02],
+    scene.add("box", name="plate", position=[SIDE / 2, 0, 0], above_bed=0.001, size=[PLATE, PLATE, 0.02],
               velocity=[0, 0, -0.02], material="steel")
-    middle, half = SIDE / 2, 5.5 * CELL  # a cell stands below the middle of the plate
+    half = 5.5 * CELL  # three by three cells stand below the plate
     scene["output"] = {"plots": False, "picture": False, "fields_cell": CELL,
-                       "fields_low": [middle - half, middle - half, -DEPTH], "fields_high": [middle + half, middle + half, 0.02]}
+                       "fields_low": [SIDE / 2 - half, -half, -DEPTH], "fields_high": [SIDE / 2 + half, half, 0.02]}
     return scene
 
 
-def boussinesq(depth: numpy.ndarray) -> numpy.ndarray:
-    """Vertical stress over the pressure below the middle of a square under uniform pressure [-] (Newmark 1935: four
-    times that below a corner of a quarter)."""
-    m = PLATE / 2 / depth
-    a = 2 * m**2 + 1
-    return 4 / (2 * numpy.pi) * (m**2 / (numpy.sqrt(a) * (m**2 + 1)) * 2 + numpy.arcsin(m**2 / (m**2 + 1)))
+def below_corner(width: numpy.ndarray, length: numpy.ndarray, depth: float) -> numpy.ndarray:
+    """Vertical stress over the pressure at `depth` below a corner of a rectangle [-] (Boussinesq 1885, integrated:
+    Newmark 1935); odd in width and length."""
+    r1, r2, r3 = width**2 + depth**2, length**2 + depth**2, width**2 + length**2 + depth**2
+    return (numpy.arctan(width * length / (depth * numpy.sqrt(r3)))
+            + width * length * depth / numpy.sqrt(r3) * (1 / r1 + 1 / r2)) / (2 * numpy.pi)
 
 
-def profile(run: grouser.Run, sinkage: tuple[float, float] = (0.004, 0.011)) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Depth of the cells [m] below the plate, and the vertical stress that the plate adds there over its pressure [-]:
-    mean over the frames of these sinkages [m]."""
+def boussinesq(depth: float) -> float:
+    """Vertical stress over the pressure under a square of uniform pressure, mean over its footprint at a depth [-]."""
+    x, y = numpy.meshgrid(*2 * [(numpy.arange(24) + 0.5) / 24 * PLATE])
+    corners = [below_corner(a, b, depth) for a in (x, PLATE - x) for b in (y, PLATE - y)]
+    return float(numpy.mean(sum(corners)))
+
+
+def profile(run: grouser.Run) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Depth of the cells [m], and the vertical stress that the plate adds there over its pressure [-]: means over its
+    footprint and over the frames with a sinkage from 4 to 11 mm."""
     stress = run.fields("stress")
     force = run["surfaces.plate.force"]["z"]
-    middle = len(stress.x) // 2
-    vertical = -stress.value[:, :, middle, middle, 2, 2]
-    ratios = [(vertical[k] - vertical[0]) / (force.at(time) / PLATE**2) for k, time in enumerate(stress.time)
-              if sinkage[0] <= 0.02 * time - 0.001 <= sinkage[1]]
-    return -stress.z[::-1], numpy.mean(ratios, axis=0)[::-1]
+    below = slice(len(stress.x) // 2 - 1, len(stress.x) // 2 + 2)
+    vertical = -stress.value[:, :, below, below, 2, 2].mean(axis=(2, 3))
+    pressed = [k for k, time in enumerate(stress.time) if 0.004 <= 0.02 * time - 0.001 <= 0.0111]
+    pressure = numpy.mean([force.at(stress.time[k]) for k in pressed]) / PLATE**2
+    return -stress.z[::-1], ((vertical[pressed].mean(axis=0) - vertical[0]) / pressure)[::-1]
 
 
 def main(folder: str = "out/plate_stress", seeds: int = 4, picture: str = "") -> tuple[numpy.ndarray, numpy.ndarray]:
@@ -77,10 +84,10 @@ def draw(depth: numpy.ndarray, profiles: numpy.ndarray, picture: str) -> None:
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(5, 4.2))
     fine = numpy.linspace(0.01, depth.max(), 200)
-    axes.plot(boussinesq(fine), fine / PLATE, "k-", label="Boussinesq, uniform pressure on a square")
+    axes.plot([boussinesq(z) for z in fine], fine / PLATE, "k-", label="Boussinesq, uniform pressure on a square")
     axes.plot(profiles.T, numpy.tile(depth / PLATE, (len(profiles), 1)).T, ".", color="tab:blue", alpha=0.5)
     axes.plot(profiles.mean(axis=0), depth / PLATE, "o-", color="tab:blue", label=f"grains, mean of {len(profiles)} beds")
-    axes.set(xlabel="vertical stress added below the middle / plate pressure [-]", ylabel="depth / plate width [-]", xlim=(0, None))
+    axes.set(xlabel="vertical stress added below the plate / its pressure [-]", ylabel="depth / plate width [-]")
     axes.invert_yaxis()
     axes.legend()
     figure.tight_layout()
