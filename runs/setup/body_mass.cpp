@@ -81,8 +81,8 @@ SolidMoments momentsOf(const contact::SurfaceGeometry& g) {
                              v / 12 * (e.x * e.x + e.y * e.y)})};
   }
   if (g.shape == SurfaceShape::cone) return momentsOfCone(r, g.half.y, l);
-  const double round_ = kPi * r * r * l; // of the cylinder
-  double volume = round_, across = round_ / 12 * (3 * r * r + l * l), along = round_ / 2 * r * r;
+  const double cylinder = kPi * r * r * l; // of the cylinder
+  double volume = cylinder, across = cylinder / 12 * (3 * r * r + l * l), along = cylinder / 2 * r * r;
   if (g.shape == SurfaceShape::capsule) {
     // Two hemispheres, whose centres lie 3/8 r beyond the ends of the cylinder.
     const double caps = 4.0 / 3 * kPi * r * r * r;

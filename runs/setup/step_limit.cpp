@@ -428,7 +428,8 @@ double leverOf(const SceneSurface& s) {
 void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
   if (!scene.mechanism.touches()) return;
   const coupling::MechanismSetup mechanism = mechanismSetup(scene);
-  double smallest = pairs.kinds.any() ? pairs.kinds.smallest : base::kInfinity;
+  double smallest = base::kInfinity;
+  if (pairs.kinds.any()) smallest = pairs.kinds.smallest;
   for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, thinnest(s.shape));
   const double most = kRounding * 0.5 * smallest / timeStep;
   for (const coupling::BodyShape& s : mechanism.shapes) {
