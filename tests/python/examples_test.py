@@ -13,6 +13,7 @@ import environment
 import error_bars
 import hello_world
 import live_plot
+import plate_stress
 import slip_control
 import track_sinkage
 
@@ -30,6 +31,22 @@ class BouncingGrain(FolderTest):
         tolerance = 2 * GRAVITY * 1e-3 / impact
         for asked, found in measured.items():
             self.assertAlmostEqual(found, asked, delta=tolerance)
+
+
+class PlateStress(unittest.TestCase):
+    """The runs take minutes: docs/results.md has their figure."""
+
+    def test_compares_with_the_tabulated_influence_of_a_square(self):
+        self.assertAlmostEqual(float(plate_stress.below_corner(1.0, 1.0, 1.0)), 0.1752, 4)  # Newmark's table
+        self.assertAlmostEqual(4 * float(plate_stress.below_corner(0.5, 0.5, 1.0)), 0.3361, 4)
+        self.assertAlmostEqual(plate_stress.boussinesq(1e-3), 1, delta=0.02)
+
+    def test_puts_a_cell_grid_under_the_plate(self):
+        output = plate_stress.scene_of(1)["output"]
+        for axis, middle in enumerate((plate_stress.SIDE / 2, 0)):
+            low, high = output["fields_low"][axis], output["fields_high"][axis]
+            self.assertAlmostEqual((low + high) / 2, middle)
+            self.assertAlmostEqual((high - low) / plate_stress.CELL % 2, 1)
 
 
 class TrackSinkage(FolderTest):

@@ -77,6 +77,17 @@ TEST(SoilFields, GrainsCountOnceWhereverPlanesCutThem) {
   EXPECT_NEAR(solid, 40 * ball, 40 * 2e-7 * ball) << "radii are single precision, volumes go as their cube";
 }
 
+TEST(SoilFields, ABallCutByAPlaneFillsASphericalSegmentOnEitherSide) {
+  const GrainModel m = ball(1e-5);
+  const double h = 0.3 * m.radius; // above the plane
+  Grains grains(testExec(), m, {}, {{{0.005, 0.005, 0.01 - m.radius + h}, {}, {}}});
+  grains.refreshNeighbours();
+  const SoilFields fields = fieldsOf(grains, fieldGrid({0, 0, 0}, {0.01, 0.01, 0.02}, 0.01, {}));
+  ASSERT_EQ(fields.grid.cells, (std::array{1, 1, 2}));
+  const double segment = base::kPi * h * h * (m.radius - h / 3);
+  EXPECT_NEAR((1 - fields.porosity[1]) * fields.grid.cellVolume() / segment, 1, 1e-5) << "places in whole units";
+}
+
 TEST(SoilFields, LinearVelocityFieldHasItsStrainRate) {
   // A turn, which has none, and a shear with stretch on top.
   const Vec3d spin{3, -2, 5};
@@ -112,21 +123,28 @@ TEST(SoilFields, CellsWithoutGrainsHaveNoVelocityAndNoStress) {
   EXPECT_EQ(fields.stress[2], Tensor6{});
 }
 
-/// Six smooth planes around a block, pressed together; each a surface whose load is known.
+/// Rough grains in a face-centred lattice, a little out of place, pressed together by six smooth planes; each plane is
+/// a surface whose load is known.
 struct PressedBox {
+  static constexpr int kSites = 6; ///< along each axis, every other one of which holds a grain
+  static constexpr std::int64_t kGrains = 108;
   GrainModel model;
-  Vec3d low{-0.025, -0.035, 0.005}, high;
+  Vec3d low, high;
   std::unique_ptr<Grains> grains;
 
   PressedBox(bool gravity, int threads, std::int64_t steps, Precision precision = Precision::single) {
     model = gravel();
     model.precision = precision;
     if (!gravity) model.gravity = {};
-    std::vector<GrainSpec> start = gravelBlock(5, 5, 5, {});
-    for (GrainSpec& g : start) g.position = Vec3d{0, 0, 0.03} + (g.position - Vec3d{0, 0, 0.03}) * 0.92; // they overlap
-    high = {-1, -1, -1};
-    for (const GrainSpec& g : start) high = base::max(high, g.position + Vec3d{0.027, 0.027, 0.027});
-    high -= Vec3d{0.003, 0.003, 0.003};
+    const double radius = model.radius, overlap = 5e-4, site = (2 * radius - overlap) / std::sqrt(2.0);
+    std::vector<GrainSpec> start;
+    for (int k = 0; k < kSites * kSites * kSites; ++k) {
+      const int x = k % kSites, y = k / kSites % kSites, z = k / (kSites * kSites);
+      const double out = 1e-4 * ((7 * x + 5 * y + 3 * z) % 4 - 1.5);
+      if ((x + y + z) % 2 == 0) start.push_back({{site * x + out, site * y - out, site * z + 0.5 * out}, {}, {}});
+    }
+    const double rim = radius - overlap / 2, extent = site * (kSites - 1) + rim;
+    low = {-rim, -rim, -rim}, high = {extent, extent, extent};
     contact::ContactLaw smooth = model.law;
     smooth.friction = 0;
     const Vec3d inward[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -150,10 +168,10 @@ struct PressedBox {
   static Vec3d pad() { return {0.03, 0.03, 0.03}; } // grains reach a little into the planes
 };
 
-constexpr std::int64_t kToRest = 20000;
+constexpr std::int64_t kToRest = 4000; // a fifth of a second: hundreds of periods of a contact
 
 TEST(SoilFields, MeanStressOfABoxAtRestIsTheLoadOfItsWalls) {
-  const PressedBox box(false, 2, kToRest);
+  const PressedBox box(false, 1, kToRest);
   const Tensor6 total = totalOf(box.fields(0.06));
   const std::size_t diagonal[] = {0, 3, 5};
   const Vec3d size = box.high - box.low;
@@ -161,7 +179,7 @@ TEST(SoilFields, MeanStressOfABoxAtRestIsTheLoadOfItsWalls) {
     const auto k = static_cast<std::size_t>(2 * a);
     const double area = size.x * size.y * size.z / size[a], pressure = box.load(k) / area;
     EXPECT_GT(pressure, 1e3);
-    EXPECT_NEAR(box.load(k) / box.load(k + 1), 1, 5e-4) << "at rest";
+    EXPECT_NEAR(box.load(k) / box.load(k + 1), 1, 1e-4) << "at rest";
     const double stress = total[diagonal[a]] / (area * size[a]);
     EXPECT_NEAR(stress / -pressure, 1, 0.002) << "axis " << a;
     RecordProperty("ratio " + std::to_string(a), std::to_string(stress / -pressure));
@@ -169,7 +187,7 @@ TEST(SoilFields, MeanStressOfABoxAtRestIsTheLoadOfItsWalls) {
 }
 
 TEST(SoilFields, WeightAddsItsMomentToTheLoadsOfTheWalls) {
-  const PressedBox box(true, 2, kToRest);
+  const PressedBox box(true, 1, kToRest);
   const Tensor6 total = totalOf(box.fields(0.06));
   double moment = 0; // sum of force times height over floor, lid and weight
   const auto snapshot = box.grains->snapshot();
@@ -184,7 +202,7 @@ TEST(SoilFields, CoordinationCountsEveryContactOfAGrain) {
   const SoilFields fields = box.fields(1);
   ASSERT_EQ(fields.grid.count(), 1u);
   const GrainLedger ledger = box.grains->ledger();
-  const double mean = static_cast<double>(2 * ledger.contacts + ledger.boundaryContacts) / 125;
+  const double mean = static_cast<double>(2 * ledger.contacts + ledger.boundaryContacts) / PressedBox::kGrains;
   EXPECT_NEAR(fields.coordination[0], mean, 1e-9);
   EXPECT_GE(fields.mechanicalCoordination[0], mean - 1e-9);
 }
@@ -205,12 +223,13 @@ TEST(SoilFields, SameBitsForThreadsAndRebuilds) {
     const SoilFields a = one.fields(0.06), b = two.fields(0.06);
     EXPECT_EQ(a.stress, b.stress);
     EXPECT_EQ(a.porosity, b.porosity);
-    EXPECT_EQ(a.coordination, b.coordination);
-    ASSERT_EQ(a.velocity.size(), b.velocity.size());
-    for (std::size_t c = 0; c < a.velocity.size(); ++c)
-      if (!std::isnan(a.velocity[c].x)) {
-        EXPECT_EQ(a.velocity[c], b.velocity[c]);
-      }
+    ASSERT_EQ(a.grid.count(), b.grid.count());
+    for (std::size_t c = 0; c < a.grid.count(); ++c) {
+      ASSERT_EQ(std::isnan(a.velocity[c].x), std::isnan(b.velocity[c].x));
+      if (std::isnan(a.velocity[c].x)) continue; // no grains
+      EXPECT_EQ(a.velocity[c], b.velocity[c]);
+      EXPECT_EQ(a.coordination[c], b.coordination[c]);
+    }
   }
 }
 
