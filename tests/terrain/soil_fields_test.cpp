@@ -176,7 +176,7 @@ TEST(SoilFields, MeanStressOfABoxAtRestIsTheLoadOfItsWalls) {
   const std::size_t diagonal[] = {0, 3, 5};
   const Vec3d size = box.high - box.low;
   for (int a = 0; a < 3; ++a) {
-    const auto k = static_cast<std::size_t>(2 * a);
+    const std::size_t k = 2 * static_cast<std::size_t>(a);
     const double area = size.x * size.y * size.z / size[a], pressure = box.load(k) / area;
     EXPECT_GT(pressure, 1e3);
     EXPECT_NEAR(box.load(k) / box.load(k + 1), 1, 1e-4) << "at rest";

@@ -299,7 +299,7 @@ std::vector<int> seedsToReach(const CheckCases& cases, const Goal& goal, const s
   for (int most = looks.most();; most = std::min(kMost, 2 * most)) {
     const Looks more = most == looks.most() ? looks : looksUpTo(most, true);
     const Goal asked = atLevels(goal, more.levels);
-    const std::vector<int> planned = wayToGoals(cases, {asked}, taken, more, costs, any);
+    std::vector<int> planned = wayToGoals(cases, {asked}, taken, more, costs, any);
     if (expectedBar(asked, taken, planned) <= asked.wanted) return planned;
     if (most >= kMost) return {};
   }
