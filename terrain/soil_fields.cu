@@ -39,6 +39,16 @@ struct CellScales {
   base::FixedPoint volume, count, mass, momentum, moment;
 };
 
+/// A grid as device code reads it.
+struct CellLattice {
+  Vec3d low, cell; ///< [m]
+  int cells[3];
+  bool periodic[2];
+
+  explicit CellLattice(const FieldGrid& g)
+      : low(g.low), cell(g.cell), cells{g.cells[0], g.cells[1], g.cells[2]}, periodic{g.periodic[0], g.periodic[1]} {}
+};
+
 /// Contact moments of the grains near walls, floor and surfaces, by their place in that list.
 template <class Real> struct MeasureBoundaries : BoundaryContacts<kMeasuring, Real> {
   ContactMoment* moments;
@@ -54,7 +64,7 @@ template <class Real> struct AddToCells : GrainStep<kMeasuring, Real> {
   using Step = GrainStep<kMeasuring, Real>;
   using Step::d, Step::f, Step::has;
 
-  FieldGrid grid;
+  CellLattice grid;
   CellScales scales;
   const std::uint32_t* ghost; ///< null where there are none
   const ContactMoment* atBoundaries;
@@ -195,7 +205,7 @@ template <class Real> void addGrains(GrainSystem& system, const FieldGrid& grid,
     base::forEach(exec, "measure contacts of boundaries", static_cast<std::int64_t>(listed), measure);
     base::synchronize(exec); // before the copies go
   }
-  AddToCells<Real> add{{{d, f}}, grid, scales, system.ghosts(), atBoundaries.data(), onParts, sums};
+  AddToCells<Real> add{{{d, f}}, CellLattice(grid), scales, system.ghosts(), atBoundaries.data(), onParts, sums};
   base::forEach(exec, "measure fields", static_cast<std::int64_t>(slots), add);
   base::synchronize(exec);
 }

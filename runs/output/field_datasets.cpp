@@ -72,10 +72,10 @@ terrain::FieldGrid gridIn(const support::Hdf5File& file, const std::string& fram
 
 } // namespace
 
-std::uint64_t bytesOf(const SoilFields& fields) {
+std::uint64_t bytesOfFields(std::size_t cells) {
   constexpr std::uint64_t kOwn = 4096; // overhead of HDF5 for a dataset
   std::uint64_t bytes = 0;
-  for (const FieldDataset& d : kFieldDatasets) bytes += kOwn + fields.grid.count() * d.width * sizeof(float);
+  for (const FieldDataset& d : kFieldDatasets) bytes += kOwn + cells * d.width * sizeof(float);
   return bytes;
 }
 

@@ -14,7 +14,7 @@
 namespace grouser::output {
 
 /// Size of the fields of one frame in the file [bytes].
-std::uint64_t bytesOf(const terrain::SoilFields& fields);
+std::uint64_t bytesOfFields(std::size_t cells);
 /// `frame`: the group of the frame.
 void writeFields(support::Hdf5File& file, const std::string& frame, const terrain::SoilFields& fields);
 /// The grid of that frame for frames.xdmf; empty where it has no fields.

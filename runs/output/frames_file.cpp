@@ -203,7 +203,7 @@ std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) cons
   for (const GrainDataset& d : kGrainDatasets) aGrain += d.width * sizeof(float);
   std::uint64_t cuts = 0;
   for (const std::vector<double>& places : frame.borders) cuts += places.size();
-  return kOwn + (frame.fields ? output::bytesOf(*frame.fields) : 0) + kAName * static_cast<std::uint64_t>(count_) +
+  return kOwn + (frame.fields ? output::bytesOfFields(frame.fields->grid.count()) : 0) + kAName * static_cast<std::uint64_t>(count_) +
          grains * aGrain + partVertices_ * 3 * sizeof(float) + cuts * sizeof(double);
 }
 

@@ -163,13 +163,13 @@ TEST(BodyContacts, WheelRollsDownASlopeAtTwoThirdsOfGSine) {
 /// A hull on four driven wheels of radius 0.1 m, 0.5 m from axle to axle, at a rim speed of 0.2 m/s.
 std::string rover(double hull, double wheelMass) {
   std::string text =
-      fmt::format("[[body]]\nname = \"hull\"\nmass = {}\nbox = [0.6, 0.3, 0.1]\nposition = [0, 0, 0.2495]\n"
+      fmt::format("[[body]]\nname = \"hull\"\nmass = {}\nbox = [0.6, 0.3, 0.1]\nposition = [0, 0, 0.2498]\n"
                   "velocity = [0.2, 0, 0]\n",
                   hull);
   for (const double x : {0.25, -0.25})
     for (const double y : {0.25, -0.25}) {
       const std::string name = fmt::format("{}_{}", x > 0 ? "front" : "rear", y > 0 ? "left" : "right");
-      const std::string place = fmt::format("[{}, {}, 0.0995]", x, y);
+      const std::string place = fmt::format("[{}, {}, 0.0998]", x, y);
       std::string one = wheel(0.1, 0.06, wheelMass, place, "velocity = [0.2, 0, 0]\nspin = [0, 2, 0]");
       one.replace(one.find("\"wheel\""), 7, "\"" + name + "\"");
       text += one + fmt::format("[[joint]]\nname = \"{0}\"\ntype = \"revolute\"\nbodies = [\"hull\", \"{0}\"]\npoint = "
@@ -179,11 +179,13 @@ std::string rover(double hull, double wheelMass) {
   return text;
 }
 
-TEST(BodyContacts, RoverOnASlopeHasTheTorquesAndLoadsOfStatics) {
+/// Springs of patches lose their strain with the area that leaves the ground, so driven wheels creep: 2 % here with the
+/// default modulus, 0.7 % with ten times that.
+TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
   const double hull = 20, wheelMass = 2, mass = hull + 4 * wheelMass, slope = 0.2, angle = std::atan(slope);
   const double along = kGravity * std::sin(angle), across = kGravity * std::cos(angle);
-  const auto s = made(head(fmt::format("gravity = [{}, 0, {}]", -along, -across), {}, kLossless) + kPlane +
-                      rover(hull, wheelMass));
+  const auto s = made(head(fmt::format("gravity = [{}, 0, {}]", -along, -across), "foundation_modulus = 1e9") +
+                      kPlane + rover(hull, wheelMass));
   advanceTo(*s, 0.5);
   s->restartMeans();
   const double from = stateOf(*s).pose[0].position.x;
@@ -195,8 +197,7 @@ TEST(BodyContacts, RoverOnASlopeHasTheTorquesAndLoadsOfStatics) {
   }
   torque /= steps;
   EXPECT_NEAR(torque, mass * along * 0.1, 0.02 * mass * along * 0.1);
-  EXPECT_NEAR((stateOf(*s).pose[0].position.x - from) / (s->time() - 0.5), 0.2, 0.06 * 0.2)
-      << "springs of patches creep";
+  EXPECT_NEAR((stateOf(*s).pose[0].position.x - from) / (s->time() - 0.5), 0.2, 0.02 * 0.2);
   // Moments about the contact of an axle: the height of the centre of mass moves load to the rear.
   const double height = (hull * 0.25 + 4 * wheelMass * 0.1) / mass, shift = mass * along * height / 0.5;
   const auto force = s->mechanism()->contactForces();

@@ -3,8 +3,10 @@
 
 #include "base/error.hpp"
 #include "base/free_memory.hpp"
+#include "runs/output/field_datasets.hpp"
 #include "runs/output/grains_csv.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/field_checks.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/grain_kinds.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -59,6 +61,19 @@ double frameBytesOfGrain(const scene::Scene& scene) {
   return 4 * (words + (fixed ? 1 : 0));
 }
 
+double frameBytesOfFields(const scene::Scene& scene) {
+  const scene::Output& o = scene.output;
+  base::Vec3d box{};
+  if (!o.fieldsCell) return 0;
+  if (o.fieldsLow)
+    box = *o.fieldsHigh - *o.fieldsLow;
+  else if (scene.terrain && scene.terrain->depth)
+    box = {scene.terrain->size[0], scene.terrain->size[1], *scene.terrain->depth + *o.fieldsCell};
+  double cells = 1;
+  for (int a = 0; a < 3; ++a) cells *= std::max(1.0, std::floor(box[a] / *o.fieldsCell));
+  return static_cast<double>(output::bytesOfFields(static_cast<std::size_t>(std::min(cells, setup::kMostFieldCells))));
+}
+
 Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep, bool onDevice, int ranks,
                 int ranksOnHost) {
   const auto all = static_cast<double>(grains);
@@ -76,7 +91,8 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
 
   const double steps = std::max(1.0, std::round(scene.run.duration / timeStep));
   const auto times = [&](double interval) { return std::floor(std::min(steps, scene.run.duration / interval)) + 1; };
-  if (scene.output.frames) demand.frames = times(scene.run.frameInterval) * all * frameBytesOfGrain(scene);
+  if (scene.output.frames)
+    demand.frames = times(scene.run.frameInterval) * (all * frameBytesOfGrain(scene) + frameBytesOfFields(scene));
   demand.checkpoint = all * kCheckpointBytes;
   const double rows = times(scene.run.outputInterval);
   demand.rows = rows * (scene.vehicle ? kVehicleRow : kRow) + (scene.output.picture ? kPicture : 0);

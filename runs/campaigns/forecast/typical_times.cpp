@@ -43,7 +43,7 @@ TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spher
   t.reading = 2e-6;
   t.output.begin = 0.02, t.output.picture = 0.5, t.output.plot = scene.output.plots ? 0.4 : 0;
   t.output.row = 1e-3 + (cpu ? 100e-9 : 10e-9) * grains;
-  t.output.frameBytes = grains * frameBytesOfGrain(scene) + (vehicle ? kVehicleFrame : 0);
+  t.output.frameBytes = grains * frameBytesOfGrain(scene) + frameBytesOfFields(scene) + (vehicle ? kVehicleFrame : 0);
   t.output.frame = 1e-3 + t.output.frameBytes / kDisk;
   t.output.checkpointBytes = kCheckpointed * grains;
   t.output.checkpoint = 0.01 + t.output.checkpointBytes / kDisk;

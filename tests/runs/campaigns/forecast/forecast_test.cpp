@@ -190,7 +190,11 @@ TEST(MachineFit, DemandGrowsWithGrainsAndFrames) {
   EXPECT_GT(two.process, one.process + 3e8);
   EXPECT_EQ(one.device, 0);
   EXPECT_GT(demandOf(scene, 1'000'000, 1e-5, true).device, 3e8);
-  scene::Scene bare = scene;
+  scene::Scene fields = scene;
+  fields.output.fieldsCell = 0.1, fields.output.fieldsLow = {0, 0, 0}, fields.output.fieldsHigh = {1, 2, 3};
+  const double words = 6000 * 4 * (1 + 1 + 1 + 3 + 6 + 6); // three scalars, a vector, two tensors
+  EXPECT_NEAR(demandOf(fields, 1'000'000, 1e-5, false).frames - one.frames, 3 * words, 0.25 * words);
+  scene::Scene bare = fields;
   bare.output.frames = false;
   EXPECT_EQ(demandOf(bare, 1'000'000, 1e-5, false).frames, 0);
   EXPECT_EQ(demandOf(scene, 0, 1e-5, false).frames, 0);
