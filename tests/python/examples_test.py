@@ -7,6 +7,7 @@ import unittest
 import numpy
 from fixture import FolderTest
 
+import boulder_drops
 import bouncing_grain
 import cruise_control
 import environment
@@ -15,6 +16,7 @@ import hello_world
 import live_plot
 import plate_stress
 import slip_control
+import towed_block
 import track_sinkage
 
 import grouser  # noqa: E402
@@ -47,6 +49,48 @@ class PlateStress(unittest.TestCase):
             low, high = output["fields_low"][axis], output["fields_high"][axis]
             self.assertAlmostEqual((low + high) / 2, middle)
             self.assertAlmostEqual((high - low) / plate_stress.CELL % 2, 1)
+
+
+class BoulderDrops(unittest.TestCase):
+    """The runs take minutes: docs/ready_mechanisms.md has their figure."""
+
+    def test_finds_the_exponent_of_depths_that_follow_the_experiments(self):
+        heights = numpy.array(boulder_drops.HEIGHTS)
+        depths = numpy.full((len(heights), 3), 0.1)
+        for _ in range(50):
+            depths = boulder_drops.expected(heights[:, None], depths, 0.6)
+        slope, bar = boulder_drops.exponent(heights, depths)
+        self.assertAlmostEqual(slope, 1 / 3, 9)
+        self.assertLess(bar, 1e-6)
+        scatter = 1 + 0.05 * numpy.random.default_rng(1).standard_normal(depths.shape)
+        slope, bar = boulder_drops.exponent(heights, depths * scatter)
+        self.assertLess(abs(slope - 1 / 3), bar)
+        self.assertLess(bar, 0.1)
+
+    def test_takes_the_quantile_of_student(self):
+        for free, quantile in ((5, 2.571), (13, 2.160), (100, 1.984)):  # tables
+            self.assertAlmostEqual(boulder_drops.student(free) / quantile, 1, delta=0.01)
+
+
+class TowedBlock(FolderTest):
+    def test_turns_up_the_nose_ahead_of_the_sole(self):
+        self.assertEqual(len(towed_block.shapes_of(0)), 1)
+        slope = towed_block.SLOPE
+        along = numpy.array([numpy.cos(slope), numpy.sin(slope)])
+        for nose in towed_block.NOSES[1:]:
+            block, ramp, face = towed_block.shapes_of(nose)
+            below = numpy.array(ramp["position"])[[0, 2]] + ramp["size"][2] / 2 * numpy.array([along[1], -along[0]])
+            sole = numpy.array([block["size"][0], -block["size"][2]]) / 2
+            numpy.testing.assert_allclose(below - ramp["size"][0] / 2 * along, sole, atol=1e-12)
+            self.assertAlmostEqual(ramp["angle"], -20)  # about y, which turns x towards -z
+            self.assertAlmostEqual(face["position"][2] - face["size"][2] / 2, sole[1] + nose)
+            self.assertAlmostEqual(face["position"][0] + face["size"][0] / 2, sole[0] + nose / numpy.tan(slope))
+
+    def test_needs_its_friction_and_less_beyond_it_with_a_high_nose(self):
+        pulls = towed_block.main(str(self.folder), 1, noses=(0.0, 0.03), way=0.12)
+        low, high = pulls[0.0][0], pulls[0.03][0]
+        self.assertGreater(high, 0.97 * towed_block.FRICTION)
+        self.assertGreater(low, high + 0.02)
 
 
 class TrackSinkage(FolderTest):

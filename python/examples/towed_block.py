@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tows a block over a settled bed: the pull over its weight, for noses of several heights.
+
+    python/examples/towed_block.py [FOLDER] [SEEDS] [PICTURE]      # default: out/towed_block, 3 seeds, no picture
+
+The friction between block and sand is far below that of the sand. What the block needs beyond it pushes sand ahead of
+the nose: the higher the nose, the less.
+"""
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+
+import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # if the package is not installed
+import grouser  # noqa: E402
+
+LENGTH, WIDTH, HEIGHT, MASS = 0.12, 0.12, 0.06, 2.0  # of the block [m], [kg]
+SLOPE = math.radians(20)  # of its upturned nose
+FRICTION, SAND_FRICTION = 0.2, 0.5  # block on sand, sand on sand [-]
+NOSES = (0.0, 0.01, 0.02, 0.03)  # height of the nose above the sole [m]
+SPEED, START = 0.2, 0.25  # [m/s], [s]
+GRAVITY = 9.81  # [m/s2]
+
+
+def shapes_of(nose: float) -> list[dict]:
+    """Boxes, with positions in the block's frame: the block, and ahead of its sole a ramp that rises to the height of
+    the nose, with a face above it."""
+    block = {"kind": "box", "size": [LENGTH, WIDTH, HEIGHT]}
+    if nose == 0:
+        return [block]
+    reach, thickness = nose / math.tan(SLOPE), 0.01
+    front, bottom = LENGTH / 2 + reach, -HEIGHT / 2
+    middle = numpy.array([LENGTH / 2 + reach / 2, 0, bottom + nose / 2])
+    middle += thickness / 2 * numpy.array([-math.sin(SLOPE), 0, math.cos(SLOPE)])
+    return [block, {"kind": "box", "size": [nose / math.sin(SLOPE), WIDTH, thickness], "position": middle.tolist(),
+                    "axis": [0, 1, 0], "angle": -math.degrees(SLOPE)},
+            {"kind": "box", "size": [thickness, WIDTH, HEIGHT - nose],
+             "position": [front - thickness / 2, 0, nose / 2]}]
+
+
+def scene_of(nose: float, seed: int, way: float) -> grouser.Scene:
+    """A carriage on a rail tows the block, which slides up and down on it. Masses of the carriage do not count."""
+    scene = grouser.Scene(name="towed_block")
+    scene["run"] = {"duration": START + way / SPEED, "output_interval": 0.01, "frame_interval": 0.5, "seed": seed}
+    scene["material.sand"] = {"density": 2600, "stiffness": 2e4, "restitution": 0.3, "friction": SAND_FRICTION,
+                              "rolling_friction": 0.1}
+    scene["material.block"] = {"stiffness": 2e4, "restitution": 0.3, "friction": FRICTION}
+    scene["terrain"] = {"heightmap": "heightmaps/flat.png", "size": [way + 0.36, 0.3], "height_range": [0, 0],
+                        "material": "sand", "grain_radius": 0.006, "depth": 0.06}
+    scene["mechanism"] = {"above_bed": 0.001}
+    place = [LENGTH / 2 + 0.06, 0, HEIGHT / 2]
+    scene.add("body", name="carriage", mass=1, box=[0.02, 0.02, 0.02], position=[place[0], 0, 0.2])
+    scene.add("body", name="block", mass=MASS, box=[LENGTH, WIDTH, HEIGHT], position=place, material="block",
+              shape=shapes_of(nose))
+    scene.add("joint", name="rail", type="prismatic", bodies=["world", "carriage"], point=[place[0], 0, 0.2],
+              axis=[1, 0, 0])
+    scene.add("joint", name="guide", type="prismatic", bodies=["carriage", "block"], point=place, axis=[0, 0, 1])
+    scene.add("drive", name="tow", joint="rail", imposes="speed", time=[0, START, START + 0.1], values=[0, 0, SPEED])
+    scene["output"] = {"plots": False, "picture": False}
+    return scene
+
+
+def pull_of(run: grouser.Run, way: float) -> float:
+    """Mean pull over the weight, of the second half of the way [-]."""
+    force = run["bodies.block.contact_force"]["x"].between(START + 0.5 * way / SPEED, START + way / SPEED)
+    return -float(numpy.mean(force.value)) / (MASS * GRAVITY)
+
+
+def main(folder: str = "out/towed_block", seeds: int = 3, picture: str = "", noses=NOSES, way: float = 0.25) -> dict:
+    """[nose] pulls of all seeds over the weight."""
+    pulls: dict[float, list[float]] = {}
+    for nose in noses:
+        for seed in range(1, int(seeds) + 1):
+            with scene_of(nose, seed, way).run(Path(folder) / f"{1000 * nose:g}_{seed}", force=True,
+                                                    threads=1) as run:
+                pulls.setdefault(nose, []).append(pull_of(run, way))
+        values = numpy.array(pulls[nose])
+        print(f"nose {1000 * nose:4.0f} mm: pull {values.mean():.3f} of the weight, {values.min():.3f} to "
+              f"{values.max():.3f}; friction {FRICTION}, ploughing {values.mean() - FRICTION:.3f}")
+    if picture:
+        draw(pulls, picture)
+    return pulls
+
+
+def draw(pulls: dict[float, list[float]], picture: str) -> None:
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    figure, axes = pyplot.subplots(figsize=(5, 3.6))
+    noses = 1000 * numpy.array(list(pulls))
+    for nose, values in zip(noses, pulls.values()):
+        axes.plot([nose] * len(values), values, ".", color="tab:blue", alpha=0.5)
+    axes.plot(noses, [numpy.mean(v) for v in pulls.values()], "o-", color="tab:blue", label="block on a bed of sand")
+    axes.axhline(FRICTION, color="k", label="friction of block on sand")
+    axes.set(xlabel="height of the nose [mm]", ylabel="pull / weight [-]", ylim=(0, None))
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(picture, dpi=110)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
