@@ -184,7 +184,7 @@ std::string rover(double hull, double wheelMass) {
 TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
   const double hull = 20, wheelMass = 2, mass = hull + 4 * wheelMass, slope = 0.2, angle = std::atan(slope);
   const double along = kGravity * std::sin(angle), across = kGravity * std::cos(angle);
-  const auto s = made(head(fmt::format("gravity = [{}, 0, {}]", -along, -across), "foundation_modulus = 1e9") +
+  const auto s = made(head(fmt::format("gravity = [{}, 0, {}]", -along, -across), "foundation_modulus = 1e9\n") +
                       kPlane + rover(hull, wheelMass));
   advanceTo(*s, 0.5);
   s->restartMeans();
