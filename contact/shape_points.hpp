@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/sphere_set.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/surface_geometry.hpp"
 
@@ -13,5 +14,9 @@ namespace grouser::contact {
 /// finer where the shape is round. Edges of boxes and cylinders have points of both faces that meet there, 0.5 % of
 /// half the face within it.
 std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape);
+
+/// Surface points of a mesh in its own frame, each with its share of the area [m2]: corners of triangles no longer than
+/// `spacing` [m], 0.5 % of the way to the middle of their face.
+std::vector<SurfaceSample> meshPoints(const base::TriangleMesh& mesh, double spacing);
 
 } // namespace grouser::contact

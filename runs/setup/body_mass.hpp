@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "base/sphere_set.hpp"
 #include "contact/surface_geometry.hpp"
 
 namespace grouser::scene {
@@ -11,7 +12,7 @@ struct ShapeSection;
 
 namespace grouser::setup {
 
-/// A shape of a [[body]] as contacts see it, and where its frame S stands in the body's: X_BS.
+/// A shape of a [[body]] as contacts see it, of a mesh the box that holds it, and where its frame S stands in the body's: X_BS.
 contact::SurfaceGeometry geometryOf(const scene::ShapeSection& shape);
 base::Pose poseOf(const scene::ShapeSection& shape);
 
@@ -24,6 +25,9 @@ struct SolidMoments {
 
 /// Closed forms of a homogeneous box, cylinder, capsule (sphere) or cone, in its own frame.
 SolidMoments momentsOf(const contact::SurfaceGeometry& shape);
+
+/// Exact sums over the tetrahedra between the triangles of a closed mesh and the origin.
+SolidMoments momentsOf(const base::TriangleMesh& mesh);
 
 /// All shapes of a body in its frame, about their common centre (Huygens-Steiner). Where shapes overlap, the overlap
 /// counts for each.

@@ -147,7 +147,9 @@ void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPa
       for (const coupling::BodyShape& s : mechanism.shapes) {
         if (s.body != index) continue;
         const Vec3d reach = halfExtent(s.shape) + Vec3d{radius, radius, radius};
-        const double most = 2 * mostTouching(scene, {contact::SurfaceShape::box, reach}, radius);
+        double most = 2 * mostTouching(scene, {contact::SurfaceShape::box, reach}, radius);
+        // A hollow mesh has more faces than the box that holds it.
+        if (s.mesh) most = std::max(most, s.mesh->facingArea / (2 * std::sqrt(3.0) * radius * radius));
         touching += most;
         turning += most * (norm2(s.pose_B.position) + norm2(reach) / 3) / inertia;
       }
@@ -430,7 +432,7 @@ void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, doubl
   const coupling::MechanismSetup mechanism = mechanismSetup(scene);
   double smallest = base::kInfinity;
   if (pairs.kinds.any()) smallest = pairs.kinds.smallest;
-  for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, thinnest(s.shape));
+  for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, coupling::leastFeature(s));
   const double most = kRounding * 0.5 * smallest / timeStep;
   for (const coupling::BodyShape& s : mechanism.shapes) {
     const std::size_t section = s.body - mechanism.ofVehicle.bodies;
