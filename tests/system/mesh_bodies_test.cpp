@@ -5,6 +5,7 @@
 #include "contact/shape_points.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/body_mass.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_setup.hpp"
@@ -225,7 +226,7 @@ TEST(MeshBodies, HaveOneAnswerWhenResumedAndWithTwoThreads) {
   EXPECT_EQ(resumed.stateHash(), straight->stateHash());
 }
 
-TEST(MeshBodies, HollowOnesHoldGrains) {
+TEST(MeshBodies, HollowOnesHoldGrainsAndBodies) {
   const Folder folder;
   // A tray of five walls that overlap: inside is where the winding number is not zero.
   fs::path tray = fs::path(folder.scene()).parent_path() / "tray.obj";
@@ -249,7 +250,9 @@ TEST(MeshBodies, HollowOnesHoldGrains) {
     grains += fmt::format("[[grain]]\nposition = {}\nradius = 0.01\nmaterial = \"glass\"\n", place);
   const auto s = folder.made(head() + kPlane + grains +
                              body("tray", "[0, 0, 0]", "mass = 1\nbox = [0.12, 0.12, 0.05]\n",
-                                  "[[body.shape]]\nkind = \"mesh\"\nfile = \"tray.obj\"\n"));
+                                  "[[body.shape]]\nkind = \"mesh\"\nfile = \"tray.obj\"\n") +
+                             body("block", "[-0.03, -0.03, 0.0251]", "mass = 0.1\nbox = [0.03, 0.03, 0.03]\n",
+                                  "[[body.shape]]\nkind = \"box\"\nsize = [0.03, 0.03, 0.03]\n"));
   advanceTo(*s, 0.8);
   s->restartMeans();
   advanceTo(*s, 0.9);
@@ -257,7 +260,9 @@ TEST(MeshBodies, HollowOnesHoldGrains) {
     EXPECT_NEAR(p.z, 0.02, 5e-4);
     EXPECT_LT(std::max(std::fabs(p.x), std::fabs(p.y)), 0.0405);
   }
+  EXPECT_NEAR(stateOf(*s).pose[1].position.z, 0.025, 2e-4) << "the block stands in it, too";
   EXPECT_NEAR(s->mechanism()->contactForces()[0].z, kGravity, 0.01 * kGravity);
+  EXPECT_NEAR(s->mechanism()->contactForces()[1].z, 0.1 * kGravity, 0.01 * kGravity);
 }
 
 TEST(MeshBodies, OverlapsAtTheStartAreRefused) {
