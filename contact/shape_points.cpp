@@ -101,7 +101,8 @@ public:
 
   /// A triangle, halved across its longest edge until that is no longer than `spacing`; a third of each piece goes to
   /// each of its corners.
-  void triangle(const std::array<Vec3d, 3>& corners, double spacing) {
+  void triangle(const std::array<Vec3d, 3>& corners, double spacing,
+                const std::function<bool(const Vec3d&)>& isInside) {
     const Vec3d twice = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(norm(twice) > 0)) return;
     std::map<std::array<double, 3>, double> areas; // [m2] by place: pieces meet at equal corners
@@ -123,9 +124,10 @@ public:
       pieces.push_back({a, middle, c}), pieces.push_back({middle, b, c});
     }
     const Vec3d centre = (corners[0] + corners[1] + corners[2]) * (1.0 / 3);
+    const Vec3d outwards = twice * (1e-3 * spacing / norm(twice));
     for (const auto& [at, area] : areas) {
-      const Vec3d corner{at[0], at[1], at[2]};
-      put(corner + (centre - corner) * kInset, area, twice);
+      const Vec3d corner{at[0], at[1], at[2]}, point = corner + (centre - corner) * kInset;
+      if (!isInside(point + outwards)) put(point, area, twice);
     }
   }
 
@@ -153,12 +155,13 @@ std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape) {
   return points.take();
 }
 
-std::vector<SurfaceSample> meshPoints(const base::TriangleMesh& mesh, double spacing) {
+std::vector<SurfaceSample> meshPoints(const base::TriangleMesh& mesh, double spacing,
+                                      const std::function<bool(const Vec3d&)>& isInside) {
   Points points;
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
-    points.triangle({mesh.vertices[mesh.indices[t]], mesh.vertices[mesh.indices[t + 1]],
-                     mesh.vertices[mesh.indices[t + 2]]},
-                    spacing);
+    points.triangle(
+        {mesh.vertices[mesh.indices[t]], mesh.vertices[mesh.indices[t + 1]], mesh.vertices[mesh.indices[t + 2]]},
+        spacing, isInside);
   return points.take();
 }
 

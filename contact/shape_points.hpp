@@ -5,6 +5,7 @@
 #include "contact/part_surface.hpp"
 #include "contact/surface_geometry.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace grouser::contact {
@@ -16,7 +17,9 @@ namespace grouser::contact {
 std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape);
 
 /// Surface points of a mesh in its own frame, each with its share of the area [m2]: corners of triangles no longer than
-/// `spacing` [m], 0.5 % of the way to the middle of their face.
-std::vector<SurfaceSample> meshPoints(const base::TriangleMesh& mesh, double spacing);
+/// `spacing` [m], 0.5 % of the way to the middle of their face. Those just outside of which `isInside` is true are left
+/// out: faces of overlapping shells within each other.
+std::vector<SurfaceSample> meshPoints(const base::TriangleMesh& mesh, double spacing,
+                                      const std::function<bool(const base::Vec3d&)>& isInside);
 
 } // namespace grouser::contact

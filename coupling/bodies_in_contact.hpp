@@ -80,7 +80,7 @@ protected:
 
   multibody::State state_;
   multibody::Loads loads_;
-  ForceMeans rowMeans_; ///< since the last row
+  ForceMeans rowMeans_;                   ///< since the last row
   std::vector<base::SphereSet> bodySets_; ///< of the meshes of bodies, each once
   std::vector<spheredecomp::CutReport> bodyCuts_;
   ContactParts contactParts_;

@@ -64,7 +64,9 @@ double farthestAlong(const BodyShape& s, const Vec3d& d) {
 std::vector<contact::SurfaceSample> surfacePoints(const BodyShape& s) {
   if (!s.mesh) return contact::shapePoints(s.shape);
   constexpr double kSpacings = 20; // in half of the diagonal, at least
-  return contact::meshPoints(s.mesh->query->mesh(), std::min(s.mesh->sphereRadius, norm(s.shape.half) / kSpacings));
+  const spheredecomp::MeshQuery& query = *s.mesh->query;
+  return contact::meshPoints(query.mesh(), std::min(s.mesh->sphereRadius, norm(s.shape.half) / kSpacings),
+                             [&query](const Vec3d& p) { return query.inside(p); });
 }
 
 bool sameSurface(const BodyShape& a, const BodyShape& b) {
@@ -78,8 +80,8 @@ bool sameSurface(const BodyShape& a, const BodyShape& b) {
 std::vector<std::size_t> uniqueMeshes(const std::vector<BodyShape>& shapes) {
   std::vector<std::size_t> unique;
   for (std::size_t i = 0; i < shapes.size(); ++i)
-    if (shapes[i].mesh && std::none_of(unique.begin(), unique.end(),
-                                       [&](std::size_t u) { return sameSurface(shapes[u], shapes[i]); }))
+    if (shapes[i].mesh &&
+        std::none_of(unique.begin(), unique.end(), [&](std::size_t u) { return sameSurface(shapes[u], shapes[i]); }))
       unique.push_back(i);
   return unique;
 }

@@ -41,8 +41,8 @@ BodyMesh bodyMesh(std::shared_ptr<const spheredecomp::MeshQuery> query, double s
 double distanceFrom(const BodyShape& shape, const base::Vec3d& p_S);
 /// Half of the thickness of a shape where it is thinnest; of a mesh no more than half of its mean thickness [m].
 double halfThickness(const BodyShape& shape);
-/// The smallest feature by which it touches [m]: that, or the diameter of a mesh's spheres. What moves more than half of
-/// it in a step could pass.
+/// The smallest feature by which it touches [m]: that, or the diameter of a mesh's spheres. What moves more than half
+/// of it in a step could pass.
 double leastFeature(const BodyShape& shape);
 /// Largest p . d over the points p of the surface [m], for a unit vector d in its frame.
 double farthestAlong(const BodyShape& shape, const base::Vec3d& d);

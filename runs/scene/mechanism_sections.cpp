@@ -62,15 +62,17 @@ Table<ShapeSection> shapeTable() {
   t.add("radius", &S::radius, "m", "of a sphere, cylinder or capsule; of a cone at its base").above(0).atMost(1e5);
   t.add("tip_radius", &S::tipRadius, "m", "of a truncated cone at its tip; 0 where not given").atLeast(0).atMost(1e5);
   t.add("length", &S::length, "m", "of a cylinder or cone; of a capsule without its caps").above(0).atMost(1e5);
-  t.add("file", &S::file, "",
-        "of a mesh, OBJ, STL, PLY...: closed, outward; looked for in the scene's folder, the working folder, the assets "
-        "folder");
+  t.add(
+      "file", &S::file, "",
+      "of a mesh, OBJ, STL, PLY...: closed, outward; looked for in the scene's folder, the working folder, the assets "
+      "folder");
   t.add("scale", &S::scale, "m", "of one unit of a mesh's file; 1 where not given").above(0).atMost(1e6);
-  t.add("sphere_radius", &S::sphereRadius, "m",
-        fmt::format("of the spheres that a mesh is cut into, by which grains and points of other bodies touch it; where "
-                    "not given {} of its diagonal, or finer where these would stand out of it by more than a fiftieth "
-                    "of the smallest grain's radius or thickness",
-                    MeshSection::kShareOfDiagonal))
+  t.add(
+       "sphere_radius", &S::sphereRadius, "m",
+       fmt::format("of the spheres that a mesh is cut into, by which grains and points of other bodies touch it; where "
+                   "not given {} of its diagonal, or finer where these would stand out of it by more than a fiftieth "
+                   "of the smallest grain's radius or thickness",
+                   MeshSection::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("position", &S::position, "m",
@@ -209,15 +211,16 @@ void checkShape(const Section& section, const ShapeSection& s) {
   const std::string kind(base::wordOf(s.kind));
   const auto need = [&](bool needed, bool given, const char* key, const char* example) {
     if (needed && !given)
-      section.fail(key, fmt::format("{}is missing, which a {} needs; add e.g. {}", key == std::string("file") ? "" : "[m] ",
-                                    kind, example));
+      section.fail(key, fmt::format("{}is missing, which a {} needs; add e.g. {}",
+                                    key == std::string("file") ? "" : "[m] ", kind, example));
     if (!needed && given) section.fail(key, fmt::format("does not apply to a {}; remove it", kind));
   };
   need(isBox, s.size.has_value(), "size", "size = [0.2, 0.2, 0.1]");
   need(!isBox && !isMesh, s.radius.has_value(), "radius", "radius = 0.1");
   need(isLong, s.length.has_value(), "length", "length = 0.2");
   need(isMesh, s.file.has_value(), "file", "file = \"meshes/roller.obj\"");
-  for (const auto& [given, key] : {std::pair{s.scale.has_value(), "scale"}, {s.sphereRadius.has_value(), "sphere_radius"}})
+  for (const auto& [given, key] :
+       {std::pair{s.scale.has_value(), "scale"}, {s.sphereRadius.has_value(), "sphere_radius"}})
     if (given && !isMesh) section.fail(key, fmt::format("does not apply to a {}; remove it", kind));
   if (s.tipRadius && !isCone) section.fail("tip_radius", fmt::format("does not apply to a {}; remove it", kind));
   if (s.tipRadius && *s.tipRadius > *s.radius)

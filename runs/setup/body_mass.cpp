@@ -109,8 +109,7 @@ SolidMoments momentsOf(const base::TriangleMesh& mesh) {
     const Vec3d s = a + b + c;
     all.volume += D / 6, all.centre += s * (D / 24);
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        second.m[i][j] += D / 120 * (s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]);
+      for (int j = 0; j < 3; ++j) second.m[i][j] += D / 120 * (s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]);
   }
   all.centre = all.centre * (1 / all.volume);
   const double trace = second.m[0][0] + second.m[1][1] + second.m[2][2];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/vec.hpp"
 #include "base/sphere_set.hpp"
+#include "base/vec.hpp"
 #include "contact/surface_geometry.hpp"
 
 namespace grouser::scene {
@@ -12,7 +12,8 @@ struct ShapeSection;
 
 namespace grouser::setup {
 
-/// A shape of a [[body]] as contacts see it, of a mesh the box that holds it, and where its frame S stands in the body's: X_BS.
+/// A shape of a [[body]] as contacts see it, of a mesh the box that holds it, and where its frame S stands in the
+/// body's: X_BS.
 contact::SurfaceGeometry geometryOf(const scene::ShapeSection& shape);
 base::Pose poseOf(const scene::ShapeSection& shape);
 

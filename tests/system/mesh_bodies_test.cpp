@@ -51,8 +51,8 @@ public:
     std::ofstream file(path_ / name);
     for (int i = 0; i < 8; ++i)
       file << fmt::format("v {} {} {}\n", i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-    for (const char* face : {"1 3 4", "1 4 2", "5 6 8", "5 8 7", "1 2 6", "1 6 5", "3 7 8", "3 8 4", "1 5 7", "1 7 3",
-                             "2 4 8"})
+    for (const char* face :
+         {"1 3 4", "1 4 2", "5 6 8", "5 8 7", "1 2 6", "1 6 5", "3 7 8", "3 8 4", "1 5 7", "1 7 3", "2 4 8"})
       file << "f " << face << "\n";
     if (!open) file << "f 2 8 6\n";
   }
@@ -101,7 +101,7 @@ TEST(MeshPoints, CarryTheAreaAndLieInTheirFaces) {
   double area = 0, farthest = 0;
   Vec3d moment;
   const contact::SurfaceGeometry box{contact::SurfaceShape::box, {0.1, 0.05, 0.02}};
-  for (const contact::SurfaceSample& s : contact::meshPoints(mesh, 0.01)) {
+  for (const contact::SurfaceSample& s : contact::meshPoints(mesh, 0.01, [](const Vec3d&) { return false; })) {
     area += s.area, moment += s.centre.as<double>() * static_cast<double>(s.area);
     farthest = std::max(farthest, std::fabs(gapTo(box, s.centre.as<double>()).distance));
     // The cluster is that of the face: a corner lies in three.
@@ -111,6 +111,9 @@ TEST(MeshPoints, CarryTheAreaAndLieInTheirFaces) {
   EXPECT_NEAR(area, 8 * (0.1 * 0.05 + 0.1 * 0.02 + 0.05 * 0.02), 1e-6);
   EXPECT_LT(farthest, 1e-7) << "single precision";
   EXPECT_LT(norm(moment), 1e-3 * area * 0.1) << "two triangles of a face have different points";
+  const auto upper = contact::meshPoints(mesh, 0.01, [](const Vec3d& p) { return p.z < 0.02; });
+  EXPECT_FALSE(upper.empty());
+  for (const contact::SurfaceSample& s : upper) EXPECT_EQ(s.cluster, 5u) << "others are hidden";
 }
 
 TEST(MeshBodies, WeightIsTheMeanContactForceOnGrains) {
@@ -149,13 +152,11 @@ TEST(MeshBodies, StandOnEachOtherByPointsAndSpheres) {
   // Box on mesh, mesh on mesh, mesh on box: the smaller one has the points.
   const std::string slab = "[[body.shape]]\nkind = \"mesh\"\nfile = \"slab.obj\"\n";
   const std::string ofSlab = "mass = 5\nbox = [0.2, 0.2, 0.04]\n";
-  const auto s = folder.made(head() + kPlane + body("slab", "[0, 0, 0.02]", ofSlab, slab) +
-                             body("mesh", "[0, 0, 0.09]", kTwoKilograms) +
-                             body("slab2", "[1, 0, 0.02]", ofSlab, slab) +
-                             body("box", "[1, 0, 0.09]", kTwoKilograms, kBoxShape) +
-                             body("plate", "[2, 0, 0.02]", ofSlab,
-                                  "[[body.shape]]\nkind = \"box\"\nsize = [0.2, 0.2, 0.04]\n") +
-                             body("mesh2", "[2, 0, 0.09]", kTwoKilograms));
+  const auto s = folder.made(
+      head() + kPlane + body("slab", "[0, 0, 0.02]", ofSlab, slab) + body("mesh", "[0, 0, 0.09]", kTwoKilograms) +
+      body("slab2", "[1, 0, 0.02]", ofSlab, slab) + body("box", "[1, 0, 0.09]", kTwoKilograms, kBoxShape) +
+      body("plate", "[2, 0, 0.02]", ofSlab, "[[body.shape]]\nkind = \"box\"\nsize = [0.2, 0.2, 0.04]\n") +
+      body("mesh2", "[2, 0, 0.09]", kTwoKilograms));
   advanceTo(*s, 0.4);
   s->restartMeans();
   advanceTo(*s, 0.5);
@@ -172,9 +173,9 @@ TEST(MeshBodies, StandOnEachOtherByPointsAndSpheres) {
 TEST(MeshBodies, MomentumIsConservedWhereTwoMeet) {
   const Folder folder;
   folder.cube();
-  const auto s = folder.made(head("gravity = [0, 0, 0]") +
-                             body("a", "[0, 0, 0]", kTwoKilograms + "velocity = [1, 0, 0]\n") +
-                             body("b", "[0.12, 0.02, 0.01]", kTwoKilograms + "spin = [0, 1, 2]\n"));
+  const auto s =
+      folder.made(head("gravity = [0, 0, 0]") + body("a", "[0, 0, 0]", kTwoKilograms + "velocity = [1, 0, 0]\n") +
+                  body("b", "[0.12, 0.02, 0.01]", kTwoKilograms + "spin = [0, 1, 2]\n"));
   const multibody::Totals start = s->mechanism()->bodiesBalance().now;
   advanceTo(*s, 0.1);
   const multibody::Totals now = s->mechanism()->bodiesBalance().now;
@@ -281,10 +282,10 @@ TEST(MeshBodies, StepsAreLimitedAsThoseOfBoxes) {
   const Folder folder;
   folder.cube();
   const auto step = [&](const std::string& shape) {
-    return setup::stepLimit(setup::parseScene(head() + feet() + kPlane +
-                                                  body("cube", "[0, 0, 0.06]",
-                                                       "mass = 0.001\nbox = [0.1, 0.1, 0.1]\n", shape),
-                                              folder.scene()))
+    return setup::stepLimit(
+               setup::parseScene(head() + feet() + kPlane +
+                                     body("cube", "[0, 0, 0.06]", "mass = 0.001\nbox = [0.1, 0.1, 0.1]\n", shape),
+                                 folder.scene()))
         .step;
   };
   EXPECT_NEAR(step(kCubeShape), step(kBoxShape), 1e-6 * step(kBoxShape));
