@@ -94,8 +94,7 @@ void considerModes(StepLimit& limit, const GrainContact& c) {
   considerCalm(limit, rolling * c.rollingStiffness, rolling * c.rollingDamping);
 }
 
-/// How many grains may lie on a surface at once: a dense layer on its largest face, of a hollow mesh on an
-/// area `face` [m2] if that is larger, all of them on a plane.
+/// How many grains may lie on a surface at once: a dense layer on its largest face or on `face` [m2]; all on a plane.
 double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g, double radius, double face = 0) {
   const Vec3d h = g.shape == contact::SurfaceShape::plane ? Vec3d{} : halfExtent(g);
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
