@@ -4,7 +4,9 @@
 #include "base/math.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace grouser::contact {
@@ -97,6 +99,38 @@ public:
     }
   }
 
+  /// A triangle, halved across its longest edge until that is no longer than `spacing`; a third of each piece goes to
+  /// each of its corners.
+  void triangle(const std::array<Vec3d, 3>& corners, double spacing,
+                const std::function<bool(const Vec3d&)>& isInside) {
+    const Vec3d twice = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    if (!(norm(twice) > 0)) return;
+    std::map<std::array<double, 3>, double> areas; // [m2] by place: pieces meet at equal corners
+    std::vector<std::array<Vec3d, 3>> pieces{corners};
+    while (!pieces.empty()) {
+      const std::array<Vec3d, 3> piece = pieces.back();
+      pieces.pop_back();
+      std::size_t at = 0; // the edge from corner `at` to the next one is the longest
+      double longest = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const double edge = norm(piece[(k + 1) % 3] - piece[k]); edge > longest) longest = edge, at = k;
+      const Vec3d &a = piece[at], &b = piece[(at + 1) % 3], &c = piece[(at + 2) % 3];
+      if (longest <= spacing) {
+        const double third = norm(cross(b - a, c - a)) / 6;
+        for (const Vec3d& corner : piece) areas[{corner.x, corner.y, corner.z}] += third;
+        continue;
+      }
+      const Vec3d middle = (a + b) * 0.5;
+      pieces.push_back({a, middle, c}), pieces.push_back({middle, b, c});
+    }
+    const Vec3d centre = (corners[0] + corners[1] + corners[2]) * (1.0 / 3);
+    const Vec3d outwards = twice * (1e-3 * spacing / norm(twice));
+    for (const auto& [at, area] : areas) {
+      const Vec3d corner{at[0], at[1], at[2]}, point = corner + (centre - corner) * kInset;
+      if (!isInside(point + outwards)) put(point, area, twice);
+    }
+  }
+
   std::vector<SurfaceSample> take() { return std::move(all_); }
 
 private:
@@ -118,6 +152,16 @@ std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape) {
     points.caps(half.x, half.z);
     if (half.z > 0) points.side(half.x, half.x, half.z);
   }
+  return points.take();
+}
+
+std::vector<SurfaceSample> meshPoints(const base::TriangleMesh& mesh, double spacing,
+                                      const std::function<bool(const Vec3d&)>& isInside) {
+  Points points;
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+    points.triangle(
+        {mesh.vertices[mesh.indices[t]], mesh.vertices[mesh.indices[t + 1]], mesh.vertices[mesh.indices[t + 2]]},
+        spacing, isInside);
   return points.take();
 }
 

@@ -2,12 +2,21 @@
 #include "coupling/bodies_in_contact.hpp"
 
 #include "coupling/ledger_entries.hpp"
+#include "coupling/mechanism_setup.hpp"
 
 #include <algorithm>
 
 namespace grouser::coupling {
 
 using base::Vec3d;
+
+void BodiesInContact::addBodies(const MechanismSetup& setup, const multibody::Model& model, const GroundTraits& ground,
+                                SphereSets* kept) {
+  addBodyParts(contactParts_, setup, model);
+  const double size = std::min(ground.smallestGrain, contactParts_.contactSize);
+  bodySets_ = cutParts(meshCuts(setup.shapes, size), kept, ground.comm, &bodyCuts_);
+  for (const base::SphereSet& set : bodySets_) contactParts_.surfaces.push_back(&set);
+}
 
 BodiesInContact::DriveReading BodiesInContact::drive(int index) const {
   return {model().drives()[static_cast<std::size_t>(index)].law.value(state_.time),

@@ -16,6 +16,8 @@
 
 namespace grouser::coupling {
 
+struct MechanismSetup;
+
 /// Bodies whose parts may touch grains, ground and surfaces: those of a vehicle, or of a mechanism with shapes.
 class BodiesInContact {
 public:
@@ -53,7 +55,13 @@ public:
   /// Force of the bodies on an obstacle of the scene, mean since the last row [N].
   base::Vec3d meanForceOn(std::size_t obstacle) const;
 
+  const std::vector<spheredecomp::CutReport>& bodyCuts() const { return bodyCuts_; } ///< of the meshes of bodies
+
 protected:
+  /// Adds the shapes of the bodies to what touches, and cuts their meshes; `kept` as in VehicleParts.
+  void addBodies(const MechanismSetup& setup, const multibody::Model& model, const GroundTraits& ground,
+                 SphereSets* kept);
+
   /// Sums over steps of the force of ground and surfaces on each contact part, then of that on each surface: whole
   /// quanta, so that a checkpoint keeps them exactly.
   struct ForceMeans {
@@ -72,7 +80,9 @@ protected:
 
   multibody::State state_;
   multibody::Loads loads_;
-  ForceMeans rowMeans_; ///< since the last row
+  ForceMeans rowMeans_;                   ///< since the last row
+  std::vector<base::SphereSet> bodySets_; ///< of the meshes of bodies, each once
+  std::vector<spheredecomp::CutReport> bodyCuts_;
   ContactParts contactParts_;
   std::unique_ptr<PartContacts> contacts_; ///< null where the bodies touch nothing
 };

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact/shape_points.hpp"
 #include "coupling/mechanism_setup.hpp"
 #include "coupling/obstacles.hpp"
 
@@ -11,10 +10,6 @@
 namespace grouser::coupling {
 
 namespace {
-
-bool sameShape(const contact::SurfaceGeometry& a, const contact::SurfaceGeometry& b) {
-  return a.shape == b.shape && a.half == b.half;
-}
 
 /// Volume of the box that holds a shape [m3].
 double volumeAbout(const contact::SurfaceGeometry& g) {
@@ -101,33 +96,36 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
   std::size_t shown = 0; // number of vehicle parts in the frames
   for (const ContactPart& part : all.parts) shown = std::max(shown, part.shown + 1);
   if (first == 0) all.contactSize = base::kInfinity;
-  std::vector<contact::SurfaceGeometry> shapes; // each once
+  std::vector<BodyShape> shapes; // each surface once
+  int nextMesh = static_cast<int>(all.surfaces.size());
+  std::vector<int> surfaces; // of each of these
   for (const BodyShape& s : setup.shapes) {
-    const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const auto& g) { return sameShape(g, s.shape); });
-    const std::size_t set = firstSet + static_cast<std::size_t>(same - shapes.begin());
-    if (same == shapes.end()) shapes.push_back(s.shape);
-    all.contactSize = std::min(all.contactSize, thinnest(s.shape));
+    const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const auto& b) { return sameSurface(b, s); });
+    const auto index = static_cast<std::size_t>(same - shapes.begin());
+    if (same == shapes.end()) shapes.push_back(s), surfaces.push_back(s.mesh ? nextMesh++ : -1);
+    all.contactSize = std::min(all.contactSize, leastFeature(s));
     const multibody::Body& body = bodies[s.body];
     all.parts.push_back({.name = fmt::format("body \"{}\"", body.name),
                          .body = s.body,
                          .pose_B = s.pose_B,
-                         .surface = -1,
+                         .surface = surfaces[index],
                          .shape = s.shape,
-                         .points = static_cast<int>(set),
+                         .points = static_cast<int>(firstSet + index),
                          .foundation = ground < 0 ? contact::PatchLaw{} : laws.on(ground, s),
                          .material = ofVehicle + s.material,
                          .reach = norm(halfExtent(s.shape)) + norm(s.pose_B.position),
                          .meetsGround = ground >= 0 && !body.fixed,
                          .fixed = body.fixed,
+                         .ofBody = true,
                          .shown = shown + s.body - setup.ofVehicle.bodies});
   }
   all.pointSets += shapes.size();
   all.points = [shapes, firstSet, ofParts = all.points](int set) {
     const auto index = static_cast<std::size_t>(set);
-    return index < firstSet ? ofParts(set) : contact::PointTree(shapePoints(shapes[index - firstSet]));
+    return index < firstSet ? ofParts(set) : contact::PointTree(surfacePoints(shapes[index - firstSet]));
   };
   all.onObstacle = [laws, ofVehicle, ofParts = all.onObstacle](const ContactPart& part, const Obstacle& o) {
-    if (part.surface >= 0) return ofParts(part, o);
+    if (!part.ofBody) return ofParts(part, o);
     return laws.on(laws.foundations.indexOf(o.surface.material), part.shape, part.material - ofVehicle, part.body);
   };
   const PartPairs pairs(setup, model, laws);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/error.hpp"
-#include "contact/shape_points.hpp"
 #include "coupling/mechanism_setup.hpp"
 #include "coupling/obstacles.hpp"
 #include "terrain/height_field.hpp"
@@ -47,11 +46,11 @@ void requireApart(const MechanismSetup& setup, const multibody::Model& model, co
   const std::vector<multibody::Body>& bodies = model.bodies();
   std::vector<PlacedShape> placed;
   for (const BodyShape& s : setup.shapes)
-    placed.push_back({s, multibody::compose(bodies[s.body].pose, s.pose_B), contact::shapePoints(s.shape)});
+    placed.push_back({s, multibody::compose(bodies[s.body].pose, s.pose_B), surfacePoints(s)});
   const auto nameOf = [&](const PlacedShape& a) { return bodies[a.shape.body].name; };
   for (const PlacedShape& a : placed) {
     if (bodies[a.shape.body].fixed) continue;
-    const double reach = norm(halfExtent(a.shape.shape)), thickness = thinnest(a.shape.shape);
+    const double reach = norm(halfExtent(a.shape.shape)), thickness = halfThickness(a.shape);
     if (terrain && setup.foundations.ground >= 0)
       checkDepth(a, nameOf(a), "the ground", thickness,
                  [&](const Vec3d& p) { return terrain->height(p.x, p.y) - p.z; });
@@ -65,10 +64,10 @@ void requireApart(const MechanismSetup& setup, const multibody::Model& model, co
   for (const ContactParts::Pair& pair : parts.pairs) {
     const PlacedShape &a = placed[static_cast<std::size_t>(pair.part)],
                       &b = placed[static_cast<std::size_t>(pair.other)];
-    const auto overlap = [&b](const Vec3d& p) { return -contact::gapTo(b.shape.shape, b.pose.toBody(p)).distance; };
+    const auto overlap = [&b](const Vec3d& p) { return -distanceFrom(b.shape, b.pose.toBody(p)); };
     if (overlap(a.pose.position) + norm(halfExtent(a.shape.shape)) > 0)
       checkDepth(a, nameOf(a), fmt::format("body \"{}\"", nameOf(b)),
-                 std::min(thinnest(a.shape.shape), thinnest(b.shape.shape)), overlap);
+                 std::min(halfThickness(a.shape), halfThickness(b.shape)), overlap);
   }
 }
 

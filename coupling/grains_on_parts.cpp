@@ -49,8 +49,7 @@ std::vector<std::uint32_t> GrainsOnParts::endedGrains() const {
 GearContacts GrainsOnParts::gearContacts() const {
   std::vector<TouchedPart> touches;
   for (const contact::GrainPartContacts::Touch& t : contacts_.touching())
-    if (vehicle_ && part(t.part).surface >= 0) // else a shape of a body
-      touches.push_back({t.grain, vehicle_->parts[part(t.part).shown].kind});
+    if (vehicle_ && !part(t.part).ofBody) touches.push_back({t.grain, vehicle_->parts[part(t.part).shown].kind});
   return countGear(touches);
 }
 

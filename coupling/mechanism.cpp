@@ -37,8 +37,8 @@ Mechanism::Mechanism(const MechanismSetup& setup, double timeStep, const base::E
   if (setup.control) controller_ = std::make_unique<StepController>(*setup.control, setup.largestTurn);
   for (const multibody::Twist& V : state_.twist) startTurn_.push_back(timeStep_ * norm(V.w));
   if (setup.shapes.empty()) return;
-  addBodyParts(contactParts_, setup, model_);
   const GroundTraits traits = ground ? ground->traits() : GroundTraits{};
+  addBodies(setup, model_, traits, kept);
   replicated_ = traits.replicated, mostTravel_ = 0.5 * std::min(traits.smallestGrain, contactParts_.contactSize);
   contacts_ = std::make_unique<PartContacts>(contactParts_, nullptr, obstacles, exec, timeStep_, ground, kept);
 }

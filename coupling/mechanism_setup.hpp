@@ -3,6 +3,7 @@
 
 #include "coupling/body_foundation.hpp"
 #include "coupling/body_probes.hpp"
+#include "coupling/body_shape.hpp"
 #include "coupling/contact_parts.hpp"
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
@@ -22,15 +23,6 @@ struct StepControl {
   double tolerance = 0; ///< error that steps add a second [m/s, rad/s]
   double first = 0;     ///< step to begin with [s]
   double longest = 0;   ///< that drives allow [s]
-};
-
-/// A surface by which a body touches grains, rigid surfaces and other bodies.
-struct BodyShape {
-  std::size_t body{};             ///< index into the model's bodies
-  base::Pose pose_B;              ///< pose of the shape's frame in the body's frame
-  contact::SurfaceGeometry shape; ///< closed-form surface
-  int material{};                 ///< index of its material among those of all shapes
-  std::string place;              ///< place of its body in messages: "scene.toml:14: body.0"
 };
 
 /// A mechanism as its solver takes it.
@@ -56,7 +48,7 @@ struct MechanismSetup {
 
 /// Adds the bodies' shapes to what touches. Shapes of one body, of two fixed bodies and of two that a joint ties do not
 /// touch each other. `model`: the setup's, or that of the vehicle with the bodies; the parts of `all` are the
-/// vehicle's.
+/// vehicle's. The sphere sets of meshCuts() are to stand behind the surfaces of `all`, and are not read here.
 void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibody::Model& model);
 
 /// Throws InputError where a shape stands deeper than 2 % of its half thickness in rigid `terrain` (null without), in

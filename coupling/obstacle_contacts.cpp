@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace grouser::coupling {
 
@@ -51,8 +52,16 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
     for (int part = 0; part < count; ++part)
       if (const ContactPart& p = parts.parts[static_cast<std::size_t>(part)]; p.isHull) meet(part, p.foundation);
   }
+  std::map<int, int> setOf; // of surfaces of parts among the meshes
   for (const ContactParts::Pair& pair : parts.pairs) {
-    surfaces.push_back({Kind::shape, parts.parts[static_cast<std::size_t>(pair.other)].shape, -1, pair.other});
+    const ContactPart& other = parts.parts[static_cast<std::size_t>(pair.other)];
+    int set = -1;
+    if (other.surface >= 0) {
+      const auto [at, fresh] = setOf.emplace(other.surface, static_cast<int>(meshes.size()));
+      if (fresh) meshes.push_back(parts.surfaces[static_cast<std::size_t>(other.surface)]);
+      set = at->second;
+    }
+    surfaces.push_back({set < 0 ? Kind::shape : Kind::mesh, other.shape, set, pair.other});
     meet(pair.part, pair.law);
   }
   made->contacts_ =

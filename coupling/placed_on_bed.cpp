@@ -85,8 +85,8 @@ SurfaceBounds boundsOf(const BodyShape& shape, const multibody::Body& body) {
   SurfaceBounds b;
   for (int a = 0; a < 3; ++a) {
     const Vec3d axis{R.m[a][0], R.m[a][1], R.m[a][2]}; // world axis a in the shape's frame
-    b.low[a] = pose.position[a] - farthestAlong(shape.shape, -axis);
-    b.high[a] = pose.position[a] + farthestAlong(shape.shape, axis);
+    b.low[a] = pose.position[a] - farthestAlong(shape, -axis);
+    b.high[a] = pose.position[a] + farthestAlong(shape, axis);
   }
   return b;
 }
@@ -316,7 +316,7 @@ void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism,
     const double reach = norm(halfExtent(s.shape));
     const Deepest d = deepestOf(rows, comm, [&](const Row& g) {
       if (norm2(g.position - pose.position) > (reach + g.radius) * (reach + g.radius)) return kNoGrain;
-      return g.radius - contact::gapTo(s.shape, pose.toBody(g.position)).distance;
+      return g.radius - distanceFrom(s, pose.toBody(g.position));
     });
     if (d.share > most)
       throw base::InputError(fmt::format(

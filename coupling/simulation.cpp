@@ -377,7 +377,9 @@ std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation) {
     all.insert(all.end(), more.begin(), more.end());
   };
   if (const VehicleRig* vehicle = simulation.vehicle())
-    add(vehicle->parts().cutReports()), add(obstacleReports(vehicle->contacts()));
+    add(vehicle->parts().cutReports()), add(vehicle->bodyCuts()), add(obstacleReports(vehicle->contacts()));
+  if (const Mechanism* mechanism = simulation.mechanism(); mechanism && mechanism->touches())
+    add(mechanism->bodyCuts()), add(obstacleReports(mechanism->contacts()));
   if (simulation.surfaces()) add(simulation.surfaces()->cutReports());
   return all;
 }

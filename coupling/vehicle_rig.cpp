@@ -129,7 +129,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
       carried_(massOf(assembly_, setup.mechanism)), blows_(carried_ * norm(gravity_)), gear_{assembly_, *parts_} {
   state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
   contactParts_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
-  if (setup.mechanism) addBodyParts(contactParts_, *setup.mechanism, assembly_.model);
+  if (setup.mechanism) addBodies(*setup.mechanism, assembly_.model, traitsOf(ground), kept);
   contacts_ =
       std::make_unique<PartContacts>(contactParts_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);

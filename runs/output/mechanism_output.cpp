@@ -87,7 +87,7 @@ void addBar(base::TriangleMesh& mesh, const Vec3d& to, double thickness) {
 }
 
 void addShape(base::TriangleMesh& mesh, const coupling::BodyShape& s) {
-  const base::TriangleMesh shape = shapeMesh(s.shape);
+  const base::TriangleMesh shape = s.mesh ? s.mesh->query->mesh() : shapeMesh(s.shape);
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Vec3d& v : shape.vertices) mesh.vertices.push_back(s.pose_B.toWorld(v));
   for (const std::uint32_t i : shape.indices) mesh.indices.push_back(first + i);

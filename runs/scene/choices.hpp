@@ -50,7 +50,7 @@ enum class SoilMeets {
 enum class Axis { x, y, z };
 
 /// Surface of a body.
-enum class ShapeKind { sphere, box, cylinder, capsule, cone };
+enum class ShapeKind { sphere, box, cylinder, capsule, cone, mesh };
 
 /// Of a surface beside a bed that settles first: whether the bed is laid around it, or settles without it.
 enum class PlacedWhen { before, afterSettling };
@@ -109,8 +109,8 @@ template <> struct EnumWords<scene::Axis> {
 };
 template <> struct EnumWords<scene::ShapeKind> {
   using E = scene::ShapeKind;
-  static constexpr EnumWord<E> list[] = {
-      {E::sphere, "sphere"}, {E::box, "box"}, {E::cylinder, "cylinder"}, {E::capsule, "capsule"}, {E::cone, "cone"}};
+  static constexpr EnumWord<E> list[] = {{E::sphere, "sphere"},   {E::box, "box"},   {E::cylinder, "cylinder"},
+                                         {E::capsule, "capsule"}, {E::cone, "cone"}, {E::mesh, "mesh"}};
 };
 template <> struct EnumWords<scene::PlacedWhen> {
   using E = scene::PlacedWhen;

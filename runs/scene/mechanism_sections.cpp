@@ -2,10 +2,12 @@
 // Keys and checks of [[body]], [[joint]], [[spring]], [[bushing]], [[drive]] and [[coupling]].
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/scene/detail/section_lists.hpp"
+#include "spheredecomp/decompose.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace grouser::scene::detail {
 
@@ -55,18 +57,32 @@ Table<BodySection> bodyTable() {
 Table<ShapeSection> shapeTable() {
   using S = ShapeSection;
   Table<S> t("[body.shape]", "Surface by which the body above it touches grains; a body may have several");
-  t.add("kind", &S::kind, "", "sphere, box, cylinder, capsule or cone").required();
+  t.add("kind", &S::kind, "", "sphere, box, cylinder, capsule, cone or mesh").required();
   t.add("size", &S::size, "m", "edges of a box").above(0).atMost(1e5);
   t.add("radius", &S::radius, "m", "of a sphere, cylinder or capsule; of a cone at its base").above(0).atMost(1e5);
   t.add("tip_radius", &S::tipRadius, "m", "of a truncated cone at its tip; 0 where not given").atLeast(0).atMost(1e5);
   t.add("length", &S::length, "m", "of a cylinder or cone; of a capsule without its caps").above(0).atMost(1e5);
-  t.add("position", &S::position, "m", "of its centre (of a cone half-way up), in the body's frame")
+  t.add(
+      "file", &S::file, "",
+      "of a mesh, OBJ, STL, PLY...: closed, outward; looked for in the scene's folder, the working folder, the assets "
+      "folder");
+  t.add("scale", &S::scale, "m", "of one unit of a mesh's file; 1 where not given").above(0).atMost(1e6);
+  t.add(
+       "sphere_radius", &S::sphereRadius, "m",
+       fmt::format("of the spheres that a mesh is cut into, by which grains and points of other bodies touch it; where "
+                   "not given {} of its diagonal, or finer where these would stand out of it by more than a fiftieth "
+                   "of the smallest grain's radius or thickness",
+                   MeshSection::kShareOfDiagonal))
+      .atLeast(spheredecomp::kSmallestRadius)
+      .atMost(spheredecomp::kLargestRadius);
+  t.add("position", &S::position, "m",
+        "of its centre (of a cone half-way up, of a mesh the file's origin), in the body's frame")
       .atLeast(-1e5)
       .atMost(1e5);
   t.add("axis", &S::axis, "-",
         "of a cylinder or capsule, of a cone from base to tip, in the body's frame, z where not given; with angle: "
-        "about which a box is turned");
-  t.add("angle", &S::angle, "deg", "of a box about axis, right-handed").atLeast(-3600).atMost(3600);
+        "about which a box or mesh is turned");
+  t.add("angle", &S::angle, "deg", "of a box or mesh about axis, right-handed").atLeast(-3600).atMost(3600);
   return t;
 }
 
@@ -189,33 +205,43 @@ void checkCompany(const Section& section, const Scene& scene) {
 }
 
 void checkShape(const Section& section, const ShapeSection& s) {
-  const bool isBox = s.kind == ShapeKind::box;
+  const bool isBox = s.kind == ShapeKind::box, isMesh = s.kind == ShapeKind::mesh;
   const bool isCone = s.kind == ShapeKind::cone;
   const bool isLong = s.kind == ShapeKind::cylinder || s.kind == ShapeKind::capsule || isCone;
   const std::string kind(base::wordOf(s.kind));
   const auto need = [&](bool needed, bool given, const char* key, const char* example) {
     if (needed && !given)
-      section.fail(key, fmt::format("[m] is missing, which a {} needs; add e.g. {}", kind, example));
+      section.fail(key, fmt::format("{}is missing, which a {} needs; add e.g. {}",
+                                    key == std::string("file") ? "" : "[m] ", kind, example));
     if (!needed && given) section.fail(key, fmt::format("does not apply to a {}; remove it", kind));
   };
   need(isBox, s.size.has_value(), "size", "size = [0.2, 0.2, 0.1]");
-  need(!isBox, s.radius.has_value(), "radius", "radius = 0.1");
+  need(!isBox && !isMesh, s.radius.has_value(), "radius", "radius = 0.1");
   need(isLong, s.length.has_value(), "length", "length = 0.2");
+  need(isMesh, s.file.has_value(), "file", "file = \"meshes/roller.obj\"");
+  for (const auto& [given, key] :
+       {std::pair{s.scale.has_value(), "scale"}, {s.sphereRadius.has_value(), "sphere_radius"}})
+    if (given && !isMesh) section.fail(key, fmt::format("does not apply to a {}; remove it", kind));
   if (s.tipRadius && !isCone) section.fail("tip_radius", fmt::format("does not apply to a {}; remove it", kind));
   if (s.tipRadius && *s.tipRadius > *s.radius)
     section.fail("tip_radius", fmt::format("[m] is above radius, {:g} m; swap them and reverse axis", *s.radius));
   if (s.axis && norm(*s.axis) == 0) section.fail("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
   if (s.axis && s.kind == ShapeKind::sphere) section.fail("axis", "does not apply to a sphere; remove it");
-  if (s.angle && !isBox) section.fail("angle", fmt::format("does not apply to a {}; remove it", kind));
-  if (isBox && s.axis.has_value() != s.angle.has_value())
-    section.fail("axis", "and angle turn a box together; give both or neither");
+  const bool isTurned = isBox || isMesh;
+  if (s.angle && !isTurned) section.fail("angle", fmt::format("does not apply to a {}; remove it", kind));
+  if (isTurned && s.axis.has_value() != s.angle.has_value())
+    section.fail("axis", fmt::format("and angle turn a {} together; give both or neither", kind));
 }
 
 void checkBody(const Section& section, BodySection& body, const Scene& scene) {
   checkCompany(section, scene);
   for (const Section& shape : section.list("shape")) {
     body.shapes.push_back(shape.read(shapeTable()));
-    checkShape(shape, body.shapes.back());
+    ShapeSection& read = body.shapes.back();
+    checkShape(shape, read);
+    if (!read.file) continue;
+    resolveFile(scene, shape, "file", *read.file);
+    read.loaded = loadMesh(shape, *read.file, read.scale.value_or(1), read.sphereRadius, true);
   }
   if (!body.probe && norm(body.probePosition) > 0)
     section.fail("probe_position", "[m] has no effect without probe_size; add the edges of the box, or remove it");

@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 #include "runs/scene/choices.hpp"
+#include "runs/scene/surface_structs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,10 +21,14 @@ struct ShapeSection {
   std::optional<base::Vec3d> size;      ///< [m] edges of a box
   std::optional<double> radius, length; ///< [m]; of a cone the base and the height
   std::optional<double> tipRadius;      ///< [m] of a cone; empty: 0
-  base::Vec3d position;                 ///< [m] of its centre, in the body's frame
-  std::optional<base::Vec3d> axis;      ///< cylinder, capsule: its direction; cone: from base to tip; box: the axis
-                                        ///< that angle turns about
+  std::optional<std::string> file;      ///< of a mesh; absolute path after loading
+  std::optional<double> scale;          ///< of a mesh: metres a unit of the file; empty: 1
+  std::optional<double> sphereRadius;   ///< [m] of a mesh; empty: chosen for what touches it
+  base::Vec3d position;                 ///< [m] of its centre, of a mesh the file's origin, in the body's frame
+  std::optional<base::Vec3d> axis;      ///< cylinder, capsule: its direction; cone: from base to tip; box, mesh: the
+                                        ///< axis that angle turns about
   std::optional<double> angle;          ///< [deg]
+  LoadedMesh loaded;                    ///< about the middle of the box that holds the mesh
   bool operator==(const ShapeSection&) const = default;
 };
 
@@ -127,6 +132,13 @@ struct MechanismSections {
   /// Whether a body has a shape, by which it touches grains.
   bool touches() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) { return !b.shapes.empty(); });
+  }
+  /// Whether one of these is a mesh.
+  bool hasMeshes() const {
+    return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) {
+      return std::any_of(b.shapes.begin(), b.shapes.end(),
+                         [](const ShapeSection& s) { return s.kind == ShapeKind::mesh; });
+    });
   }
   /// Nor anything that would need a body.
   bool nothing() const {

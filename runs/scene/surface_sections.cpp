@@ -187,37 +187,6 @@ template <class S> void checkOrientation(const Section& section, const S& s) {
   }
 }
 
-/// Reads the file, whose name is absolute now.
-void loadMesh(const Section& section, MeshSection& mesh) {
-  base::TriangleMesh triangles;
-  try {
-    triangles = spheredecomp::importMesh(mesh.file, &mesh.loaded.note);
-  } catch (const base::InputError& error) {
-    section.fail("file", fmt::format("is of no use: {}", error.what()));
-  }
-  for (base::Vec3d& v : triangles.vertices) v *= mesh.scale;
-  const auto [low, high] = spheredecomp::bounds(triangles);
-  const base::Vec3d size = high - low;
-  const double longest = std::max({size.x, size.y, size.z}), byDefault = norm(size) / MeshSection::kRadiiInDiagonal;
-  if (!mesh.sphereRadius && !(byDefault >= spheredecomp::kSmallestRadius && byDefault <= spheredecomp::kLargestRadius))
-    section.fail("scale",
-                 fmt::format("[m] makes the mesh {:.4g} m long, and its spheres {:.3g} m, outside [{:g}, {:g}];"
-                             " correct it: it is the length of one unit of the file",
-                             longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
-  mesh.loaded.sphereRadius = mesh.sphereRadius.value_or(byDefault);
-  if (mesh.loaded.sphereRadius > 0.5 * longest)
-    section.fail("sphere_radius",
-                 fmt::format("[m] is above {} m, half of the mesh's longest side; lower it, or correct scale",
-                             base::roundedDown(0.5 * longest, 4)));
-  if (const double points = spheredecomp::latticePoints(triangles, mesh.loaded.sphereRadius);
-      !(points <= spheredecomp::kMostLatticePoints))
-    section.fail("sphere_radius",
-                 fmt::format("[m] cuts the mesh of {:.4g} x {:.4g} x {:.4g} m by {:.2g} lattice points, "
-                             "more than {:.0e}; raise it, or correct scale",
-                             size.x, size.y, size.z, points, spheredecomp::kMostLatticePoints));
-  mesh.loaded.query = std::make_shared<const spheredecomp::MeshQuery>(std::move(triangles));
-}
-
 void checkPlane(const Section& section, Plane& plane, const Scene& scene) {
   checkSurface(section, plane, scene);
   if (base::norm2(plane.normal) == 0)
@@ -243,7 +212,7 @@ void checkMesh(const Section& section, MeshSection& mesh, const Scene& scene) {
   checkOrientation(section, mesh);
   requireMaterial(scene, section, "material", mesh.material);
   resolveFile(scene, section, "file", mesh.file);
-  loadMesh(section, mesh);
+  mesh.loaded = loadMesh(section, mesh.file, mesh.scale, mesh.sphereRadius, false);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "base/math.hpp"
 #include "runs/scene/mechanism_structs.hpp"
 #include "runs/support/orientation.hpp"
+#include "spheredecomp/mesh.hpp"
 
 namespace grouser::setup {
 
@@ -22,6 +23,8 @@ contact::SurfaceGeometry geometryOf(const scene::ShapeSection& s) {
     return {SurfaceShape::capsule, {*s.radius, 0, 0.5 * *s.length}};
   case scene::ShapeKind::cone:
     return {SurfaceShape::cone, {*s.radius, s.tipRadius.value_or(0), 0.5 * *s.length}};
+  case scene::ShapeKind::mesh:
+    return {SurfaceShape::box, spheredecomp::bounds(s.loaded.query->mesh()).second};
   case scene::ShapeKind::sphere:
     break;
   }
@@ -29,7 +32,10 @@ contact::SurfaceGeometry geometryOf(const scene::ShapeSection& s) {
 }
 
 base::Pose poseOf(const scene::ShapeSection& s) {
-  if (s.kind == scene::ShapeKind::box) return {s.position, support::orientationOf(s.axis, s.angle, {})};
+  if (s.kind == scene::ShapeKind::box || s.kind == scene::ShapeKind::mesh) {
+    const base::Quat turn = support::orientationOf(s.axis, s.angle, {});
+    return {s.position + rotate(turn, s.loaded.middle), turn};
+  }
   return {s.position, s.axis ? support::turnFromZ(base::normalized(*s.axis)) : base::Quat{}};
 }
 
@@ -91,10 +97,31 @@ SolidMoments momentsOf(const contact::SurfaceGeometry& g) {
   return {volume, {}, round(across, along)};
 }
 
+/// Of the tetrahedron (0, a, b, c) with D = a . (b x c): volume D / 6, first moment D / 24 (a + b + c), second moments
+/// int x x^T = D / 120 (s s^T + a a^T + b b^T + c c^T), s = a + b + c; inertia = tr(int x x^T) 1 - int x x^T.
+SolidMoments momentsOf(const base::TriangleMesh& mesh) {
+  SolidMoments all;
+  Mat3d second{};
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    const Vec3d &a = mesh.vertices[mesh.indices[t]], &b = mesh.vertices[mesh.indices[t + 1]],
+                &c = mesh.vertices[mesh.indices[t + 2]];
+    const double D = dot(a, cross(b, c));
+    const Vec3d s = a + b + c;
+    all.volume += D / 6, all.centre += s * (D / 24);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) second.m[i][j] += D / 120 * (s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j]);
+  }
+  all.centre = all.centre * (1 / all.volume);
+  const double trace = second.m[0][0] + second.m[1][1] + second.m[2][2];
+  all.inertia = Mat3d::diagonal({trace, trace, trace});
+  add(all.inertia, second, -1), add(all.inertia, steiner(all.centre), -all.volume);
+  return all;
+}
+
 SolidMoments momentsOf(const scene::BodySection& body) {
   SolidMoments all;
   for (const scene::ShapeSection& s : body.shapes) {
-    const SolidMoments own = momentsOf(geometryOf(s));
+    const SolidMoments own = s.loaded.query ? momentsOf(s.loaded.query->mesh()) : momentsOf(geometryOf(s));
     const base::Pose pose = poseOf(s);
     const Vec3d centre = pose.toWorld(own.centre);
     const Mat3d R = pose.orientation.matrix();

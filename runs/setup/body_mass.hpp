@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/sphere_set.hpp"
 #include "base/vec.hpp"
 #include "contact/surface_geometry.hpp"
 
@@ -11,7 +12,8 @@ struct ShapeSection;
 
 namespace grouser::setup {
 
-/// A shape of a [[body]] as contacts see it, and where its frame S stands in the body's: X_BS.
+/// A shape of a [[body]] as contacts see it, of a mesh the box that holds it, and where its frame S stands in the
+/// body's: X_BS.
 contact::SurfaceGeometry geometryOf(const scene::ShapeSection& shape);
 base::Pose poseOf(const scene::ShapeSection& shape);
 
@@ -24,6 +26,9 @@ struct SolidMoments {
 
 /// Closed forms of a homogeneous box, cylinder, capsule (sphere) or cone, in its own frame.
 SolidMoments momentsOf(const contact::SurfaceGeometry& shape);
+
+/// Exact sums over the tetrahedra between the triangles of a closed mesh and the origin.
+SolidMoments momentsOf(const base::TriangleMesh& mesh);
 
 /// All shapes of a body in its frame, about their common centre (Huygens-Steiner). Where shapes overlap, the overlap
 /// counts for each.

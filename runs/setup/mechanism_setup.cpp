@@ -17,6 +17,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <memory>
 
 namespace grouser::setup {
 
@@ -207,9 +208,14 @@ std::vector<coupling::BodyShape> shapesOf(const scene::Scene& scene) {
   std::vector<coupling::BodyShape> all;
   for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
     const scene::BodySection& body = scene.mechanism.bodies[b];
-    for (const scene::ShapeSection& s : body.shapes) {
+    for (std::size_t k = 0; k < body.shapes.size(); ++k) {
+      const scene::ShapeSection& s = body.shapes[k];
       const auto material = std::find(materials.begin(), materials.end(), body.material) - materials.begin();
       all.push_back({b, poseOf(s), geometryOf(s), static_cast<int>(material), scene.placeOf("body", b)});
+      if (!s.loaded.query) continue;
+      all.back().key = fmt::format("body.{}.shape.{}", b, k);
+      all.back().mesh = std::make_shared<const coupling::BodyMesh>(
+          coupling::bodyMesh(s.loaded.query, s.loaded.sphereRadius, s.sphereRadius.has_value()));
     }
   }
   return all;

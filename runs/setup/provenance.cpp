@@ -97,6 +97,9 @@ std::string inputsOf(const scene::Scene& scene) {
     if (fill.file) text += fmt::format("grains.file:{} {}\n", *fill.file, hashOfFile(*fill.file));
   for (const scene::MeshSection& mesh : scene.meshes)
     text += fmt::format("mesh.file:{} {}\n", mesh.file, hashOfFile(mesh.file));
+  for (const scene::BodySection& body : scene.mechanism.bodies)
+    for (const scene::ShapeSection& shape : body.shapes)
+      if (shape.file) text += fmt::format("body.shape.file:{} {}\n", *shape.file, hashOfFile(*shape.file));
   if (!scene.vehicle) return text;
   text += fmt::format("vehicle.spec {}\n", hashOfFile(scene.vehicle->spec));
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());

@@ -94,14 +94,14 @@ void considerModes(StepLimit& limit, const GrainContact& c) {
   considerCalm(limit, rolling * c.rollingStiffness, rolling * c.rollingDamping);
 }
 
-/// How many grains may lie on a surface at once: a dense layer on its largest face, all of them on a plane.
-double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g, double radius) {
+/// How many grains may lie on a surface at once: a dense layer on its largest face or on `face` [m2]; all on a plane.
+double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g, double radius, double face = 0) {
   const Vec3d h = g.shape == contact::SurfaceShape::plane ? Vec3d{} : halfExtent(g);
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
   const auto all = static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene)));
   if (g.shape == contact::SurfaceShape::plane) return all;
   if (g.shape != contact::SurfaceShape::box) area = 4 * h.x * std::max(h.x, h.z);
-  return std::clamp(area / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
+  return std::clamp(std::max(area, face) / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
 }
 
 /// A surface that forces move, on springs of all grains that it may touch.
@@ -147,7 +147,8 @@ void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPa
       for (const coupling::BodyShape& s : mechanism.shapes) {
         if (s.body != index) continue;
         const Vec3d reach = halfExtent(s.shape) + Vec3d{radius, radius, radius};
-        const double most = 2 * mostTouching(scene, {contact::SurfaceShape::box, reach}, radius);
+        const double most =
+            2 * mostTouching(scene, {contact::SurfaceShape::box, reach}, radius, s.mesh ? 0.5 * s.mesh->facingArea : 0);
         touching += most;
         turning += most * (norm2(s.pose_B.position) + norm2(reach) / 3) / inertia;
       }
@@ -430,7 +431,7 @@ void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, doubl
   const coupling::MechanismSetup mechanism = mechanismSetup(scene);
   double smallest = base::kInfinity;
   if (pairs.kinds.any()) smallest = pairs.kinds.smallest;
-  for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, thinnest(s.shape));
+  for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, coupling::leastFeature(s));
   const double most = kRounding * 0.5 * smallest / timeStep;
   for (const coupling::BodyShape& s : mechanism.shapes) {
     const std::size_t section = s.body - mechanism.ofVehicle.bodies;

@@ -257,6 +257,8 @@ std::vector<std::string> meshNotes(const scene::Scene& scene) {
     if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   };
   for (const scene::MeshSection& mesh : scene.meshes) add(mesh.loaded.note);
+  for (const scene::BodySection& body : scene.mechanism.bodies)
+    for (const scene::ShapeSection& shape : body.shapes) add(shape.loaded.note);
   if (!scene.vehicle) return notes;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   for (const std::string& mesh : {spec.chassis.mesh, spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh,

@@ -128,7 +128,7 @@ private:
     typical_ = typicalTimes(scene_, grains_, spheres, exec_);
     if (scene_.vehicle && spheres == 0) uncut_ = typical_.cutting;
     modelled_ = hasBed(scene_) || grains_ > kFewGrains || uncut_ > 0;
-    if (!modelled_ || scene_.meshes.empty()) return; // the steps of the probe cut meshes
+    if (!modelled_ || !hasMeshes()) return; // the steps of the probe cut meshes
     std::vector<spheredecomp::CutReport> cuts;
     if (!keptMeshes(scene_, grains_, timeStep_, cache, cuts)) uncut_ += kCutMeshes;
     f_.cuts.insert(f_.cuts.end(), cuts.begin(), cuts.end());
@@ -170,6 +170,7 @@ private:
     tiled_ = true;
   }
 
+  bool hasMeshes() const { return !scene_.meshes.empty() || scene_.mechanism.hasMeshes(); }
   bool hasParts() const { return scene_.vehicle || !scene_.meshes.empty() || !scene_.mechanism.empty(); }
 
   /// Ratios of what was probed to what is modelled for the same scene. A failure leaves the forecast as it is.
@@ -290,7 +291,7 @@ private:
   }
 
   void prepare() {
-    const bool spheres = scene_.vehicle || !scene_.meshes.empty();
+    const bool spheres = scene_.vehicle || hasMeshes();
     const double cut = spheres_ ? spheres_->cutting() : 0;
     if (kept_) {
       add(f_.preparation, "bed, kept", own_ - cut, "in the cache");

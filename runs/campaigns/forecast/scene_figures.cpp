@@ -2,11 +2,13 @@
 #include "runs/campaigns/forecast/scene_figures.hpp"
 
 #include "base/math.hpp"
+#include "coupling/body_shape.hpp"
 #include "coupling/mesh_contacts.hpp"
 #include "coupling/vehicle_parts.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/ground_setup.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/obstacles.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/scene_surfaces.hpp"
@@ -82,6 +84,14 @@ bool keptMeshes(const scene::Scene& scene, double grains, double timeStep, stora
     for (coupling::Obstacle& o : setup::obstaclesOf(scene)) obstacles.push_back(std::move(o.surface));
     for (const coupling::SurfaceSetup& s : obstacles)
       if (s.mesh) parts.push_back(coupling::meshCut(s, size));
+  }
+  coupling::MechanismSetup mechanism;
+  if (scene.mechanism.hasMeshes()) {
+    mechanism = setup::mechanismSetup(scene);
+    double size = grains > 0 ? setup::ContactPairs(scene).kinds.smallest : base::kInfinity;
+    if (scene.vehicle) size = std::min(size, coupling::VehicleParts::contactSize(setup::vehicleSpec(scene)));
+    for (const coupling::BodyShape& s : mechanism.shapes) size = std::min(size, coupling::leastFeature(s));
+    for (coupling::PartCut& cut : coupling::meshCuts(mechanism.shapes, size)) parts.push_back(std::move(cut));
   }
   try {
     coupling::cutParts(parts, &kept, base::Comm(), &cuts);

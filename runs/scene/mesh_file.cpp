@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of [[mesh]] and [[body.shape]].
+#include "base/error.hpp"
+#include "base/rounded.hpp"
+#include "runs/scene/detail/section_checks.hpp"
+#include "spheredecomp/decompose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace grouser::scene::detail {
+
+LoadedMesh loadMesh(const base::Section& section, const std::string& file, double scale,
+                    const std::optional<double>& sphereRadius, bool centred) {
+  LoadedMesh loaded;
+  base::TriangleMesh triangles;
+  try {
+    triangles = spheredecomp::importMesh(file, &loaded.note);
+  } catch (const base::InputError& error) {
+    section.fail("file", fmt::format("is of no use: {}", error.what()));
+  }
+  for (base::Vec3d& v : triangles.vertices) v *= scale;
+  const auto [low, high] = spheredecomp::bounds(triangles);
+  const base::Vec3d size = high - low;
+  const double longest = std::max({size.x, size.y, size.z}), byDefault = norm(size) / MeshSection::kRadiiInDiagonal;
+  if (!sphereRadius && !(byDefault >= spheredecomp::kSmallestRadius && byDefault <= spheredecomp::kLargestRadius))
+    section.fail("scale",
+                 fmt::format("[m] makes the mesh {:.4g} m long, and its spheres {:.3g} m, outside [{:g}, {:g}];"
+                             " correct it: it is the length of one unit of the file",
+                             longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
+  loaded.sphereRadius = sphereRadius.value_or(byDefault);
+  if (loaded.sphereRadius > 0.5 * longest)
+    section.fail("sphere_radius",
+                 fmt::format("[m] is above {} m, half of the mesh's longest side; lower it, or correct scale",
+                             base::roundedDown(0.5 * longest, 4)));
+  if (const double points = spheredecomp::latticePoints(triangles, loaded.sphereRadius);
+      !(points <= spheredecomp::kMostLatticePoints))
+    section.fail("sphere_radius",
+                 fmt::format("[m] cuts the mesh of {:.4g} x {:.4g} x {:.4g} m by {:.2g} lattice points, "
+                             "more than {:.0e}; raise it, or correct scale",
+                             size.x, size.y, size.z, points, spheredecomp::kMostLatticePoints));
+  if (centred) {
+    loaded.middle = (low + high) * 0.5;
+    for (base::Vec3d& v : triangles.vertices) v -= loaded.middle;
+  }
+  loaded.query = std::make_shared<const spheredecomp::MeshQuery>(std::move(triangles));
+  return loaded;
+}
+
+} // namespace grouser::scene::detail

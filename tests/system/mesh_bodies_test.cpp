@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies with a shape from a mesh file: among grains, on rigid surfaces, on each other, and what is refused.
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "contact/shape_points.hpp"
+#include "coupling/simulation.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
+#include "runs/setup/body_mass.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/provenance.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "runs/setup/step_limit.hpp"
+#include "spheredecomp/mesh.hpp"
+#include "tests/message_of.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace grouser::coupling::mesh_bodies {
+namespace {
+
+using base::Vec3d;
+using test::messageOf;
+namespace fs = std::filesystem;
+
+constexpr double kGravity = 9.81;
+
+/// Folder of a test's meshes and scene; removed at the end.
+class Folder {
+public:
+  Folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = fs::temp_directory_path() / fmt::format("grouser_{}_{}", test->name(), getpid());
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string scene() const { return (path_ / "bodies.toml").string(); }
+  /// A box between two corners as `name`; `open`: without its last triangle.
+  void box(const std::string& name, const Vec3d& low, const Vec3d& high, bool open = false) const {
+    std::ofstream file(path_ / name);
+    for (int i = 0; i < 8; ++i)
+      file << fmt::format("v {} {} {}\n", i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    for (const char* face :
+         {"1 3 4", "1 4 2", "5 6 8", "5 8 7", "1 2 6", "1 6 5", "3 7 8", "3 8 4", "1 5 7", "1 7 3", "2 4 8"})
+      file << "f " << face << "\n";
+    if (!open) file << "f 2 8 6\n";
+  }
+  void cube(const std::string& name = "cube.obj") const { box(name, {-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}); }
+  std::unique_ptr<Simulation> made(const std::string& text, int threads = 1) const {
+    return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, scene())),
+                                        base::cpuExec(threads), [](double, double) {});
+  }
+
+private:
+  fs::path path_;
+};
+
+std::string head(const std::string& run = {}) {
+  return "version = 1\n[run]\nduration = 1.0\nprecision = \"double\"\nthreads = 1\n" + run +
+         "\n[material.glass]\nstiffness = 1e5\nrestitution = 0.4\nfriction = 0.3\nfoundation_modulus = 1e8\n";
+}
+const std::string kPlane = "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n";
+const std::string kCubeShape = "[[body.shape]]\nkind = \"mesh\"\nfile = \"cube.obj\"\n";
+const std::string kBoxShape = "[[body.shape]]\nkind = \"box\"\nsize = [0.1, 0.1, 0.1]\n";
+
+std::string body(const std::string& name, const std::string& position, const std::string& keys,
+                 const std::string& shape = kCubeShape) {
+  return fmt::format("[[body]]\nname = \"{}\"\nposition = {}\nmaterial = \"glass\"\n{}\n{}", name, position, keys,
+                     shape);
+}
+const std::string kTwoKilograms = "mass = 2\nbox = [0.1, 0.1, 0.1]\n";
+
+std::string feet() {
+  std::string all;
+  for (const char* place : {"[-0.03, -0.03, 0]", "[0.03, -0.03, 0]", "[-0.03, 0.03, 0]", "[0.03, 0.03, 0]"})
+    all += fmt::format("[[grain]]\nposition = {}\nradius = 0.01\nmaterial = \"glass\"\nfixed = true\n", place);
+  return all;
+}
+
+void advanceTo(Simulation& s, double time) {
+  while (s.time() < time - 0.5 * s.timeStep()) s.step();
+}
+const multibody::State& stateOf(const Simulation& s) { return s.mechanism()->state(); }
+
+TEST(MeshPoints, CarryTheAreaAndLieInTheirFaces) {
+  const Folder folder;
+  folder.box("brick.obj", {-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02});
+  const base::TriangleMesh mesh =
+      spheredecomp::importMesh((fs::path(folder.scene()).parent_path() / "brick.obj").string());
+  double area = 0, farthest = 0;
+  Vec3d moment;
+  const contact::SurfaceGeometry box{contact::SurfaceShape::box, {0.1, 0.05, 0.02}};
+  for (const contact::SurfaceSample& s : contact::meshPoints(mesh, 0.01, [](const Vec3d&) { return false; })) {
+    area += s.area, moment += s.centre.as<double>() * static_cast<double>(s.area);
+    farthest = std::max(farthest, std::fabs(gapTo(box, s.centre.as<double>()).distance));
+    // The cluster is that of the face: a corner lies in three.
+    const Vec3d p = s.centre.as<double>();
+    EXPECT_NEAR(std::fabs(p[static_cast<int>(s.cluster / 2)]), box.half[static_cast<int>(s.cluster / 2)], 1e-7);
+  }
+  EXPECT_NEAR(area, 8 * (0.1 * 0.05 + 0.1 * 0.02 + 0.05 * 0.02), 1e-6);
+  EXPECT_LT(farthest, 1e-7) << "single precision";
+  EXPECT_LT(norm(moment), 1e-3 * area * 0.1) << "two triangles of a face have different points";
+  const auto upper = contact::meshPoints(mesh, 0.01, [](const Vec3d& p) { return p.z < 0.02; });
+  EXPECT_FALSE(upper.empty());
+  for (const contact::SurfaceSample& s : upper) EXPECT_EQ(s.cluster, 5u) << "others are hidden";
+}
+
+TEST(MeshBodies, WeightIsTheMeanContactForceOnGrains) {
+  const Folder folder;
+  folder.cube();
+  const auto s = folder.made(head("time_step = 2e-5") + feet() + body("cube", "[0, 0, 0.0599]", kTwoKilograms));
+  advanceTo(*s, 0.5);
+  s->restartMeans();
+  advanceTo(*s, 0.6);
+  const Vec3d force = s->mechanism()->contactForces()[0];
+  EXPECT_NEAR(force.z, 2 * kGravity, 1e-3 * 2 * kGravity);
+  EXPECT_LT(std::hypot(force.x, force.y), 1e-3 * 2 * kGravity);
+  // Each foot bears a quarter: overlap = m g / (4 k), on the plane of the face to single precision.
+  EXPECT_NEAR(stateOf(*s).pose[0].position.z, 0.06 - 2 * kGravity / 4e5, 1e-6);
+}
+
+TEST(MeshBodies, RestOnAPlaneAsABoxDoes) {
+  const Folder folder;
+  folder.cube();
+  const auto s = folder.made(head() + kPlane + body("mesh", "[0, 0, 0.05]", kTwoKilograms) +
+                             body("box", "[1, 0, 0.05]", kTwoKilograms, kBoxShape));
+  advanceTo(*s, 0.4);
+  s->restartMeans();
+  advanceTo(*s, 0.5);
+  const double ofMesh = 0.05 - stateOf(*s).pose[0].position.z, ofBox = 0.05 - stateOf(*s).pose[1].position.z;
+  EXPECT_NEAR(ofMesh, 2 * kGravity / (1e8 * 0.01), 0.02 * ofMesh) << "W / (K A)";
+  EXPECT_NEAR(ofMesh, ofBox, 0.05 * ofBox);
+  EXPECT_NEAR(s->mechanism()->contactForces()[0].z, 2 * kGravity, 1e-3 * 2 * kGravity);
+  EXPECT_NEAR(s->mechanism()->meanForceOn(0).z, -4 * kGravity, 1e-3 * 4 * kGravity);
+}
+
+TEST(MeshBodies, StandOnEachOtherByPointsAndSpheres) {
+  const Folder folder;
+  folder.cube();
+  folder.box("slab.obj", {-0.1, -0.1, -0.02}, {0.1, 0.1, 0.02});
+  // Box on mesh, mesh on mesh, mesh on box: the smaller one has the points.
+  const std::string slab = "[[body.shape]]\nkind = \"mesh\"\nfile = \"slab.obj\"\n";
+  const std::string ofSlab = "mass = 5\nbox = [0.2, 0.2, 0.04]\n";
+  const auto s = folder.made(
+      head() + kPlane + body("slab", "[0, 0, 0.02]", ofSlab, slab) + body("mesh", "[0, 0, 0.09]", kTwoKilograms) +
+      body("slab2", "[1, 0, 0.02]", ofSlab, slab) + body("box", "[1, 0, 0.09]", kTwoKilograms, kBoxShape) +
+      body("plate", "[2, 0, 0.02]", ofSlab, "[[body.shape]]\nkind = \"box\"\nsize = [0.2, 0.2, 0.04]\n") +
+      body("mesh2", "[2, 0, 0.09]", kTwoKilograms));
+  advanceTo(*s, 0.4);
+  s->restartMeans();
+  advanceTo(*s, 0.5);
+  const auto force = s->mechanism()->contactForces();
+  for (std::size_t b = 0; b < 6; ++b) {
+    const double weight = (b % 2 ? 2 : 5) * kGravity;
+    EXPECT_NEAR(force[b].z, weight, 2e-3 * weight) << b;
+    EXPECT_NEAR(stateOf(*s).pose[b].position.z, b % 2 ? 0.09 : 0.02, 2e-4) << b;
+  }
+  const Ledger l = s->ledger();
+  EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
+}
+
+TEST(MeshBodies, MomentumIsConservedWhereTwoMeet) {
+  const Folder folder;
+  folder.cube();
+  const auto s =
+      folder.made(head("gravity = [0, 0, 0]") + body("a", "[0, 0, 0]", kTwoKilograms + "velocity = [1, 0, 0]\n") +
+                  body("b", "[0.12, 0.02, 0.01]", kTwoKilograms + "spin = [0, 1, 2]\n"));
+  const multibody::Totals start = s->mechanism()->bodiesBalance().now;
+  advanceTo(*s, 0.1);
+  const multibody::Totals now = s->mechanism()->bodiesBalance().now;
+  EXPECT_LT(norm(now.linearMomentum - start.linearMomentum), 1e-9);
+  EXPECT_LT(norm(now.angularMomentum - start.angularMomentum), 1e-6);
+  EXPECT_LT(stateOf(*s).twist[0].v.x, 0.9) << "they have met";
+  EXPECT_LT(now.kinetic, start.kinetic);
+}
+
+TEST(MeshBodies, MassAndInertiaAreThoseOfTheBox) {
+  const Folder folder;
+  folder.box("brick.obj", {0, 0, 0}, {1, 2, 3}); // its origin is a corner
+  const auto modelOf = [&](const std::string& shape) {
+    return setup::mechanismSetup(
+               setup::parseScene(head() + kPlane + body("b", "[0, 0, 1]", "density = 800\n", shape), folder.scene()))
+        .model.bodies()[0];
+  };
+  const auto mesh = modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"brick.obj\"\nscale = 0.1\naxis = [0, 0, 1]\n"
+                            "angle = 90\nposition = [0.1, -0.05, -0.15]\n");
+  const auto box = modelOf("[[body.shape]]\nkind = \"box\"\nsize = [0.2, 0.1, 0.3]\n");
+  EXPECT_NEAR(mesh.mass, 800 * 0.006, 1e-9);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      EXPECT_NEAR(mesh.inertia_B.m[i][j], box.inertia_B.m[i][j], 1e-7 * box.inertia_B.m[0][0]) << i << j;
+  const std::string beside = messageOf([&] { modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"brick.obj\"\n"); });
+  EXPECT_NE(beside.find("has its centre of mass at [0.5, 1, 1.5] m"), std::string::npos) << beside;
+  // A tetrahedron with a vertex at the origin: integrals in closed form.
+  base::TriangleMesh tetra{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
+  const setup::SolidMoments m = setup::momentsOf(tetra);
+  EXPECT_NEAR(m.volume, 1.0 / 6, 1e-15);
+  EXPECT_NEAR(norm(m.centre - Vec3d{0.25, 0.25, 0.25}), 0, 1e-15);
+  EXPECT_NEAR(m.inertia.m[0][0], 2 * (1.0 / 60 - 1.0 / 96), 1e-15);
+  EXPECT_NEAR(m.inertia.m[0][1], -(1.0 / 120 - 1.0 / 96), 1e-15);
+}
+
+TEST(MeshBodies, HaveOneAnswerWhenResumedAndWithTwoThreads) {
+  const Folder folder;
+  folder.cube();
+  const std::string text = head("time_step = 2e-5") + feet() + kPlane +
+                           body("cube", "[0.01, 0, 0.0605]", kTwoKilograms + "velocity = [0.2, 0, -0.1]\n") +
+                           body("other", "[0.13, 0, 0.0505]", kTwoKilograms);
+  const auto straight = folder.made(text), first = folder.made(text), two = folder.made(text, 2);
+  advanceTo(*straight, 0.1), advanceTo(*first, 0.06), advanceTo(*two, 0.1);
+  EXPECT_EQ(two->stateHash(), straight->stateHash());
+  const SimulationState saved = first->save();
+  Simulation resumed(setup::simulationSetup(setup::parseScene(text, folder.scene())), base::cpuExec(1), saved);
+  EXPECT_EQ(resumed.stateHash(), first->stateHash());
+  advanceTo(resumed, 0.1);
+  EXPECT_EQ(resumed.stateHash(), straight->stateHash());
+}
+
+TEST(MeshBodies, HollowOnesHoldGrainsAndBodies) {
+  const Folder folder;
+  // A tray of five walls that overlap: inside is where the winding number is not zero.
+  fs::path tray = fs::path(folder.scene()).parent_path() / "tray.obj";
+  std::ofstream file(tray);
+  int first = 1;
+  const auto add = [&](const Vec3d& low, const Vec3d& high) {
+    for (int i = 0; i < 8; ++i)
+      file << fmt::format("v {} {} {}\n", i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    const int faces[12][3] = {{1, 3, 4}, {1, 4, 2}, {5, 6, 8}, {5, 8, 7}, {1, 2, 6}, {1, 6, 5},
+                              {3, 7, 8}, {3, 8, 4}, {1, 5, 7}, {1, 7, 3}, {2, 4, 8}, {2, 8, 6}};
+    for (const auto& f : faces)
+      file << fmt::format("f {} {} {}\n", f[0] + first - 1, f[1] + first - 1, f[2] + first - 1);
+    first += 8;
+  };
+  add({-0.06, -0.06, 0}, {0.06, 0.06, 0.01});
+  add({-0.06, -0.06, 0}, {-0.05, 0.06, 0.05}), add({0.05, -0.06, 0}, {0.06, 0.06, 0.05});
+  add({-0.06, -0.06, 0}, {0.06, -0.05, 0.05}), add({-0.06, 0.05, 0}, {0.06, 0.06, 0.05});
+  file.close();
+  std::string grains;
+  for (const char* place : {"[0.03, 0, 0.03]", "[-0.02, 0.02, 0.03]", "[0, -0.03, 0.03]"})
+    grains += fmt::format("[[grain]]\nposition = {}\nradius = 0.01\nmaterial = \"glass\"\n", place);
+  const auto s = folder.made(head() + kPlane + grains +
+                             body("tray", "[0, 0, 0]", "mass = 1\nbox = [0.12, 0.12, 0.05]\n",
+                                  "[[body.shape]]\nkind = \"mesh\"\nfile = \"tray.obj\"\n") +
+                             body("block", "[-0.03, -0.03, 0.0251]", "mass = 0.1\nbox = [0.03, 0.03, 0.03]\n",
+                                  "[[body.shape]]\nkind = \"box\"\nsize = [0.03, 0.03, 0.03]\n"));
+  advanceTo(*s, 0.8);
+  s->restartMeans();
+  advanceTo(*s, 0.9);
+  for (const Vec3d& p : s->ground().grains->snapshot().position) {
+    EXPECT_NEAR(p.z, 0.02, 5e-4);
+    EXPECT_LT(std::max(std::fabs(p.x), std::fabs(p.y)), 0.0405);
+  }
+  EXPECT_NEAR(stateOf(*s).pose[1].position.z, 0.025, 2e-4) << "the block stands in it, too";
+  EXPECT_NEAR(s->mechanism()->contactForces()[0].z, kGravity, 0.01 * kGravity);
+  EXPECT_NEAR(s->mechanism()->contactForces()[1].z, 0.1 * kGravity, 0.01 * kGravity);
+}
+
+TEST(MeshBodies, OverlapsAtTheStartAreRefused) {
+  const Folder folder;
+  folder.cube();
+  const auto refused = [&](const std::string& rest, const std::string& words) {
+    const std::string message = messageOf([&] { folder.made(head() + rest); });
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  refused(feet() + body("cube", "[0, 0, 0.05]", kTwoKilograms), "body \"cube\" overlaps grain 0 of radius 0.01 m");
+  refused(kPlane + body("cube", "[0, 0, 0.04]", kTwoKilograms), "overlaps plane0 by 0.01 m");
+  refused(body("a", "[0, 0, 0]", kTwoKilograms) + body("b", "[0.09, 0, 0]", kTwoKilograms), "overlaps body \"");
+}
+
+TEST(MeshBodies, StepsAreLimitedAsThoseOfBoxes) {
+  const Folder folder;
+  folder.cube();
+  const auto step = [&](const std::string& shape) {
+    return setup::stepLimit(
+               setup::parseScene(head() + feet() + kPlane +
+                                     body("cube", "[0, 0, 0.06]", "mass = 0.001\nbox = [0.1, 0.1, 0.1]\n", shape),
+                                 folder.scene()))
+        .step;
+  };
+  EXPECT_NEAR(step(kCubeShape), step(kBoxShape), 1e-6 * step(kBoxShape));
+  const std::string fast = messageOf([&] {
+    folder.made(head("time_step = 1e-4") + feet() +
+                body("cube", "[0, 0, 0.2]", kTwoKilograms + "velocity = [0, 0, -60]\n"));
+  });
+  EXPECT_NE(fast.find("body.0.velocity"), std::string::npos) << fast;
+}
+
+TEST(MeshBodies, BadFilesAndKeysAreRefusedAtTheirPlace) {
+  const Folder folder;
+  folder.cube();
+  folder.box("open.obj", {-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}, true);
+  const auto refused = [&](const std::string& shape, const std::string& words) {
+    const std::string message = messageOf([&] {
+      setup::parseScene(head() + kPlane + body("b", "[0, 0, 1]", kTwoKilograms, "[[body.shape]]\n" + shape),
+                        folder.scene());
+    });
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_NE(message.find("bodies.toml:"), std::string::npos) << message;
+  };
+  const std::string cube = "kind = \"mesh\"\nfile = \"cube.obj\"\n";
+  refused("kind = \"mesh\"", "shape.0.file is missing, which a mesh needs");
+  refused("kind = \"mesh\"\nfile = \"cub.obj\"", "shape.0.file = \"cub.obj\" does not exist");
+  refused("kind = \"mesh\"\nfile = \"open.obj\"", "is of no use");
+  refused(cube + "sphere_radius = 0.06", "shape.0.sphere_radius = 0.06 [m] is above 0.05 m");
+  refused(cube + "sphere_radius = 1e-5", "lattice points");
+  refused(cube + "radius = 0.1", "shape.0.radius = 0.1 does not apply to a mesh");
+  refused(cube + "size = [1, 1, 1]", "does not apply to a mesh");
+  refused(cube + "length = 1", "does not apply to a mesh");
+  refused(cube + "angle = 3", "and angle turn a mesh together");
+  refused("kind = \"sphere\"\nradius = 0.1\nfile = \"cube.obj\"", "does not apply to a sphere");
+  refused("kind = \"sphere\"\nradius = 0.1\nsphere_radius = 0.01", "does not apply to a sphere");
+  refused("kind = \"box\"\nsize = [1, 1, 1]\nscale = 2", "does not apply to a box");
+}
+
+TEST(MeshBodies, TheResolvedSceneIsTheSame) {
+  const Folder folder;
+  folder.cube();
+  const std::string text =
+      head() + kPlane + body("cube", "[0, 0, 0.05]", "", kCubeShape + "sphere_radius = 0.004\nscale = 1\n");
+  const scene::Scene scene = setup::parseScene(text, folder.scene());
+  const scene::Scene again = setup::parseScene(scene::resolvedToml(scene), "elsewhere.toml");
+  EXPECT_EQ(scene.mechanism, again.mechanism);
+  EXPECT_EQ(setup::inputsOf(scene), setup::inputsOf(again));
+  EXPECT_NE(setup::inputsOf(scene).find("body.shape.file:"), std::string::npos);
+}
+
+} // namespace
+} // namespace grouser::coupling::mesh_bodies
