@@ -18,6 +18,7 @@
 namespace grouser::coupling {
 namespace {
 
+using test::messageOf;
 using Values = std::array<double, 6>;
 
 scene::Scene sceneOf(const std::string& file, std::vector<std::string> overrides = {}) {
