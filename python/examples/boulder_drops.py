@@ -83,13 +83,17 @@ def draw(heights: numpy.ndarray, depths: numpy.ndarray, solid: float, picture: s
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(5, 3.8))
     whole = heights[:, None] + depths
-    axes.loglog(whole, 1000 * depths, "o", color="tab:blue", alpha=0.6, label=None)
+    axes.loglog(whole, 1000 * depths, "o", color="tab:blue", alpha=0.6)
     slope, bar = exponent(heights, depths)
     line = numpy.linspace(whole.min(), whole.max(), 50)
     fit = numpy.exp(numpy.mean(numpy.log(depths)) - slope * numpy.mean(numpy.log(whole))) * line**slope
     axes.loglog(line, 1000 * fit, "-", color="tab:blue", label=f"grains: exponent {slope:.2f} +- {bar:.2f}")
     axes.loglog(line, [1000 * expected(h, 0, solid) for h in line], "k--", label="experiments: exponent 1/3")
     axes.set(xlabel="height of fall down to the lowest point [m]", ylabel="depth [mm]")
+    for axis, ticks in ((axes.xaxis, (0.1, 0.2, 0.5, 1)), (axes.yaxis, (40, 60, 80, 100, 120))):
+        axis.set_major_formatter("{x:g}")
+        axis.set_ticks(ticks)
+        axis.set_minor_formatter("")
     axes.legend()
     figure.tight_layout()
     figure.savefig(picture, dpi=110)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tows a block over a settled bed: the pull over its weight, for noses of several heights.
+"""Tows a block over a settled bed: the pull over its weight, for noses of several slopes.
 
     python/examples/towed_block.py [FOLDER] [SEEDS] [PICTURE]      # default: out/towed_block, 3 seeds, no picture
 
 The friction between block and sand is far below that of the sand. What the block needs beyond it pushes sand ahead of
-the nose: the higher the nose, the less.
+the nose: the flatter the nose rises, the less.
 """
 from __future__ import annotations
 
@@ -19,43 +19,43 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # if the package i
 import grouser  # noqa: E402
 
 LENGTH, WIDTH, HEIGHT, MASS = 0.12, 0.12, 0.06, 2.0  # of the block [m], [kg]
-SLOPE = math.radians(20)  # of its upturned nose
+NOSE = 0.03  # height to which its nose rises above the sole [m]
 FRICTION, SAND_FRICTION = 0.2, 0.5  # block on sand, sand on sand [-]
-NOSES = (0.0, 0.01, 0.02, 0.03)  # height of the nose above the sole [m]
+SLOPES = (90, 40, 20, 10)  # of the nose [deg]; 90: the block's own face
 SPEED, START = 0.2, 0.25  # [m/s], [s]
 GRAVITY = 9.81  # [m/s2]
 
 
-def shapes_of(nose: float) -> list[dict]:
+def shapes_of(slope: float) -> list[dict]:
     """Boxes, with positions in the block's frame: the block, and ahead of its sole a ramp that rises to the height of
-    the nose, with a face above it."""
+    the nose, with a face above it. `slope` in degrees."""
     block = {"kind": "box", "size": [LENGTH, WIDTH, HEIGHT]}
-    if nose == 0:
+    if slope == 90:
         return [block]
-    reach, thickness = nose / math.tan(SLOPE), 0.01
-    front, bottom = LENGTH / 2 + reach, -HEIGHT / 2
-    middle = numpy.array([LENGTH / 2 + reach / 2, 0, bottom + nose / 2])
-    middle += thickness / 2 * numpy.array([-math.sin(SLOPE), 0, math.cos(SLOPE)])
-    return [block, {"kind": "box", "size": [nose / math.sin(SLOPE), WIDTH, thickness], "position": middle.tolist(),
-                    "axis": [0, 1, 0], "angle": -math.degrees(SLOPE)},
-            {"kind": "box", "size": [thickness, WIDTH, HEIGHT - nose],
-             "position": [front - thickness / 2, 0, nose / 2]}]
+    angle, thickness = math.radians(slope), 0.01
+    reach, bottom = NOSE / math.tan(angle), -HEIGHT / 2
+    middle = numpy.array([LENGTH / 2 + reach / 2, 0, bottom + NOSE / 2])
+    middle += thickness / 2 * numpy.array([-math.sin(angle), 0, math.cos(angle)])
+    return [block, {"kind": "box", "size": [NOSE / math.sin(angle), WIDTH, thickness], "position": middle.tolist(),
+                    "axis": [0, 1, 0], "angle": -slope},
+            {"kind": "box", "size": [thickness, WIDTH, HEIGHT - NOSE],
+             "position": [LENGTH / 2 + reach - thickness / 2, 0, NOSE / 2]}]
 
 
-def scene_of(nose: float, seed: int, way: float) -> grouser.Scene:
+def scene_of(slope: float, seed: int, way: float) -> grouser.Scene:
     """A carriage on a rail tows the block, which slides up and down on it. Masses of the carriage do not count."""
     scene = grouser.Scene(name="towed_block")
     scene["run"] = {"duration": START + way / SPEED, "output_interval": 0.01, "frame_interval": 0.5, "seed": seed}
     scene["material.sand"] = {"density": 2600, "stiffness": 2e4, "restitution": 0.3, "friction": SAND_FRICTION,
                               "rolling_friction": 0.1}
     scene["material.block"] = {"stiffness": 2e4, "restitution": 0.3, "friction": FRICTION}
-    scene["terrain"] = {"heightmap": "heightmaps/flat.png", "size": [way + 0.36, 0.3], "height_range": [0, 0],
+    scene["terrain"] = {"heightmap": "heightmaps/flat.png", "size": [way + 0.42, 0.3], "height_range": [0, 0],
                         "material": "sand", "grain_radius": 0.006, "depth": 0.06}
     scene["mechanism"] = {"above_bed": 0.001}
     place = [LENGTH / 2 + 0.06, 0, HEIGHT / 2]
     scene.add("body", name="carriage", mass=1, box=[0.02, 0.02, 0.02], position=[place[0], 0, 0.2])
     scene.add("body", name="block", mass=MASS, box=[LENGTH, WIDTH, HEIGHT], position=place, material="block",
-              shape=shapes_of(nose))
+              shape=shapes_of(slope))
     scene.add("joint", name="rail", type="prismatic", bodies=["world", "carriage"], point=[place[0], 0, 0.2],
               axis=[1, 0, 0])
     scene.add("joint", name="guide", type="prismatic", bodies=["carriage", "block"], point=place, axis=[0, 0, 1])
@@ -70,17 +70,16 @@ def pull_of(run: grouser.Run, way: float) -> float:
     return -float(numpy.mean(force.value)) / (MASS * GRAVITY)
 
 
-def main(folder: str = "out/towed_block", seeds: int = 3, picture: str = "", noses=NOSES, way: float = 0.25) -> dict:
-    """[nose] pulls of all seeds over the weight."""
+def main(folder: str = "out/towed_block", seeds: int = 3, picture: str = "", slopes=SLOPES, way: float = 0.25) -> dict:
+    """[slope] pulls of all seeds over the weight."""
     pulls: dict[float, list[float]] = {}
-    for nose in noses:
+    for slope in slopes:
         for seed in range(1, int(seeds) + 1):
-            with scene_of(nose, seed, way).run(Path(folder) / f"{1000 * nose:g}_{seed}", force=True,
-                                                    threads=1) as run:
-                pulls.setdefault(nose, []).append(pull_of(run, way))
-        values = numpy.array(pulls[nose])
-        print(f"nose {1000 * nose:4.0f} mm: pull {values.mean():.3f} of the weight, {values.min():.3f} to "
-              f"{values.max():.3f}; friction {FRICTION}, ploughing {values.mean() - FRICTION:.3f}")
+            with scene_of(slope, seed, way).run(Path(folder) / f"{slope}_{seed}", force=True) as run:
+                pulls.setdefault(slope, []).append(pull_of(run, way))
+        values = numpy.array(pulls[slope])
+        print(f"nose of {slope} degrees: pull {values.mean():.3f} of the weight, {values.min():.3f} to "
+              f"{values.max():.3f}; friction {FRICTION}, ploughing {values.mean() - FRICTION:.3f}", flush=True)
     if picture:
         draw(pulls, picture)
     return pulls
@@ -91,12 +90,11 @@ def draw(pulls: dict[float, list[float]], picture: str) -> None:
     matplotlib.use("Agg")
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(figsize=(5, 3.6))
-    noses = 1000 * numpy.array(list(pulls))
-    for nose, values in zip(noses, pulls.values()):
-        axes.plot([nose] * len(values), values, ".", color="tab:blue", alpha=0.5)
-    axes.plot(noses, [numpy.mean(v) for v in pulls.values()], "o-", color="tab:blue", label="block on a bed of sand")
+    for slope, values in pulls.items():
+        axes.plot([slope] * len(values), values, ".", color="tab:blue", alpha=0.5)
+    axes.plot(list(pulls), [numpy.mean(v) for v in pulls.values()], "o-", color="tab:blue", label="on a bed of sand")
     axes.axhline(FRICTION, color="k", label="friction of block on sand")
-    axes.set(xlabel="height of the nose [mm]", ylabel="pull / weight [-]", ylim=(0, None))
+    axes.set(xlabel="slope of the nose [deg]", ylabel="pull / weight [-]", ylim=(0, None))
     axes.legend()
     figure.tight_layout()
     figure.savefig(picture, dpi=110)

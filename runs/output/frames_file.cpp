@@ -203,8 +203,9 @@ std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) cons
   for (const GrainDataset& d : kGrainDatasets) aGrain += d.width * sizeof(float);
   std::uint64_t cuts = 0;
   for (const std::vector<double>& places : frame.borders) cuts += places.size();
-  return kOwn + (frame.fields ? output::bytesOfFields(frame.fields->grid.count()) : 0) + kAName * static_cast<std::uint64_t>(count_) +
-         grains * aGrain + partVertices_ * 3 * sizeof(float) + cuts * sizeof(double);
+  return kOwn + (frame.fields ? output::bytesOfFields(frame.fields->grid.count()) : 0) +
+         kAName * static_cast<std::uint64_t>(count_) + grains * aGrain + partVertices_ * 3 * sizeof(float) +
+         cuts * sizeof(double);
 }
 
 void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains) {

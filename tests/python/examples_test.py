@@ -72,25 +72,20 @@ class BoulderDrops(unittest.TestCase):
             self.assertAlmostEqual(boulder_drops.student(free) / quantile, 1, delta=0.01)
 
 
-class TowedBlock(FolderTest):
-    def test_turns_up_the_nose_ahead_of_the_sole(self):
-        self.assertEqual(len(towed_block.shapes_of(0)), 1)
-        slope = towed_block.SLOPE
-        along = numpy.array([numpy.cos(slope), numpy.sin(slope)])
-        for nose in towed_block.NOSES[1:]:
-            block, ramp, face = towed_block.shapes_of(nose)
+class TowedBlock(unittest.TestCase):
+    """The runs take minutes: docs/ready_mechanisms.md has their figure."""
+
+    def test_puts_the_nose_ahead_of_the_sole(self):
+        self.assertEqual(len(towed_block.shapes_of(90)), 1)
+        for slope in towed_block.SLOPES[1:]:
+            along = numpy.array([numpy.cos(numpy.radians(slope)), numpy.sin(numpy.radians(slope))])
+            block, ramp, face = towed_block.shapes_of(slope)
             below = numpy.array(ramp["position"])[[0, 2]] + ramp["size"][2] / 2 * numpy.array([along[1], -along[0]])
             sole = numpy.array([block["size"][0], -block["size"][2]]) / 2
             numpy.testing.assert_allclose(below - ramp["size"][0] / 2 * along, sole, atol=1e-12)
-            self.assertAlmostEqual(ramp["angle"], -20)  # about y, which turns x towards -z
-            self.assertAlmostEqual(face["position"][2] - face["size"][2] / 2, sole[1] + nose)
-            self.assertAlmostEqual(face["position"][0] + face["size"][0] / 2, sole[0] + nose / numpy.tan(slope))
-
-    def test_needs_its_friction_and_less_beyond_it_with_a_high_nose(self):
-        pulls = towed_block.main(str(self.folder), 1, noses=(0.0, 0.03), way=0.12)
-        low, high = pulls[0.0][0], pulls[0.03][0]
-        self.assertGreater(high, 0.97 * towed_block.FRICTION)
-        self.assertGreater(low, high + 0.02)
+            self.assertEqual(ramp["angle"], -slope)  # about y, which turns x towards -z
+            self.assertAlmostEqual(face["position"][2] - face["size"][2] / 2, sole[1] + towed_block.NOSE)
+            self.assertAlmostEqual(face["position"][0] + face["size"][0] / 2, sole[0] + towed_block.NOSE * along[0] / along[1])
 
 
 class TrackSinkage(FolderTest):
