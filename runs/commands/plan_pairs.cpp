@@ -2,6 +2,7 @@
 #include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/meeting_pairs.hpp"
+#include "runs/setup/scene_surfaces.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,22 @@
 #include <algorithm>
 
 namespace grouser::commands {
+
+namespace {
+
+/// Returns true if bodies of that material, or surfaces and ground that bodies touch, make contact by a foundation.
+bool onFoundation(const scene::Scene& scene, const std::string& material) {
+  if (!scene.mechanism.touches()) return false;
+  const auto& bodies = scene.mechanism.bodies;
+  const std::vector<setup::SceneSurface> surfaces = setup::surfacesOf(scene);
+  return (scene.terrain && scene.terrain->material == material) ||
+         std::any_of(bodies.begin(), bodies.end(),
+                     [&](const scene::BodySection& b) { return !b.shapes.empty() && b.material == material; }) ||
+         std::any_of(surfaces.begin(), surfaces.end(),
+                     [&](const setup::SceneSurface& s) { return s.section.material == material; });
+}
+
+} // namespace
 
 std::string pairsText(const scene::Scene& scene) {
   std::string text, notes;
@@ -29,8 +46,9 @@ std::string pairsText(const scene::Scene& scene) {
     for (const std::string& off : p.off) notes += fmt::format("  note: {}: {}\n", p.what, off);
   }
   for (const scene::Material& m : scene.materials)
-    if (std::none_of(pairs.begin(), pairs.end(),
-                     [&](const setup::MeetingPair& p) { return p.grain == m.name || p.partner == m.name; }))
+    if (!onFoundation(scene, m.name) && std::none_of(pairs.begin(), pairs.end(), [&](const setup::MeetingPair& p) {
+          return p.grain == m.name || p.partner == m.name;
+        }))
       notes += fmt::format("  note: material.{} acts on nothing here{}\n", m.name,
                            scene.vehicle && pairs.empty()
                                ? ": between vehicle and rigid ground all contact data are the vehicle file's"

@@ -2,9 +2,11 @@
 #include "runs/setup/body_mass.hpp"
 
 #include "base/math.hpp"
+#include "contact/shape_points.hpp"
 #include "runs/scene/mechanism_structs.hpp"
 #include "runs/support/orientation.hpp"
 #include "spheredecomp/mesh.hpp"
+#include "spheredecomp/mesh_query.hpp"
 
 namespace grouser::setup {
 
@@ -116,6 +118,21 @@ SolidMoments momentsOf(const base::TriangleMesh& mesh) {
   all.inertia = Mat3d::diagonal({trace, trace, trace});
   add(all.inertia, second, -1), add(all.inertia, steiner(all.centre), -all.volume);
   return all;
+}
+
+double massOf(const scene::BodySection& body) {
+  return body.mass ? *body.mass : *body.density * momentsOf(body).volume;
+}
+
+bool shellsOverlap(const spheredecomp::MeshQuery& query) {
+  const auto [middle, half] = spheredecomp::bounds(query.mesh());
+  constexpr double kSpacings = 20,
+                   kSame = 1e-3; // points in half of the diagonal; share of the area that rounding takes
+  double bare = 0;
+  const auto inside = [&query](const Vec3d& p) { return query.inside(p); };
+  for (const contact::SurfaceSample& s : contact::meshPoints(query.mesh(), norm(half) / kSpacings, inside))
+    bare += static_cast<double>(s.area);
+  return bare < (1 - kSame) * spheredecomp::area(query.mesh());
 }
 
 SolidMoments momentsOf(const scene::BodySection& body) {

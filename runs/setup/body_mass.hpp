@@ -4,6 +4,7 @@
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
 #include "contact/surface_geometry.hpp"
+#include "spheredecomp/mesh_query.hpp"
 
 namespace grouser::scene {
 struct BodySection;
@@ -29,6 +30,12 @@ SolidMoments momentsOf(const contact::SurfaceGeometry& shape);
 
 /// Exact sums over the tetrahedra between the triangles of a closed mesh and the origin.
 SolidMoments momentsOf(const base::TriangleMesh& mesh);
+
+/// Mass of a body that moves: given, or of its shapes [kg].
+double massOf(const scene::BodySection& body);
+
+/// Returns true if shells of a closed mesh overlap or nest, so that momentsOf() counts their common volume twice.
+bool shellsOverlap(const spheredecomp::MeshQuery& mesh);
 
 /// All shapes of a body in its frame, about their common centre (Huygens-Steiner). Where shapes overlap, the overlap
 /// counts for each.

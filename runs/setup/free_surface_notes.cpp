@@ -5,6 +5,7 @@
 #include "base/sphere.hpp"
 #include "contact/mixing.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/body_mass.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"
@@ -38,7 +39,7 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
   for (const SceneSurface& s : pairs.surfaces)
     if (s.free) look(fmt::format("{} \"{}\" is free and", s.list(), s.name), s.section.material, s.free->mass);
   for (const scene::BodySection& body : scene.mechanism.bodies)
-    if (!body.shapes.empty() && !body.fixed) look(fmt::format("body \"{}\"", body.name), body.material, *body.mass);
+    if (!body.shapes.empty() && !body.fixed) look(fmt::format("body \"{}\"", body.name), body.material, massOf(body));
   return notes;
 }
 

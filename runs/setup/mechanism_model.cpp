@@ -32,17 +32,24 @@ constexpr double kCentred = 1e-3;
 
 /// Mass and inertia of the shapes, uniformly of `density`.
 SolidMoments shapesMoments(const scene::BodySection& b) {
+  for (std::size_t k = 0; k < b.shapes.size(); ++k)
+    if (const auto& query = b.shapes[k].loaded.query; query && shellsOverlap(*query))
+      throw support::SectionFault(
+          "",
+          fmt::format("takes its mass or inertia from the mesh of shape.{}, whose shells overlap or lie within each "
+                      "other, so that their common volume would count twice; unite them in the file, turn the "
+                      "inner one of a hollow mesh inside out, or give mass and inertia",
+                      k));
   const SolidMoments m = momentsOf(b);
   double size = 0;
   for (const scene::ShapeSection& s : b.shapes)
     size = std::max(size, norm(s.position) + norm(halfExtent(geometryOf(s))));
   if (norm(m.centre) > kCentred * size)
     throw support::SectionFault(
-        "shape",
-        fmt::format("has its centre of mass at [{0:.6g}, {1:.6g}, {2:.6g}] m in the body's frame, whose origin "
-                    "must be the centre of mass; subtract that from shape.position of each shape and add it "
-                    "to position of the body, or give mass and inertia",
-                    m.centre.x, m.centre.y, m.centre.z));
+        "", fmt::format("has its centre of mass at [{0:.6g}, {1:.6g}, {2:.6g}] m in the body's frame, whose origin "
+                        "must be the centre of mass; subtract that from shape.position of each shape and add it "
+                        "to position of the body, or give mass and inertia",
+                        m.centre.x, m.centre.y, m.centre.z));
   return m;
 }
 

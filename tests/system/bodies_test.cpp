@@ -198,6 +198,10 @@ TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
   const scene::Scene alone = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 1));
   EXPECT_EQ(setup::bodyContactsNote(alone), "");
   EXPECT_TRUE(setup::freeSurfaceNotes(alone).empty());
+  const scene::Scene dense = sceneOf(head("", "density = 2500\n") + grain("[0, 0, 0]") +
+                                     "[[body]]\nname = \"ball\"\nposition = [0, 0, 0.2]\nmaterial = \"glass\"\n"
+                                     "[[body.shape]]\nkind = \"sphere\"\nradius = 0.05\n");
+  EXPECT_TRUE(setup::freeSurfaceNotes(dense).empty()) << "its mass follows from its shape";
   const scene::Scene light = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 0.01) +
                                      "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\nvelocity = [0, 0, -0.1]\n");
   EXPECT_EQ(setup::bodyContactsNote(light),

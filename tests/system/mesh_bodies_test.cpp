@@ -56,6 +56,15 @@ public:
       file << "f " << face << "\n";
     if (!open) file << "f 2 8 6\n";
   }
+  /// Puts the shell of file `second`, another box, into file `first`.
+  void append(const std::string& first, const std::string& second) const {
+    std::ifstream from(path_ / second);
+    std::ofstream to(path_ / first, std::ios::app);
+    std::string kind;
+    double a = 0, b = 0, c = 0;
+    while (from >> kind >> a >> b >> c)
+      to << (kind == "f" ? fmt::format("f {} {} {}\n", a + 8, b + 8, c + 8) : fmt::format("v {} {} {}\n", a, b, c));
+  }
   void cube(const std::string& name = "cube.obj") const { box(name, {-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}); }
   std::unique_ptr<Simulation> made(const std::string& text, int threads = 1) const {
     return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, scene())),
@@ -202,6 +211,12 @@ TEST(MeshBodies, MassAndInertiaAreThoseOfTheBox) {
       EXPECT_NEAR(mesh.inertia_B.m[i][j], box.inertia_B.m[i][j], 1e-7 * box.inertia_B.m[0][0]) << i << j;
   const std::string beside = messageOf([&] { modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"brick.obj\"\n"); });
   EXPECT_NE(beside.find("has its centre of mass at [0.5, 1, 1.5] m"), std::string::npos) << beside;
+  // A hollow box whose inner faces look outwards, as its outer ones do.
+  folder.box("nested.obj", {-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
+  folder.box("inner.obj", {-0.04, -0.04, -0.04}, {0.04, 0.04, 0.04});
+  folder.append("nested.obj", "inner.obj");
+  const std::string nested = messageOf([&] { modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"nested.obj\"\n"); });
+  EXPECT_NE(nested.find("mesh of shape.0, whose shells overlap"), std::string::npos) << nested;
   // A tetrahedron with a vertex at the origin: integrals in closed form.
   base::TriangleMesh tetra{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
   const setup::SolidMoments m = setup::momentsOf(tetra);
