@@ -238,6 +238,30 @@ TEST(BodyContacts, FlatBounceHasTheRestitutionOfThePair) {
   }
 }
 
+/// A block that turns with a turntable slides nowhere: its speed there is relative to a surface that turns.
+TEST(BodyContacts, ABlockRidesOnATurntable) {
+  const double rate = 2, radius = 0.3;
+  const auto s = made(
+      head() +
+      "[[body]]\nname = \"table\"\nmass = 50\ninertia = [3, 3, 5]\nposition = [0, 0, 0]\nspin = [0, 0, 2]\nmaterial = "
+      "\"steel\"\n[[body.shape]]\nkind = \"cylinder\"\nradius = 0.5\nlength = 0.1\n[[joint]]\nname = \"bearing\"\ntype "
+      "= "
+      "\"revolute\"\nbodies = [\"world\", \"table\"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n[[drive]]\nname = "
+      "\"motor\"\njoint = \"bearing\"\nvalue = 2\n" +
+      box("block", "[0.1, 0.1, 0.05]", 2, "[0.3, 0, 0.075]", "velocity = [0, 0.6, 0]\nspin = [0, 0, 2]"));
+  advanceTo(*s, 0.1); // the springs have taken up the centripetal force
+  const auto turnedBack = [&] {
+    const double angle = -rate * s->time();
+    const Vec3d p = stateOf(*s).pose[1].position;
+    return Vec3d{p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
+  };
+  const Vec3d before = turnedBack();
+  EXPECT_NEAR(before.x, radius, 1e-4);
+  advanceTo(*s, 1.1);
+  EXPECT_LT(norm(turnedBack() - before), 1e-4);
+  EXPECT_NEAR(stateOf(*s).twist[1].w.z, rate, 1e-3);
+}
+
 TEST(BodyContacts, BodiesCollideWithExactMomentum) {
   const std::string free = "gravity = [0, 0, 0]";
   const auto s =
