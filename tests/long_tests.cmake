@@ -10,6 +10,7 @@ foreach(row
     "BedPreparation.PorosityWantedIsReachedWithTheSameFrictionForEverySeed 37 BedPreparation.LooserBedsNeedMoreFrictionAndEverySeedTheSame RandomBeds.TilesKeepTheirPorosity"
     "BenchStep.SaysHowTheVehicleMovesAtEachTime 18 BenchStep.TimesADrivingVehicleUnlessATimeIsGiven BenchStep.WaitsForAStartThatOnlyTheRunKnows BenchCommands.PrintFiguresAndWriteThemAsJson"
     "OneAnswer.CoupledSceneOnTwoThreadsWithOtherRebuilds 13 OneAnswer.CoupledSceneInBatchesOfSteps RandomBeds.AreTheSameOnAllThreadsWithAllSkinsAndResumed"
+    "WheelOnABed.IsTheSameAsABodyAndAsAFreeSurface 50 WheelOnFixedGrains.IsTheSameAsABodyAndAsAFreeSurface"
     "OneAnswer.OfATowingVehicle 10 OneAnswer.OfAVehicleThatTowsASled"
     "RandomBeds.OfTilesArePreparedLevelToo 8 RandomBeds.ArePreparedLevelAndLeanWithTheFrictionOfTheirGrains RandomBeds.TilesKeepTheirPorosity")
   string(REPLACE " " ";" row "${row}")
