@@ -7,6 +7,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -30,8 +31,9 @@ std::string bedHead(double duration, const std::string& size, double radius, dou
 }
 
 std::unique_ptr<Simulation> made(const std::string& text, int threads = 1) {
-  return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, "on_beds.toml")),
-                                      base::cpuExec(threads), [](double, double) {});
+  return std::make_unique<Simulation>(
+      setup::simulationSetup(setup::parseScene(text, "on_beds.toml")), base::cpuExec(threads), [](double, double) {},
+      base::Comm{}, sharedBeds());
 }
 void advanceTo(Simulation& s, double time) {
   while (s.time() < time - 0.5 * s.timeStep()) s.step();
