@@ -238,28 +238,23 @@ TEST(BodyContacts, FlatBounceHasTheRestitutionOfThePair) {
   }
 }
 
-/// A block that turns with a turntable slides nowhere: its speed there is relative to a surface that turns.
-TEST(BodyContacts, ABlockRidesOnATurntable) {
-  const double rate = 2, radius = 0.3;
-  const auto s = made(
-      head() +
-      "[[body]]\nname = \"table\"\nmass = 50\ninertia = [3, 3, 5]\nposition = [0, 0, 0]\nspin = [0, 0, 2]\nmaterial = "
-      "\"steel\"\n[[body.shape]]\nkind = \"cylinder\"\nradius = 0.5\nlength = 0.1\n[[joint]]\nname = \"bearing\"\ntype "
-      "= "
-      "\"revolute\"\nbodies = [\"world\", \"table\"]\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n[[drive]]\nname = "
-      "\"motor\"\njoint = \"bearing\"\nvalue = 2\n" +
-      box("block", "[0.1, 0.1, 0.05]", 2, "[0.3, 0, 0.075]", "velocity = [0, 0.6, 0]\nspin = [0, 0, 2]"));
-  advanceTo(*s, 0.1); // the springs have taken up the centripetal force
-  const auto turnedBack = [&] {
-    const double angle = -rate * s->time();
-    const Vec3d p = stateOf(*s).pose[1].position;
-    return Vec3d{p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
-  };
-  const Vec3d before = turnedBack();
-  EXPECT_NEAR(before.x, radius, 1e-4);
-  advanceTo(*s, 1.1);
-  EXPECT_LT(norm(turnedBack() - before), 1e-4);
-  EXPECT_NEAR(stateOf(*s).twist[1].w.z, rate, 1e-3);
+/// A block on the floor of a wheel that turns about x, held there by its inertia alone: speeds are relative to a
+/// surface that turns.
+TEST(BodyContacts, ABlockTurnsWithTheFloorThatItLiesOn) {
+  const double rate = 2;
+  const auto s =
+      made(head("gravity = [0, 0, 0]") +
+           "[[body]]\nname = \"wheel\"\nmass = 50\ninertia = [5, 5, 5]\nspin = [2, 0, 0]\nmaterial = \"steel\"\n"
+           "[[body.shape]]\nkind = \"box\"\nsize = [0.4, 0.4, 0.1]\nposition = [0, 0, -0.35]\n[[joint]]\nname = "
+           "\"axle\"\ntype = \"revolute\"\nbodies = [\"world\", \"wheel\"]\npoint = [0, 0, 0]\naxis = [1, 0, 0]\n"
+           "[[drive]]\nname = \"motor\"\njoint = \"axle\"\nvalue = 2\n" +
+           box("block", "[0.1, 0.1, 0.05]", 2, "[0, 0, -0.275]", "velocity = [0, 0.55, 0]\nspin = [2, 0, 0]"));
+  advanceTo(*s, 1);
+  const double angle = -rate * s->time();
+  const Vec3d p = stateOf(*s).pose[1].position;
+  EXPECT_NEAR(p.y * std::cos(angle) - p.z * std::sin(angle), 0, 1e-3) << "slid";
+  EXPECT_NEAR(p.y * std::sin(angle) + p.z * std::cos(angle), -0.275, 1e-4) << "lifted";
+  EXPECT_NEAR(stateOf(*s).twist[1].w.x, rate, 0.01);
 }
 
 TEST(BodyContacts, BodiesCollideWithExactMomentum) {
