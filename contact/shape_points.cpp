@@ -99,13 +99,13 @@ public:
     }
   }
 
-  /// A triangle, halved across its longest edge until that is no longer than `spacing`; a third of each piece goes to
-  /// each of its corners.
+  /// Bisects the longest edge of a triangle until no edge exceeds `spacing`. Each corner of a piece receives a third of
+  /// the piece's area.
   void triangle(const std::array<Vec3d, 3>& corners, double spacing,
                 const std::function<bool(const Vec3d&)>& isInside) {
     const Vec3d twice = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(norm(twice) > 0)) return;
-    std::map<std::array<double, 3>, double> areas; // [m2] by place: pieces meet at equal corners
+    std::map<std::array<double, 3>, double> areas; // [corner] area [m2]; adjacent pieces share corners
     std::vector<std::array<Vec3d, 3>> pieces{corners};
     while (!pieces.empty()) {
       const std::array<Vec3d, 3> piece = pieces.back();

@@ -16,9 +16,12 @@ namespace grouser::contact {
 /// half the face within it.
 std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape);
 
-/// Surface points of a mesh in its own frame, each with its share of the area [m2]: corners of triangles no longer than
-/// `spacing` [m], 0.5 % of the way to the middle of their face. Those just outside of which `isInside` is true are left
-/// out: faces of overlapping shells within each other.
+/// Coarsest point spacing of a mesh [m]: a fortieth of the diagonal of its bounding box, of half edges `half` [m].
+inline double meshSpacing(const base::Vec3d& half) { return norm(half) / 20; }
+
+/// Surface points of a mesh in its own frame, each with its share of the area [m2]: corners of triangles with edges up
+/// to `spacing` [m], moved by 0.5 % towards the centre of their face. Skips points whose outer side is inside the mesh
+/// (`isInside`): hidden faces of overlapping shells.
 std::vector<SurfaceSample> meshPoints(const base::TriangleMesh& mesh, double spacing,
                                       const std::function<bool(const base::Vec3d&)>& isInside);
 

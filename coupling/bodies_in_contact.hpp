@@ -55,10 +55,11 @@ public:
   /// Force of the bodies on an obstacle of the scene, mean since the last row [N].
   base::Vec3d meanForceOn(std::size_t obstacle) const;
 
-  const std::vector<spheredecomp::CutReport>& bodyCuts() const { return bodyCuts_; } ///< of the meshes of bodies
+  const std::vector<spheredecomp::CutReport>& bodyCuts() const { return bodyCuts_; } ///< sphere cuts of body meshes
 
 protected:
-  /// Adds the shapes of the bodies to what touches, and cuts their meshes; `kept` as in VehicleParts.
+  /// Adds the shapes of the bodies to the contact parts and converts their meshes to spheres; `kept` as in
+  /// VehicleParts.
   void addBodies(const MechanismSetup& setup, const multibody::Model& model, const GroundTraits& ground,
                  SphereSets* kept);
 
@@ -81,7 +82,7 @@ protected:
   multibody::State state_;
   multibody::Loads loads_;
   ForceMeans rowMeans_;                   ///< since the last row
-  std::vector<base::SphereSet> bodySets_; ///< of the meshes of bodies, each once
+  std::vector<base::SphereSet> bodySets_; ///< spheres of the distinct body meshes
   std::vector<spheredecomp::CutReport> bodyCuts_;
   ContactParts contactParts_;
   std::unique_ptr<PartContacts> contacts_; ///< null where the bodies touch nothing

@@ -96,9 +96,9 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
   std::size_t shown = 0; // number of vehicle parts in the frames
   for (const ContactPart& part : all.parts) shown = std::max(shown, part.shown + 1);
   if (first == 0) all.contactSize = base::kInfinity;
-  std::vector<BodyShape> shapes; // each surface once
+  std::vector<BodyShape> shapes; // distinct surfaces
+  std::vector<int> surfaces;     // [distinct surface] its index in all.surfaces; -1: closed form
   int nextMesh = static_cast<int>(all.surfaces.size());
-  std::vector<int> surfaces; // of each of these
   for (const BodyShape& s : setup.shapes) {
     const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const auto& b) { return sameSurface(b, s); });
     const auto index = static_cast<std::size_t>(same - shapes.begin());

@@ -15,8 +15,8 @@ using base::Vec3d;
 
 namespace {
 
-/// Bound of the largest eigenvalue of sum A n n^T over the triangles (Gershgorin): springs of unit stiffness per area
-/// all over a surface resist a shift by it. A box has twice its largest face.
+/// Upper bound (Gershgorin) of the largest eigenvalue of sum A n n^T over the triangles: the translational stiffness of
+/// a surface on springs of unit stiffness per area [m2]. A box has twice its largest face.
 double facingArea(const base::TriangleMesh& mesh) {
   base::Mat3d sum{};
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
@@ -63,9 +63,8 @@ double farthestAlong(const BodyShape& s, const Vec3d& d) {
 
 std::vector<contact::SurfaceSample> surfacePoints(const BodyShape& s) {
   if (!s.mesh) return contact::shapePoints(s.shape);
-  constexpr double kSpacings = 20; // in half of the diagonal, at least
   const spheredecomp::MeshQuery& query = *s.mesh->query;
-  return contact::meshPoints(query.mesh(), std::min(s.mesh->sphereRadius, norm(s.shape.half) / kSpacings),
+  return contact::meshPoints(query.mesh(), std::min(s.mesh->sphereRadius, contact::meshSpacing(s.shape.half)),
                              [&query](const Vec3d& p) { return query.inside(p); });
 }
 

@@ -14,46 +14,46 @@
 
 namespace grouser::coupling {
 
-/// A closed mesh about the middle of the box that holds it.
+/// A closed mesh whose bounding box is centred at the origin.
 struct BodyMesh {
   std::shared_ptr<const spheredecomp::MeshQuery> query;
-  double sphereRadius{};    ///< of the spheres it is cut into [m]
-  bool sphereRadiusGiven{}; ///< by the scene; otherwise it may become finer
-  double halfThickness{};   ///< mean: volume over area [m]
-  double facingArea{};      ///< largest area that resists a shift, front and back [m2]
+  double sphereRadius{};    ///< of the spheres that replace it for grains [m]
+  bool sphereRadiusGiven{}; ///< set in the scene; otherwise a cut may choose a finer one
+  double halfThickness{};   ///< mean value: volume over area [m]
+  double facingArea{};      ///< largest projected area, front plus back [m2]
 };
 
 /// A surface by which a body touches grains, rigid surfaces and other bodies.
 struct BodyShape {
   std::size_t body{};                     ///< index into the model's bodies
   base::Pose pose_B;                      ///< pose of the shape's frame in the body's frame
-  contact::SurfaceGeometry shape;         ///< closed-form surface; of a mesh the box that holds it
+  contact::SurfaceGeometry shape;         ///< closed-form surface, or the bounding box of a mesh
   int material{};                         ///< index of its material among those of all shapes
-  std::string place;                      ///< place of its body in messages: "scene.toml:14: body.0"
-  std::string key{};                      ///< of a mesh: its section in messages: "body.0.shape.0"
-  std::shared_ptr<const BodyMesh> mesh{}; ///< null but for meshes
+  std::string place;                      ///< prefix of messages: "scene.toml:14: body.0"
+  std::string key{};                      ///< section of a mesh in messages: "body.0.shape.0"
+  std::shared_ptr<const BodyMesh> mesh{}; ///< null for closed-form shapes
 };
 
-/// Throws nothing; the mesh is closed and its box is centred at the origin.
+/// `query`: a closed mesh whose bounding box is centred at the origin; `given`: the scene sets `sphereRadius` [m].
 BodyMesh bodyMesh(std::shared_ptr<const spheredecomp::MeshQuery> query, double sphereRadius, bool given);
 
 /// Distance of a point from the surface, in the shape's frame [m]; negative inside.
 double distanceFrom(const BodyShape& shape, const base::Vec3d& p_S);
-/// Half of the thickness of a shape where it is thinnest; of a mesh no more than half of its mean thickness [m].
+/// Smallest half thickness of a shape, at most half the mean thickness of a mesh [m].
 double halfThickness(const BodyShape& shape);
-/// The smallest feature by which it touches [m]: that, or the diameter of a mesh's spheres. What moves more than half
-/// of it in a step could pass.
+/// Smallest contact feature [m]: the half thickness, at most the sphere diameter of a mesh. A shape that moves by more
+/// than half of it in one step could pass through another.
 double leastFeature(const BodyShape& shape);
-/// Largest p . d over the points p of the surface [m], for a unit vector d in its frame.
+/// Support function: largest p . d over the surface points p [m], for a unit vector d in the shape's frame.
 double farthestAlong(const BodyShape& shape, const base::Vec3d& d);
-/// Points by which it touches what is rigid.
+/// Sample points for contact with rigid surfaces.
 std::vector<contact::SurfaceSample> surfacePoints(const BodyShape& shape);
-/// Returns true if two shapes have the same surface, and the same spheres.
+/// Returns true if two shapes have the same surface and sphere radius.
 bool sameSurface(const BodyShape& a, const BodyShape& b);
 
-/// The first shape of each mesh, by index; shapes of equal meshes share their spheres.
+/// Indices of the shapes with distinct meshes. Shapes with equal meshes share one sphere set.
 std::vector<std::size_t> uniqueMeshes(const std::vector<BodyShape>& shapes);
-/// How these are cut for contact with what is `contactSize` [m] and larger.
+/// Sphere cuts of the distinct meshes, for contact with features of at least `contactSize` [m].
 std::vector<PartCut> meshCuts(const std::vector<BodyShape>& shapes, double contactSize);
 
 } // namespace grouser::coupling

@@ -22,7 +22,7 @@ struct ContactPart {
   std::size_t body{};               ///< index of its body in the multibody model
   base::Pose pose_B;                ///< pose of the surface's frame P in the body's frame: X_BP
   int surface{};                    ///< index into ContactParts::surfaces; -1: the closed-form `shape`
-  contact::SurfaceGeometry shape{}; ///< of a shape of a [[body]]; the box that holds it where it has a surface
+  contact::SurfaceGeometry shape{}; ///< geometry of a [[body.shape]]; its bounding box if `surface` >= 0
   int points{-1};                   ///< index of its surface points, by which it touches what is rigid; -1: none
   contact::PatchLaw foundation{};   ///< on rigid ground
   int material{};                   ///< index of its material among those of all parts
@@ -30,7 +30,7 @@ struct ContactPart {
   bool meetsGrains = true;          ///< whether it touches grains
   bool meetsGround{};               ///< whether it touches rigid ground as a foot; a hull does so among the obstacles
   bool fixed{};                     ///< its body never moves, so it touches nothing that rests
-  bool ofBody{};                    ///< a shape of a [[body]], no part of the vehicle
+  bool ofBody{};                    ///< belongs to a [[body]], not to the vehicle
   bool isHull{};                    ///< whether it touches rigid ground with the obstacles
   std::size_t shown{};              ///< its place among the parts of the results' frames
 };

@@ -48,7 +48,7 @@ struct MechanismSetup {
 
 /// Adds the bodies' shapes to what touches. Shapes of one body, of two fixed bodies and of two that a joint ties do not
 /// touch each other. `model`: the setup's, or that of the vehicle with the bodies; the parts of `all` are the
-/// vehicle's. The sphere sets of meshCuts() are to stand behind the surfaces of `all`, and are not read here.
+/// vehicle's. The caller appends the sphere sets of meshCuts() to `all.surfaces`.
 void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibody::Model& model);
 
 /// Throws InputError where a shape stands deeper than 2 % of its half thickness in rigid `terrain` (null without), in

@@ -52,7 +52,7 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
     for (int part = 0; part < count; ++part)
       if (const ContactPart& p = parts.parts[static_cast<std::size_t>(part)]; p.isHull) meet(part, p.foundation);
   }
-  std::map<int, int> setOf; // of surfaces of parts among the meshes
+  std::map<int, int> setOf; // [part surface] index in `meshes`
   for (const ContactParts::Pair& pair : parts.pairs) {
     const ContactPart& other = parts.parts[static_cast<std::size_t>(pair.other)];
     int set = -1;

@@ -39,7 +39,7 @@ struct CellScales {
   base::FixedPoint volume, count, mass, momentum, moment;
 };
 
-/// A grid as device code reads it.
+/// FieldGrid for device code, where std::array has no operator[].
 struct CellLattice {
   Vec3d low, cell; ///< [m]
   int cells[3];

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drops a boulder from several heights: depth against height of fall, with the exponent and its bar.
+"""Drops a boulder from several heights: penetration depth against drop height, exponent with error bar.
 
     python/examples/boulder_drops.py [FOLDER] [SEEDS] [PICTURE]      # default: out/boulder_drops, 3 seeds, no picture
 
-Experiments with balls in dry grains have depth = 0.14 / mu (rho / rho_bed)^(1/2) D^(2/3) H^(1/3) with D the diameter,
-H the height of fall down to the lowest point, mu the tangent of the angle of repose, rho the density of the ball
-(Uehara, Ambroso, Ojha, Durian 2003, Phys. Rev. Lett. 90, 194301).
+Experiments with balls in dry grains follow depth = 0.14 / mu (rho / rho_bed)^(1/2) D^(2/3) H^(1/3): ball diameter D and
+density rho, total drop height H (drop height plus depth), mu the tangent of the angle of repose (Uehara, Ambroso, Ojha,
+Durian 2003, Phys. Rev. Lett. 90, 194301).
 """
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # if the package i
 import grouser  # noqa: E402
 
 SCENE = Path(__file__).resolve().parents[2] / "runs/scenes/boulder.toml"
-HEIGHTS = (0.0625, 0.125, 0.25, 0.5, 1.0)  # of fall above the bed [m]
-RADIUS, DENSITY, REPOSE = 0.1, 2600, 32  # of the boulder [m], [kg/m3]; of the sand: docs/soil_tests.md [deg]
+DROP_HEIGHTS = (0.0625, 0.125, 0.25, 0.5, 1.0)  # [m]
+RADIUS, DENSITY = 0.1, 2600  # boulder [m], [kg/m3]
+REPOSE = 32  # angle of repose of the sand (docs/soil_tests.md) [deg]
 GRAVITY = 9.81  # [m/s2]
 
 
 def depth_of(run: grouser.Run) -> float:
-    """Greatest depth of the boulder's lowest point below the place where it started, less its clearance [m]."""
+    """Largest penetration depth [m]: drop of the lowest point since the start, minus the clearance."""
     place = run["bodies.boulder.position"]["z"].value
     return float(place[0] - place.min()) - 0.001
 
 
 def exponent(heights: numpy.ndarray, depths: numpy.ndarray) -> tuple[float, float]:
-    """Slope of log(depth) over log(height of fall down to the lowest point), and the half width of its 95 % interval
-    from the scatter about the line [-]."""
+    """Slope of log(depth) over log(total drop height) and half width of its 95 % interval (linear regression) [-]."""
     x, y = numpy.log(heights[:, None] + depths).ravel(), numpy.log(depths).ravel()
     slope, offset = numpy.polyfit(x, y, 1)
     free = len(x) - 2
@@ -47,12 +47,12 @@ def student(free: int) -> float:
 
 
 def expected(height: float, depth: float, solid: float) -> float:
-    """Depth by the experiments [m]; `solid`: the share of the bed that is grains."""
+    """Depth in the experiments [m]; `solid`: solid volume fraction of the bed."""
     ratio = DENSITY / (2650 * solid)
     return 0.14 / numpy.tan(numpy.radians(REPOSE)) * ratio**0.5 * (2 * RADIUS) ** (2 / 3) * (height + depth) ** (1 / 3)
 
 
-def main(folder: str = "out/boulder_drops", seeds: int = 3, picture: str = "", heights=HEIGHTS) -> numpy.ndarray:
+def main(folder: str = "out/boulder_drops", seeds: int = 3, picture: str = "", heights=DROP_HEIGHTS) -> numpy.ndarray:
     """Depths [heights, seeds] [m]."""
     scene = grouser.Scene.read(SCENE)
     scene["output"]["plots"] = scene["output"]["picture"] = False
@@ -71,7 +71,7 @@ def main(folder: str = "out/boulder_drops", seeds: int = 3, picture: str = "", h
               f"experiments {1000 * expected(height, mean, 1 - porosity):.1f} mm", flush=True)
     result = numpy.array(rows)
     slope, bar = exponent(numpy.array(heights), result)
-    print(f"depth goes as the {slope:.3f} +- {bar:.3f} th power of the whole height of fall; experiments: 1/3")
+    print(f"depth scales as the {slope:.3f} +- {bar:.3f} th power of the total drop height; experiments: 1/3")
     if picture:
         draw(numpy.array(heights), result, 1 - porosity, picture)
     return result
@@ -89,7 +89,7 @@ def draw(heights: numpy.ndarray, depths: numpy.ndarray, solid: float, picture: s
     fit = numpy.exp(numpy.mean(numpy.log(depths)) - slope * numpy.mean(numpy.log(whole))) * line**slope
     axes.loglog(line, 1000 * fit, "-", color="tab:blue", label=f"grains: exponent {slope:.2f} +- {bar:.2f}")
     axes.loglog(line, [1000 * expected(h, 0, solid) for h in line], "k--", label="experiments: exponent 1/3")
-    axes.set(xlabel="height of fall down to the lowest point [m]", ylabel="depth [mm]")
+    axes.set(xlabel="total drop height [m]", ylabel="penetration depth [mm]")
     for axis, ticks in ((axes.xaxis, (0.1, 0.2, 0.5, 1)), (axes.yaxis, (40, 60, 80, 100, 120))):
         axis.set_major_formatter("{x:g}")
         axis.set_ticks(ticks)

@@ -15,8 +15,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # if the package i
 import grouser  # noqa: E402
 
 PLATE = 0.12  # edge of the plate [m]
-CELL = 0.04  # a third of it, two diameters of the grains [m]
-DEPTH, SIDE = 0.3, 0.5  # of the bed [m]
+CELL = 0.04  # cell size: a third of the plate, two grain diameters [m]
+DEPTH, SIDE = 0.3, 0.5  # bed [m]
 
 
 def scene_of(seed: int) -> grouser.Scene:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tows a block over a settled bed: the pull over its weight, for noses of several slopes.
+"""Tows a block over a settled bed: ratio of pull to weight for several nose slopes.
 
     python/examples/towed_block.py [FOLDER] [SEEDS] [PICTURE]      # default: out/towed_block, 3 seeds, no picture
 
-The friction between block and sand is far below that of the sand. What the block needs beyond it pushes sand ahead of
-the nose: the flatter the nose rises, the less.
+The block slides on sand with a friction far below that of the sand itself. The rest of the pull is ploughing: the nose
+displaces sand. A flatter nose ploughs less.
 """
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ import numpy
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # if the package is not installed
 import grouser  # noqa: E402
 
-LENGTH, WIDTH, HEIGHT, MASS = 0.12, 0.12, 0.06, 2.0  # of the block [m], [kg]
-NOSE = 0.03  # height to which its nose rises above the sole [m]
+LENGTH, WIDTH, HEIGHT, MASS = 0.12, 0.12, 0.06, 2.0  # block [m], [kg]
+NOSE = 0.03  # nose height above the sole [m]
+SLOPES = (90, 40, 20, 10)  # nose slope [deg]; 90: blunt face
 FRICTION, SAND_FRICTION = 0.2, 0.5  # block on sand, sand on sand [-]
-SLOPES = (90, 40, 20, 10)  # of the nose [deg]; 90: the block's own face
 SPEED, START = 0.2, 0.25  # [m/s], [s]
 GRAVITY = 9.81  # [m/s2]
 
 
 def shapes_of(slope: float) -> list[dict]:
-    """Boxes, with positions in the block's frame: the block, and ahead of its sole a ramp that rises to the height of
-    the nose, with a face above it. `slope` in degrees."""
+    """Boxes in the block's frame: the block and, for a slope below 90 degrees, a ramp ahead of the sole that rises to
+    the nose height, and a vertical face above it."""
     block = {"kind": "box", "size": [LENGTH, WIDTH, HEIGHT]}
     if slope == 90:
         return [block]
@@ -43,7 +43,7 @@ def shapes_of(slope: float) -> list[dict]:
 
 
 def scene_of(slope: float, seed: int, way: float) -> grouser.Scene:
-    """A carriage on a rail tows the block, which slides up and down on it. Masses of the carriage do not count."""
+    """A carriage on a rail tows the block, which slides freely up and down; the carriage mass has no effect."""
     scene = grouser.Scene(name="towed_block")
     scene["run"] = {"duration": START + way / SPEED, "output_interval": 0.01, "frame_interval": 0.5, "seed": seed}
     scene["material.sand"] = {"density": 2600, "stiffness": 2e4, "restitution": 0.3, "friction": SAND_FRICTION,
@@ -65,13 +65,13 @@ def scene_of(slope: float, seed: int, way: float) -> grouser.Scene:
 
 
 def pull_of(run: grouser.Run, way: float) -> float:
-    """Mean pull over the weight, of the second half of the way [-]."""
+    """Mean ratio of pull to weight over the second half of the travel [-]."""
     force = run["bodies.block.contact_force"]["x"].between(START + 0.5 * way / SPEED, START + way / SPEED)
     return -float(numpy.mean(force.value)) / (MASS * GRAVITY)
 
 
 def main(folder: str = "out/towed_block", seeds: int = 3, picture: str = "", slopes=SLOPES, way: float = 0.25) -> dict:
-    """[slope] pulls of all seeds over the weight."""
+    """[slope] ratios of pull to weight for all seeds."""
     pulls: dict[float, list[float]] = {}
     for slope in slopes:
         for seed in range(1, int(seeds) + 1):

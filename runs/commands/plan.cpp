@@ -265,11 +265,8 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   }
   const double step = setup::chooseTimeStep(scene);
   setup::checkGround(scene, step);
-  if (!scene.mechanism.empty()) {
-    coupling::MechanismSetup mechanism = setup::mechanismSetup(scene);
-    mechanism.shapes.clear(); // their meshes need not be cut
-    text += output::mechanismSize(coupling::Mechanism(mechanism, step));
-  }
+  if (!scene.mechanism.empty())
+    text += output::mechanismSize(coupling::Mechanism(setup::contactFreeSetup(scene), step));
   text += bedHeightText(scene);
   for (const support::SoilUse& use : scene::soilUses(scene))
     text += fmt::format("  {:<24} {}\n", "soil", scene::soilLine(use));

@@ -133,7 +133,7 @@ struct MechanismSections {
   bool touches() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) { return !b.shapes.empty(); });
   }
-  /// Whether one of these is a mesh.
+  /// Returns true if any shape is a mesh.
   bool hasMeshes() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) {
       return std::any_of(b.shapes.begin(), b.shapes.end(),

@@ -64,7 +64,7 @@ struct LoadedMesh {
   std::shared_ptr<const spheredecomp::MeshQuery> query;
   double sphereRadius{}; ///< as given, or by default [m]
   std::string note;      ///< on how it was read; empty: nothing
-  base::Vec3d middle;    ///< of the box that holds the mesh, from the file's origin [m]; set for bodies
+  base::Vec3d middle;    ///< centre of the bounding box in the file [m]; set for bodies
   bool operator==(const LoadedMesh&) const { return true; } // the file's name says it
 };
 

@@ -99,8 +99,9 @@ SolidMoments momentsOf(const contact::SurfaceGeometry& g) {
   return {volume, {}, round(across, along)};
 }
 
-/// Of the tetrahedron (0, a, b, c) with D = a . (b x c): volume D / 6, first moment D / 24 (a + b + c), second moments
-/// int x x^T = D / 120 (s s^T + a a^T + b b^T + c c^T), s = a + b + c; inertia = tr(int x x^T) 1 - int x x^T.
+/// Each triangle (a, b, c) spans a tetrahedron with the origin. With D = a . (b x c) and s = a + b + c its volume is
+/// D / 6, its first moment D / 24 s, its second moment int x x^T = D / 120 (s s^T + a a^T + b b^T + c c^T). The inertia
+/// is tr(int x x^T) 1 - int x x^T.
 SolidMoments momentsOf(const base::TriangleMesh& mesh) {
   SolidMoments all;
   Mat3d second{};
@@ -125,14 +126,13 @@ double massOf(const scene::BodySection& body) {
 }
 
 bool shellsOverlap(const spheredecomp::MeshQuery& query) {
-  const auto [middle, half] = spheredecomp::bounds(query.mesh());
-  constexpr double kSpacings = 20,
-                   kSame = 1e-3; // points in half of the diagonal; share of the area that rounding takes
-  double bare = 0;
+  constexpr double kRounding = 1e-3; // relative error of the sampled area
+  const double spacing = contact::meshSpacing(spheredecomp::bounds(query.mesh()).second);
+  double exposed = 0;
   const auto inside = [&query](const Vec3d& p) { return query.inside(p); };
-  for (const contact::SurfaceSample& s : contact::meshPoints(query.mesh(), norm(half) / kSpacings, inside))
-    bare += static_cast<double>(s.area);
-  return bare < (1 - kSame) * spheredecomp::area(query.mesh());
+  for (const contact::SurfaceSample& s : contact::meshPoints(query.mesh(), spacing, inside))
+    exposed += static_cast<double>(s.area);
+  return exposed < (1 - kRounding) * spheredecomp::area(query.mesh());
 }
 
 SolidMoments momentsOf(const scene::BodySection& body) {

@@ -13,8 +13,8 @@ struct ShapeSection;
 
 namespace grouser::setup {
 
-/// A shape of a [[body]] as contacts see it, of a mesh the box that holds it, and where its frame S stands in the
-/// body's: X_BS.
+/// Geometry of a shape of a [[body]], of a mesh its bounding box, and the pose X_BS of the shape's frame S in the
+/// body's frame.
 contact::SurfaceGeometry geometryOf(const scene::ShapeSection& shape);
 base::Pose poseOf(const scene::ShapeSection& shape);
 
@@ -28,13 +28,13 @@ struct SolidMoments {
 /// Closed forms of a homogeneous box, cylinder, capsule (sphere) or cone, in its own frame.
 SolidMoments momentsOf(const contact::SurfaceGeometry& shape);
 
-/// Exact sums over the tetrahedra between the triangles of a closed mesh and the origin.
+/// Exact moments of the solid inside a closed mesh.
 SolidMoments momentsOf(const base::TriangleMesh& mesh);
 
-/// Mass of a body that moves: given, or of its shapes [kg].
+/// Mass of a moving body [kg]: the key `mass`, or density times the volume of its shapes.
 double massOf(const scene::BodySection& body);
 
-/// Returns true if shells of a closed mesh overlap or nest, so that momentsOf() counts their common volume twice.
+/// Returns true if shells of a closed mesh overlap or nest. momentsOf() counts their common volume twice.
 bool shellsOverlap(const spheredecomp::MeshQuery& mesh);
 
 /// All shapes of a body in its frame, about their common centre (Huygens-Steiner). Where shapes overlap, the overlap

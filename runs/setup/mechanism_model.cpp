@@ -30,15 +30,15 @@ namespace {
 /// size of the body [-]: that of positions typed with a few digits.
 constexpr double kCentred = 1e-3;
 
-/// Mass and inertia of the shapes, uniformly of `density`.
+/// Volume, centre and inertia of the shapes at unit density.
 SolidMoments shapesMoments(const scene::BodySection& b) {
   for (std::size_t k = 0; k < b.shapes.size(); ++k)
     if (const auto& query = b.shapes[k].loaded.query; query && shellsOverlap(*query))
       throw support::SectionFault(
           "",
-          fmt::format("takes its mass or inertia from the mesh of shape.{}, whose shells overlap or lie within each "
-                      "other, so that their common volume would count twice; unite them in the file, turn the "
-                      "inner one of a hollow mesh inside out, or give mass and inertia",
+          fmt::format("cannot derive mass or inertia from the mesh of shape.{}, whose shells overlap or nest: their "
+                      "common volume counts twice; merge the shells, reverse the inner shell of a hollow mesh, or set "
+                      "mass and inertia",
                       k));
   const SolidMoments m = momentsOf(b);
   double size = 0;
@@ -53,15 +53,15 @@ SolidMoments shapesMoments(const scene::BodySection& b) {
   return m;
 }
 
-Mat3d inertiaOf(const scene::BodySection& b, double mass) {
+/// `moments`: of the shapes where mass or inertia depends on them; otherwise empty, of zero volume.
+Mat3d inertiaOf(const scene::BodySection& b, const SolidMoments& moments, double mass) {
   const std::vector<double>& i = b.inertia;
   if (i.size() == 3) return Mat3d::diagonal({i[0], i[1], i[2]});
   if (i.size() == 6) return {{{i[0], i[3], i[4]}, {i[3], i[1], i[5]}, {i[4], i[5], i[2]}}};
   if (!i.empty())
     throw support::SectionFault("inertia",
                                 "[kg m2] must have 3 entries (xx, yy, zz) or 6 (then xy, xz, yz); give one of these");
-  if (!b.box && !b.shapes.empty()) {
-    const SolidMoments moments = shapesMoments(b);
+  if (!b.box && moments.volume > 0) {
     Mat3d inertia = moments.inertia;
     for (auto& row : inertia.m)
       for (double& entry : row) entry *= mass / moments.volume;
@@ -195,11 +195,13 @@ void MechanismBuilder::add(const scene::BodySection& b) {
   body.v_WB = b.velocity, body.w_WB = b.spin;
   if (!b.fixed) {
     if (!b.mass && !b.density) throw support::SectionFault("mass", "[kg] is missing; add it, or set fixed = true");
-    body.mass = b.mass ? *b.mass : *b.density * shapesMoments(b).volume;
+    const bool fromShapes = !b.shapes.empty() && (!b.mass || (b.inertia.empty() && !b.box));
+    const SolidMoments moments = fromShapes ? shapesMoments(b) : SolidMoments{};
+    body.mass = b.mass ? *b.mass : *b.density * moments.volume;
     if (b.point && !b.inertia.empty())
       throw support::SectionFault("inertia",
                                   "[kg m2] stands beside point = true; a point has none: remove one of the two");
-    if (!b.point) body.inertia_B = inertiaOf(b, body.mass);
+    if (!b.point) body.inertia_B = inertiaOf(b, moments, body.mass);
   }
   bodies_[b.name] = handed({"inertia", "mass", "velocity", "point"}, [&] { return model_.addBody(body); });
 }

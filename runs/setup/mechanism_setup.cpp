@@ -248,6 +248,12 @@ coupling::MechanismSetup mechanismSetup(const scene::Scene& scene) {
   return setup;
 }
 
+coupling::MechanismSetup contactFreeSetup(const scene::Scene& scene) {
+  coupling::MechanismSetup setup = mechanismSetup(scene);
+  setup.shapes.clear();
+  return setup;
+}
+
 double mechanismTimeStep(const scene::Scene& scene) {
   if (scene.run.tolerance) return outputStep(scene.run);
   const double step = scene.run.timeStep ? *scene.run.timeStep : automaticStep(scene).step;

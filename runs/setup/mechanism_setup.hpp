@@ -16,6 +16,9 @@ namespace grouser::setup {
 /// Throws SectionFault where the sections make no mechanism: loading has made sure that they do.
 coupling::MechanismSetup mechanismSetup(const scene::Scene& scene);
 
+/// The mechanism without contact shapes: needs no sphere cuts of meshes.
+coupling::MechanismSetup contactFreeSetup(const scene::Scene& scene);
+
 /// Materials of the bodies' shapes, each once, in the order of the file.
 std::vector<std::string> shapeMaterials(const scene::Scene& scene);
 

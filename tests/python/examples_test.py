@@ -55,7 +55,7 @@ class BoulderDrops(unittest.TestCase):
     """The runs take minutes: docs/ready_mechanisms.md has their figure."""
 
     def test_finds_the_exponent_of_depths_that_follow_the_experiments(self):
-        heights = numpy.array(boulder_drops.HEIGHTS)
+        heights = numpy.array(boulder_drops.DROP_HEIGHTS)
         depths = numpy.full((len(heights), 3), 0.1)
         for _ in range(50):
             depths = boulder_drops.expected(heights[:, None], depths, 0.6)

@@ -180,8 +180,8 @@ std::string rover(double hull, double wheelMass) {
   return text;
 }
 
-/// Springs of patches lose their strain with the area that leaves the ground, so driven wheels creep, on a harder
-/// foundation less.
+/// Driven wheels creep: the tangential spring loses strain with the area that leaves contact. A stiffer foundation
+/// reduces the creep.
 TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
   const double hull = 20, wheelMass = 2, mass = hull + 4 * wheelMass, slope = 0.2, angle = std::atan(slope);
   const double along = kGravity * std::sin(angle), across = kGravity * std::cos(angle);
@@ -238,8 +238,8 @@ TEST(BodyContacts, FlatBounceHasTheRestitutionOfThePair) {
   }
 }
 
-/// A block on the floor of a wheel that turns about x, held there by its inertia alone: speeds are relative to a
-/// surface that turns.
+/// Centrifugal force presses a block onto the floor of a rotating wheel. Contact velocities are relative to the
+/// rotating surface.
 TEST(BodyContacts, ABlockTurnsWithTheFloorThatItLiesOn) {
   const double rate = 2;
   const auto s =

@@ -30,10 +30,12 @@ std::string bedHead(double duration, const std::string& size, double radius, dou
                      duration, size, radius, depth);
 }
 
+SimulationSetup setupOf(const std::string& text) {
+  return setup::simulationSetup(setup::parseScene(text, "on_beds.toml"));
+}
 std::unique_ptr<Simulation> made(const std::string& text, int threads = 1) {
   return std::make_unique<Simulation>(
-      setup::simulationSetup(setup::parseScene(text, "on_beds.toml")), base::cpuExec(threads), [](double, double) {},
-      base::Comm{}, sharedBeds());
+      setupOf(text), base::cpuExec(threads), [](double, double) {}, base::Comm{}, sharedBeds());
 }
 void advanceTo(Simulation& s, double time) {
   while (s.time() < time - 0.5 * s.timeStep()) s.step();
@@ -45,7 +47,7 @@ struct Wheel {
 };
 constexpr double kMass = 3, kLoad = 60, kWeight = kMass * 9.81 + kLoad, kSpeed = 0.16, kSpin = 2;
 
-/// Start of the drive and of the means, end of the run [s].
+/// Start of the drive, start of averaging, end of the run [s].
 struct Times {
   double start, mean, end;
 };
@@ -62,7 +64,7 @@ Wheel asSurface(const std::string& ground, const std::string& place, const Times
   return {mean.position.z, mean.force.x, mean.force.z, mean.torque.y};
 }
 
-/// On an axle that slides along z on a carriage.
+/// The wheel turns on an axle that slides along z on a carriage.
 Wheel asBody(const std::string& ground, double z, const Times& t) {
   const std::string place = fmt::format("[0.15, 0, {}]", z);
   const auto s = made(
@@ -95,7 +97,7 @@ Wheel asBody(const std::string& ground, double z, const Times& t) {
   return {m.state().pose[wheel].position.z, force.x, force.z, -torque / steps};
 }
 
-/// Grains that do not move, so that the motion is no chaos.
+/// Fixed grains make the motion deterministic without chaos.
 TEST(WheelOnFixedGrains, IsTheSameAsABodyAndAsAFreeSurface) {
   std::string ground = "version = 1\n[run]\nduration = 1\nprecision = \"double\"\n[material.sand]\ndensity = 2600\n"
                        "stiffness = 2e4\nrestitution = 0.3\nfriction = 0.5\n";
@@ -113,7 +115,7 @@ TEST(WheelOnFixedGrains, IsTheSameAsABodyAndAsAFreeSurface) {
   EXPECT_NEAR(body.torque, surface.torque, 0.005 * std::fabs(surface.torque));
 }
 
-/// On loose grains the motion is chaos: means over falls from slightly different heights.
+/// The motion on loose grains is chaotic: compares means over drops from slightly different heights.
 TEST(WheelOnABed, IsTheSameAsABodyAndAsAFreeSurface) {
   const std::string bed = bedHead(0.7, "[0.42, 0.16]", 0.01, 0.07);
   constexpr int kFalls = 5;
@@ -190,15 +192,14 @@ std::string randomMechanism(unsigned seed) {
   return text;
 }
 
-/// How a run ends: its hash, or its error. The books of one that ends well are closed.
+/// Runs a mechanism and returns its state hash, or the error message. The energy ledger of a finished run closes.
 std::string ending(const std::string& text, int threads, bool resumed) {
   try {
     auto s = made(text, threads);
     if (resumed) {
       advanceTo(*s, 0.5 * kRun);
       const SimulationState saved = s->save();
-      s = std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, "on_beds.toml")),
-                                       base::cpuExec(threads), saved);
+      s = std::make_unique<Simulation>(setupOf(text), base::cpuExec(threads), saved);
     }
     advanceTo(*s, kRun);
     s->checkEnergy();

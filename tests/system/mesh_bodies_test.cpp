@@ -56,7 +56,7 @@ public:
       file << "f " << face << "\n";
     if (!open) file << "f 2 8 6\n";
   }
-  /// Puts the shell of file `second`, another box, into file `first`.
+  /// Appends the box of file `second` to file `first`, which holds one box.
   void append(const std::string& first, const std::string& second) const {
     std::ifstream from(path_ / second);
     std::ofstream to(path_ / first, std::ios::app);
@@ -211,7 +211,7 @@ TEST(MeshBodies, MassAndInertiaAreThoseOfTheBox) {
       EXPECT_NEAR(mesh.inertia_B.m[i][j], box.inertia_B.m[i][j], 1e-7 * box.inertia_B.m[0][0]) << i << j;
   const std::string beside = messageOf([&] { modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"brick.obj\"\n"); });
   EXPECT_NE(beside.find("has its centre of mass at [0.5, 1, 1.5] m"), std::string::npos) << beside;
-  // A hollow box whose inner faces look outwards, as its outer ones do.
+  // A hollow box with an inner shell that is not reversed.
   folder.box("nested.obj", {-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
   folder.box("inner.obj", {-0.04, -0.04, -0.04}, {0.04, 0.04, 0.04});
   folder.append("nested.obj", "inner.obj");

@@ -30,7 +30,7 @@ struct Room {
 
 /// Bytes of a grain in frames.h5: places, velocities, speeds and radii, ids, forces and marks where they are written.
 double frameBytesOfGrain(const scene::Scene& scene);
-/// Bytes of the fields of the soil in a frame. Where the scene gives neither their box nor a bed, one cell is counted.
+/// Bytes of the fields of the soil in a frame. Counts one cell if the scene defines neither a field box nor a bed.
 double frameBytesOfFields(const scene::Scene& scene);
 
 /// Of a run with so many grains in steps of `timeStep` [s], shared by `ranks`, `ranksOnHost` of them on this host. What

@@ -21,8 +21,8 @@ double speedOf(const scene::Scene& scene);
 double keptSpheres(const scene::Scene& scene, double grains, storage::SphereCache kept,
                    std::vector<spheredecomp::CutReport>& cuts);
 
-/// Whether the sphere sets of all meshes of the scene and its bodies that something touches are in the cache. `cuts`
-/// receives their reports.
+/// Returns true if the cache holds the sphere sets of all scene and body meshes that have contacts. `cuts` receives
+/// their reports.
 bool keptMeshes(const scene::Scene& scene, double grains, double timeStep, storage::SphereCache kept,
                 std::vector<spheredecomp::CutReport>& cuts);
 

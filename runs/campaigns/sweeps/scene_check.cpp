@@ -24,10 +24,7 @@ void checkScene(const scene::Scene& scene, bool sizes) {
   }
   const double step = setup::chooseTimeStep(scene);
   setup::checkGround(scene, step);
-  if (scene.mechanism.empty()) return;
-  coupling::MechanismSetup setup = setup::mechanismSetup(scene);
-  setup.shapes.clear(); // their meshes need not be cut
-  const coupling::Mechanism mechanism(setup, step);
+  if (!scene.mechanism.empty()) const coupling::Mechanism mechanism(setup::contactFreeSetup(scene), step);
 }
 
 } // namespace grouser::sweeps

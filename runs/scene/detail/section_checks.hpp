@@ -16,9 +16,9 @@ void requireMaterial(const Scene& scene, const base::Section& section, const std
 /// Makes `name` the absolute path of an existing file. Throws InputError with the places that were looked at.
 void resolveFile(const Scene& scene, const base::Section& section, const std::string& key, std::string& name);
 
-/// Reads a mesh, whose file's name is absolute, by `scale` [m] and with the sphere radius [m] of its section.
-/// `centred`: shifts it to the middle of the box that holds it. Throws InputError at the keys file, scale and
-/// sphere_radius.
+/// Reads the mesh at the absolute path `file`. `scale`: metres per unit of the file; `sphereRadius` [m], empty for the
+/// default; `centred`: moves the centre of the bounding box to the origin. Throws InputError that names the key: file,
+/// scale or sphere_radius.
 LoadedMesh loadMesh(const base::Section& section, const std::string& file, double scale,
                     const std::optional<double>& sphereRadius, bool centred);
 
