@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser soil --calibrate`: shear first, then pressure and sinkage, then all constants of what was found.
+// `grouser soil --calibrate`: shear first, then pressure and sinkage, then all constants of what was found; or measured
+// curves of plates (curve_calibration.cpp).
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/math.hpp"
@@ -10,8 +11,8 @@
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/calibration_record.hpp"
 #include "runs/virtual_tests/constant_doubts.hpp"
+#include "runs/virtual_tests/curve_calibration.hpp"
 #include "runs/virtual_tests/soil_report.hpp"
-#include "runs/virtual_tests/test_notes.hpp"
 
 #include <fmt/format.h>
 
@@ -32,21 +33,18 @@ constexpr double kStiffer = 100;        // times the start's stiffness that is t
 constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
 constexpr double kBeds = 0.75;          // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
 
-/// Time is up before all tests of a trial are there.
-struct Unfinished {
-  std::string trial;
-  int missing;
-};
-
 class Calibration {
 public:
   Calibration(const CalibrationCommand& command, CalibrationTargets targets, std::filesystem::path folder)
       : command_(command), targets_(std::move(targets)), folder_(std::move(folder)), soil_(targets_.start),
-        record_(command, targets_, folder_) {}
+        record_(command, targets_, folder_), trials_(command, folder_, record_) {}
 
   void run() {
     try {
-      search();
+      if (targets_.curves)
+        CurveCalibration(command_, targets_, folder_, record_).run();
+      else
+        search();
     } catch (const Unfinished& unfinished) {
       record_.stopped(unfinished.trial, unfinished.missing);
       fmt::print("{} missing: call again with --resume\n",
@@ -64,53 +62,11 @@ private:
   }
 
   /// Does the tests of some kinds with the soil as it is, in a folder of their own.
-  TestPlan tested(const std::string& name, const std::function<bool(const PlannedTest&)>& wanted, SoilResults& results,
-                  const std::function<void(const TestPlan&, const jobs::Pieces&)>& look = {}) {
+  TestPlan tested(const std::string& name, const CalibrationTrials::Wanted& wanted, SoilResults& results,
+                  const CalibrationTrials::Look& look = {}) {
     PlanOptions options = command_.plan;
-    options.coarse = command_.place.quick, options.wide = false, options.reposeSeeds = 0;
-    TestPlan plan = planOf(soil_, options);
-    plan.tests.erase(std::remove_if(plan.tests.begin(), plan.tests.end(), [&](const auto& t) { return !wanted(t); }),
-                     plan.tests.end());
-    jobs::PieceOptions pieceOptions = command_.pieces;
-    pieceOptions.resume = true;
-    if (command_.pieces.seconds > 0) {
-      pieceOptions.seconds = command_.pieces.seconds - spent();
-      if (pieceOptions.seconds <= 0) throw Unfinished{name, static_cast<int>(plan.tests.size())};
-    }
-    jobs::StudyPlace place = command_.place;
-    place.folder = folder_ / name;
-    jobs::Pieces pieces("soil " + soil_.name + ", " + name, place, pieceOptions, plan.recipe());
-    record_.begun();
-    takeOver(plan, pieces);
-    if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
-      if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty()) {
-        record_.stopped(name, missing);
-        throw base::SimulationError(fmt::format("{} has no result: {}", name, unsoundText(unsound)));
-      }
-      throw Unfinished{name, missing};
-    }
-    results = resultsOf(plan, pieces);
-    if (look) look(plan, pieces);
-    done_.emplace_back(soil_.keys, pieces);
-    return plan;
-  }
-
-  /// Tests that former trials have done of the very same soil.
-  void takeOver(const TestPlan& plan, jobs::Pieces& pieces) const {
-    for (const auto& trial : done_) {
-      if (trial.first != soil_.keys) continue;
-      const auto take = [&](const std::string& name) {
-        if (!pieces.has(name) && trial.second.has(name)) pieces.keep(name, trial.second.read(name));
-      };
-      take(plan.preparationName());
-      for (const PlannedTest& test : plan.tests) {
-        take(test.name);
-        const std::filesystem::path note = noteFile(trial.second, test, TestNote::shorterSteps);
-        if (std::filesystem::exists(note))
-          std::filesystem::copy_file(note, noteFile(pieces, test, TestNote::shorterSteps),
-                                     std::filesystem::copy_options::overwrite_existing);
-      }
-    }
+    options.coarse = command_.place.quick, options.wide = false;
+    return trials_.tested(soil_, name, options, wanted, results, look);
   }
 
   /// Friction and rolling friction for phi, cohesion for c, both from each trial.
@@ -264,16 +220,13 @@ private:
     fmt::print("soil      {}\n", (folder_ / file).string());
   }
 
-  double spent() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
-
   const CalibrationCommand& command_;
   CalibrationTargets targets_;
   std::filesystem::path folder_;
   TestedSoil soil_;
   CalibrationRecord record_;
+  CalibrationTrials trials_;
   int shearTrials_ = 0;
-  std::vector<std::pair<decltype(TestedSoil::keys), jobs::Pieces>> done_; ///< the soil of each trial that is whole
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 /// Those of a former call.

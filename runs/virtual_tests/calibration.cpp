@@ -23,11 +23,11 @@ constexpr double kSlopes = 5;   // times steeper or flatter than expected that t
 constexpr std::size_t kMostTrials = 8;
 
 struct TargetKeys {
-  std::optional<double> n, kc, kphi, k, b, c, phi, shearModulus;
+  std::optional<double> n, kc, kphi, k, b, c, phi, shearModulus, repose, bulkDensity;
 };
 
 struct ToleranceKeys {
-  double phi = 1, c = 0.5, k = 0.1;
+  double phi = 1, c = 0.5, k = 0.1, repose = 1;
 };
 
 base::Table<TargetKeys> targetTable() {
@@ -41,6 +41,10 @@ base::Table<TargetKeys> targetTable() {
   t.add("c", &T::c, "kPa", "cohesion").atLeast(0).atMost(1000);
   t.add("phi", &T::phi, "deg", "angle of internal friction").above(0).atMost(60);
   t.add("K", &T::shearModulus, "mm", "shear deformation modulus; reported only").above(0);
+  t.add("repose", &T::repose, "deg", "angle of repose; with [plates]").above(0).atMost(60);
+  t.add("bulk_density", &T::bulkDensity, "kg/m3", "from which the density of the solid follows; with [plates]")
+      .above(0)
+      .atMost(1e5);
   return t;
 }
 
@@ -50,7 +54,24 @@ base::Table<ToleranceKeys> toleranceTable() {
   t.add("phi", &T::phi, "deg", "of phi").above(0);
   t.add("c", &T::c, "kPa", "of c").above(0);
   t.add("k", &T::k, "-", "of the pressure at the sinkage wanted, a share").above(0).atMost(1);
+  t.add("repose", &T::repose, "deg", "of the angle of repose: counts as a standard deviation").above(0);
   return t;
+}
+
+/// Measured curves stand alone: what a bevameter's constants want is another search.
+void checkBesidePlates(const base::Section& section, const TargetKeys& k, bool hasPlates) {
+  const std::pair<const char*, const std::optional<double>*> constants[] = {
+      {"n", &k.n}, {"k_c", &k.kc},  {"k_phi", &k.kphi},    {"k", &k.k},
+      {"c", &k.c}, {"phi", &k.phi}, {"K", &k.shearModulus}};
+  for (const auto& [key, value] : constants)
+    if (hasPlates && *value)
+      section.fail(key,
+                   "stands beside [plates]; remove it, or [plates] and [search]: constants and measured curves are "
+                   "sought by searches of their own");
+  if (!hasPlates && k.repose)
+    section.fail("repose", "is sought with [plates] only; add that section, or remove the key");
+  if (!hasPlates && k.bulkDensity)
+    section.fail("bulk_density", "is used with [plates] only; give density in [start] instead");
 }
 
 void checkTogether(const base::Section& section, const TargetKeys& k) {
@@ -76,14 +97,38 @@ double CalibrationTargets::sinkageAt(double b) const {
   return base::pow(1e-3 * kTrackPressure / kAt(b), 1 / wanted.at(Quantity::exponent));
 }
 
+namespace {
+
+CalibrationTargets withCurves(const base::Section& root, const std::filesystem::path& file, double grainRadius,
+                              const TargetKeys& keys, const ToleranceKeys& within) {
+  CalibrationTargets t;
+  t.start = readMaterial(root, "start", file, grainRadius);
+  t.curves = readCurveTargets(root, file, t.start);
+  t.curves->repose = keys.repose, t.curves->reposeTolerance = within.repose;
+  t.curves->bulkDensity = keys.bulkDensity;
+  if (keys.bulkDensity && !t.start.porosity)
+    root.section("targets").fail("bulk_density", "needs bed.porosity; the density of the solid follows from both");
+  return t;
+}
+
+} // namespace
+
 CalibrationTargets readTargets(const std::filesystem::path& file, double grainRadius) {
   const base::Document document = base::Document::load(file);
   const base::Section root = document.root();
-  root.allowOnly({"version", "targets", "tolerances", "start", "bed"});
+  root.allowOnly({"version", "targets", "tolerances", "plates", "search", "start", "bed"});
+  const bool hasPlates = root.has("plates");
+  CalibrationTargets t;
+  ToleranceKeys within;
+  if (root.has("tolerances")) within = root.section("tolerances").read(toleranceTable());
+  if (hasPlates && !root.has("targets")) return withCurves(root, file, grainRadius, {}, within);
   const base::Section section = root.section("targets");
   const TargetKeys keys = section.read(targetTable());
+  checkBesidePlates(section, keys, hasPlates);
+  if (hasPlates) return withCurves(root, file, grainRadius, keys, within);
+  if (root.has("search"))
+    root.section("search").fail("", "is used with [plates] only; add that section, or remove this");
   checkTogether(section, keys);
-  CalibrationTargets t;
   const auto take = [&](Quantity quantity, const std::optional<double>& value) {
     if (value) t.wanted[quantity] = *value;
   };
@@ -91,10 +136,7 @@ CalibrationTargets readTargets(const std::filesystem::path& file, double grainRa
   take(Quantity::frictionModulus, keys.kphi), take(Quantity::cohesion, keys.c);
   take(Quantity::frictionAngle, keys.phi), take(Quantity::shearModulus, keys.shearModulus);
   t.k = keys.k, t.breadth = keys.b;
-  if (root.has("tolerances")) {
-    const ToleranceKeys within = root.section("tolerances").read(toleranceTable());
-    t.angleTolerance = within.phi, t.cohesionTolerance = within.c, t.stiffnessTolerance = within.k;
-  }
+  t.angleTolerance = within.phi, t.cohesionTolerance = within.c, t.stiffnessTolerance = within.k;
   t.start = readMaterial(root, "start", file, grainRadius);
   return t;
 }

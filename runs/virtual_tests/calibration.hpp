@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/virtual_tests/bevameter.hpp"
+#include "runs/virtual_tests/curve_targets.hpp"
 #include "runs/virtual_tests/results.hpp"
 
 #include <array>
@@ -15,12 +16,13 @@ namespace grouser::virtual_tests {
 
 /// What a file of targets says. See readTargets().
 struct CalibrationTargets {
-  std::map<Quantity, double> wanted; ///< in unitOf()
-  std::optional<double> k, breadth;  ///< [kN/m^(n+2)] at a breadth [m], instead of k_c and k_phi
-  double angleTolerance = 1;         ///< [deg]
-  double cohesionTolerance = 0.5;    ///< [kPa]
-  double stiffnessTolerance = 0.1;   ///< of the pressure at the sinkage wanted [-]
-  TestedSoil start;                  ///< the material that the search begins with
+  std::map<Quantity, double> wanted;  ///< in unitOf()
+  std::optional<double> k, breadth;   ///< [kN/m^(n+2)] at a breadth [m], instead of k_c and k_phi
+  double angleTolerance = 1;          ///< [deg]
+  double cohesionTolerance = 0.5;     ///< [kPa]
+  double stiffnessTolerance = 0.1;    ///< of the pressure at the sinkage wanted [-]
+  std::optional<CurveTargets> curves; ///< instead of all above
+  TestedSoil start;                   ///< the material that the search begins with
 
   bool wantsSinkage() const;
   /// k of Bekker's form for a breadth [kN/m^(n+2)].
@@ -30,7 +32,8 @@ struct CalibrationTargets {
 };
 
 /// Reads [targets] (phi, c, K, n, k_c, k_phi, or k and b), [tolerances] (phi, c, k), [start], the keys of a scene's
-/// material, and [bed], as in a soil file. Throws base::InputError with file:line and key.
+/// material, and [bed], as in a soil file; or with [plates] and [search] (curve_targets.hpp) [targets] repose and
+/// bulk_density. Throws base::InputError with file:line and key.
 CalibrationTargets readTargets(const std::filesystem::path& file, double grainRadius);
 
 /// One trial of a search for the x at which y, which rises with x, is wanted.

@@ -29,7 +29,24 @@ Json valueOf(const std::string& toml) {
   return isQuoted ? toml.substr(1, toml.size() - 2) : toml;
 }
 
+Json curveTargetsJson(const CurveTargets& t) {
+  Json all = Json::array();
+  if (t.repose)
+    all.push_back({{"quantity", "repose"}, {"wanted", *t.repose}, {"unit", "deg"}, {"tolerance", t.reposeTolerance}});
+  if (t.bulkDensity)
+    all.push_back(
+        {{"quantity", "bulk_density"}, {"wanted", *t.bulkDensity}, {"unit", "kg/m3"}, {"tolerance", nullptr}});
+  for (const MeasuredPlate& plate : t.plates)
+    for (const MeasuredPressure& p : plate.points)
+      all.push_back({{"quantity", CurvePoint{plate.diameter, p, {}}.name()},
+                     {"wanted", 1e-3 * p.mean},
+                     {"unit", "kPa"},
+                     {"tolerance", 1e-3 * p.mean * p.deviation}});
+  return all;
+}
+
 Json targetsJson(const CalibrationTargets& t) {
+  if (t.curves) return curveTargetsJson(*t.curves);
   Json all = Json::array();
   for (const auto& [q, wanted] : t.wanted) {
     Json one{{"quantity", symbolOf(q)}, {"wanted", wanted}, {"unit", unitOf(q)}, {"tolerance", nullptr}};
@@ -96,6 +113,7 @@ void CalibrationRecord::begun() {
 void CalibrationRecord::add(const std::string& name, const char* kind, const TestedSoil& soil, Json measured) {
   Json parameters;
   for (const auto& [key, value] : soil.keys) parameters[key] = valueOf(value);
+  if (soil.porosity) parameters["porosity"] = *soil.porosity;
   json_["trials"].push_back(
       {{"name", name}, {"kind", kind}, {"parameters", parameters}, {"measured", std::move(measured)}});
   write();
@@ -108,6 +126,16 @@ void CalibrationRecord::shear(const std::string& name, const TestedSoil& soil,
     if (const auto found = measured.find(q); found != measured.end())
       values[symbolOf(q)] = estimateJson(found->second, unitOf(q));
   add(name, "shear", soil, values);
+}
+
+void CalibrationRecord::curves(const std::string& name, const TestedSoil& soil, const std::vector<CurvePoint>& points,
+                               const std::map<Quantity, support::Estimate>& measured, double porosity, double misfit) {
+  Json values{{"misfit", {{"value", misfit}, {"unit", "-"}}}, {"porosity", {{"value", porosity}, {"unit", "-"}}}};
+  for (const CurvePoint& p : points)
+    values[p.name()] = estimateJson({1e-3 * p.simulated.value, 1e-3 * p.simulated.halfWidth}, "kPa");
+  if (const auto found = measured.find(Quantity::repose); found != measured.end())
+    values["repose"] = estimateJson(found->second, unitOf(Quantity::repose));
+  add(name, "curves", soil, values);
 }
 
 void CalibrationRecord::plate(const std::string& name, const TestedSoil& soil, const support::Estimate& pressure,

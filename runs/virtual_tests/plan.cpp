@@ -23,6 +23,8 @@ constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high 
 constexpr double kLiftFall = 0.5;          // [s] simulated for a lift, for costs only
 constexpr double kYielding = 8;            // times as far as into a bed as stiff as columns of grains, for the same
 constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
+constexpr double kLift = 12;               // [d] of the beds of measured plates, as those of strips
+constexpr const char* kKeptBed = "kept_bed_seed";
 
 /// Of two grains pressed together by a force, as if they were elastic [m].
 double overlapUnder(const TestedSoil& soil, double force) {
@@ -74,10 +76,34 @@ double reposeCost(const Soil& soil, const ReposeTest& test) {
   return test.length * test.width * test.depth * (2 * kLiftFall + held);
 }
 
+double bedCost(const TestPlan& plan) {
+  const MeasuredPlatesBed& p = plan.options.plates;
+  const double lifts = p.depth / (kLift * plan.grains.grains.diameter());
+  return p.bin * p.bin * p.depth / plan.grains.meanVolume() * 0.6 * kLiftFall * std::max(1.0, lifts);
+}
+
+double measuredPlateCost(const TestPlan& plan, double diameter) {
+  const MeasuredPlatesBed& p = plan.options.plates;
+  const PlateTest test = plan.measuredPlate(diameter);
+  return p.bin * p.bin * p.depth / plan.grains.meanVolume() * test.sinkage * diameter / test.speed(plan.grains);
+}
+
+void addMeasuredPlates(TestPlan& plan) {
+  const PlanOptions& o = plan.options;
+  const std::string care = o.coarse ? "coarse_" : "";
+  for (int seed = 1; seed <= o.seeds && !o.plates.diameters.empty(); ++seed) {
+    plan.tests.push_back({fmt::format("{}bed_seed{}", care, seed), TestKind::bed, 0, 0, seed, bedCost(plan)});
+    for (const double d : o.plates.diameters)
+      plan.tests.push_back({fmt::format("{}plate{:g}mm_seed{}", care, 1e3 * d, seed), TestKind::plate, 0, d, seed,
+                            measuredPlateCost(plan, d)});
+  }
+}
+
 void addTests(TestPlan& plan) {
   const PlanOptions& o = plan.options;
   const auto add = [&](TestKind kind, const std::string& what, double load, int seed, double cost) {
-    plan.tests.push_back({fmt::format("{}{}_seed{}", o.coarse ? "coarse_" : "", what, seed), kind, load, seed, cost});
+    plan.tests.push_back(
+        {fmt::format("{}{}_seed{}", o.coarse ? "coarse_" : "", what, seed), kind, load, 0, seed, cost});
   };
   for (int seed = 1; seed <= std::max({o.seeds, o.largeSeeds, o.reposeSeeds}); ++seed) {
     if (seed <= o.seeds) {
@@ -91,6 +117,7 @@ void addTests(TestPlan& plan) {
   }
   for (int seed = 1; o.wide && seed <= o.seeds; ++seed)
     add(TestKind::wide, "wide", 0, seed, plateCost(plan.grains, plan.wide));
+  addMeasuredPlates(plan);
 }
 
 /// Throws where the grains of the largest bed or sample do not fit into the memory that is free.
@@ -118,10 +145,26 @@ void checkSizes(const TestPlan& plan) {
                       plan.soil.grainRadius));
 }
 
+/// Every plate within the bed, and off its floor.
+void checkMeasuredPlates(const MeasuredPlatesBed& p, double coarsest) {
+  for (std::size_t k = 0; k < p.diameters.size(); ++k) {
+    if (p.bin < 2 * p.diameters[k])
+      throw base::InputError(fmt::format("plates.bin = {:g} m is narrower than two diameters of the plate of {:g} m; "
+                                         "give more",
+                                         p.bin, p.diameters[k]));
+    if (p.depth < p.sinkages[k] + 2 * coarsest)
+      throw base::InputError(
+          fmt::format("plates.depth = {:g} m leaves less than two grains below the plate of {:g} m at "
+                      "its sinkage of {:g} m; give more",
+                      p.depth, p.diameters[k], p.sinkages[k]));
+  }
+}
+
 /// Between periodic boundaries no grain may touch two images of another.
 void checkBeds(const TestPlan& plan) {
   const double least = 3.5 * (1 + plan.soil.spread), d = 2 * plan.soil.grainRadius;
   const PlanOptions& o = plan.options;
+  checkMeasuredPlates(o.plates, d * (1 + plan.soil.spread));
   if (o.thickness < least)
     throw base::InputError(fmt::format("--thickness {:g} [d] is too little: the largest grains need {:.3g} d between "
                                        "periodic boundaries",
@@ -150,6 +193,18 @@ PlanOptions coarsePlan() {
 
 const PlateSinkage& TestPlan::plate(TestKind kind) const {
   return kind == TestKind::large ? large : kind == TestKind::wide ? wide : small;
+}
+
+PlateTest TestPlan::measuredPlate(double diameter) const {
+  const MeasuredPlatesBed& p = options.plates;
+  const auto k =
+      static_cast<std::size_t>(std::find(p.diameters.begin(), p.diameters.end(), diameter) - p.diameters.begin());
+  PlateTest test;
+  test.shape = PlateShape::circular;
+  test.breadth = diameter / grains.grains.diameter();
+  test.bin = p.bin / diameter, test.depth = p.depth / diameter, test.lift = kLift;
+  test.sinkage = p.sinkages.at(k) / diameter, test.inertialNumber = options.inertialNumber;
+  return test;
 }
 
 double TestPlan::breadth(TestKind kind) const { return plate(kind).strip.breadth * grains.grains.diameter(); }
@@ -190,34 +245,41 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
 }
 
 nlohmann::ordered_json TestPlan::recipe() const {
-  return {{"test", "soil"},
-          {"soil", soil.name},
-          {"care", care()},
-          {"law", soil.law},
-          {"density_kg_m3", soil.density},
-          {"friction", soil.friction},
-          {"grain_radius_m", soil.grainRadius},
-          {"radius_spread", soil.spread},
-          {"porosity", soil.porosity ? nlohmann::ordered_json(*soil.porosity) : nlohmann::ordered_json(nullptr)},
-          {"plate_grains", options.plateGrains},
-          {"plate_ratio", options.plateRatio},
-          {"bin", options.bin},
-          {"depth", options.depth},
-          {"thickness_d", options.thickness},
-          {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
-          {"most_pressure_Pa", options.mostPressure},
-          {"inertial_number", options.inertialNumber},
-          {"plate_waves", options.plateWaves},
-          {"steps_per_contact", options.stepsPerContact},
-          {"shear_length_d", cell.length},
-          {"shear_width_d", cell.width},
-          {"shear_height_d", cell.depth},
-          {"shear_tooth_d", cell.tooth},
-          {"shear_strain", options.shearStrain},
-          {"shear_inertial_number", options.shearInertialNumber},
-          {"repose_length_d", repose.length},
-          {"repose_depth_d", repose.depth},
-          {"repose_stage", repose.stage}};
+  nlohmann::ordered_json all = {
+      {"test", "soil"},
+      {"soil", soil.name},
+      {"care", care()},
+      {"law", soil.law},
+      {"density_kg_m3", soil.density},
+      {"friction", soil.friction},
+      {"grain_radius_m", soil.grainRadius},
+      {"radius_spread", soil.spread},
+      {"porosity", soil.porosity ? nlohmann::ordered_json(*soil.porosity) : nlohmann::ordered_json(nullptr)},
+      {"plate_grains", options.plateGrains},
+      {"plate_ratio", options.plateRatio},
+      {"bin", options.bin},
+      {"depth", options.depth},
+      {"thickness_d", options.thickness},
+      {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
+      {"most_pressure_Pa", options.mostPressure},
+      {"inertial_number", options.inertialNumber},
+      {"plate_waves", options.plateWaves},
+      {"steps_per_contact", options.stepsPerContact},
+      {"shear_length_d", cell.length},
+      {"shear_width_d", cell.width},
+      {"shear_height_d", cell.depth},
+      {"shear_tooth_d", cell.tooth},
+      {"shear_strain", options.shearStrain},
+      {"shear_inertial_number", options.shearInertialNumber},
+      {"repose_length_d", repose.length},
+      {"repose_depth_d", repose.depth},
+      {"repose_stage", repose.stage}};
+  if (!options.plates.diameters.empty())
+    all["measured_plates"] = {{"diameters_m", options.plates.diameters},
+                              {"sinkages_m", options.plates.sinkages},
+                              {"bin_m", options.plates.bin},
+                              {"depth_m", options.plates.depth}};
+  return all;
 }
 
 void longestFirst(std::vector<const PlannedTest*>& tests) {
@@ -225,9 +287,42 @@ void longestFirst(std::vector<const PlannedTest*>& tests) {
                    [](const PlannedTest* a, const PlannedTest* b) { return a->cost > b->cost; });
 }
 
+namespace {
+
+/// A bed of measured plates, or one of them on it.
+jobs::Table doMeasured(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
+                       const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell) {
+  const std::filesystem::path bedFolder = kept / fmt::format("{}{}", kKeptBed, test.seed);
+  if (test.kind == TestKind::plate)
+    return pushPlate(plan.grains, plan.measuredPlate(test.diameter), test.seed, folder, exec, tell, bedFolder);
+  std::filesystem::create_directories(bedFolder);
+  const PlateTest plate = plan.measuredPlate(plan.options.plates.diameters.front());
+  const BedPreparation preparation = plate.preparation(plan.grains);
+  const PreparedBed bed =
+      keptBed(plan.grains, preparation, test.seed, bedFolder, exec, [&](const std::string& phase) { tell(0, phase); });
+  const double d = plan.grains.grains.diameter(), off = PlateTest::kOffEnds * d;
+  const double surface = surfaceHeight(bed.grains, preparation.size, d);
+  jobs::Table table;
+  table.names = {"porosity [-]", "surface [m]", "grains", "bed's steps", "bed's wall time [s]"};
+  table.rows = {{1 - solidFraction(bed.grains, preparation.size, off, surface - off), surface,
+                 static_cast<double>(bed.grains.size()), static_cast<double>(bed.steps), bed.seconds}};
+  return table;
+}
+
+} // namespace
+
+void removeKeptBeds(const std::filesystem::path& kept) {
+  std::vector<std::filesystem::path> folders;
+  for (const auto& entry : std::filesystem::directory_iterator(kept))
+    if (entry.path().filename().string().rfind(kKeptBed, 0) == 0) folders.push_back(entry.path());
+  for (const std::filesystem::path& folder : folders) std::filesystem::remove_all(folder);
+}
+
 jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
                    const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell) {
   if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
+  if (test.kind == TestKind::bed || test.kind == TestKind::plate)
+    return doMeasured(plan, test, folder, kept, exec, tell);
   if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
   tell(0, "shearing");
   return shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, kept);

@@ -18,6 +18,12 @@ namespace grouser::virtual_tests {
 /// The track that pressures and breadths are meant for: pads 0.28 m broad, 47.5 kPa in the mean.
 inline constexpr double kTrackBreadth = 0.28, kTrackPressure = 47.5e3; ///< [m], [Pa]
 
+/// Circular plates that go into one bed each, as somebody has measured them.
+struct MeasuredPlatesBed {
+  std::vector<double> diameters, sinkages; ///< [m] of the plates, and how deep each goes
+  double bin = 0.3, depth = 0.12;          ///< [m] side of the square bed between periodic boundaries, and its depth
+};
+
 /// What a user may choose; the values are those of full care.
 struct PlanOptions {
   bool coarse = false;                                        ///< --quick
@@ -34,13 +40,22 @@ struct PlanOptions {
   std::vector<double> loads = {10e3, 25e3, 50e3, 100e3};      ///< [Pa]
   double mostPressure = 100e3;                                ///< [Pa]
   int seeds = 8, largeSeeds = 3;
-  int reposeSeeds = 0; ///< beds that are tilted; no command sets it yet
-  bool wide = true;    ///< the small plate on a bin of twice the width, too
+  int reposeSeeds = 0;      ///< beds that are tilted
+  MeasuredPlatesBed plates; ///< for each of `seeds`; none: no such tests
+  bool wide = true;         ///< the small plate on a bin of twice the width, too
 };
 /// What --quick takes instead.
 PlanOptions coarsePlan();
 
-enum class TestKind { small, large, wide, shear, repose };
+enum class TestKind {
+  small,
+  large,
+  wide,
+  shear,
+  repose,
+  bed,  ///< of the measured plates, kept for them
+  plate ///< one of them
+};
 
 /// Times as many steps a contact, of a test that has ended unsoundly [-].
 inline constexpr double kShorterSteps = 1.5;
@@ -49,7 +64,8 @@ inline constexpr double kShorterSteps = 1.5;
 struct PlannedTest {
   std::string name; ///< "small_seed1", "shear25kPa_seed3"; in coarse plans with "coarse_" before it
   TestKind kind{};
-  double load = 0; ///< [Pa] of shear tests
+  double load = 0;     ///< [Pa] of shear tests
+  double diameter = 0; ///< [m] of measured plates
   int seed = 0;
   double cost = 0; ///< about grains times simulated time: for the time left, and for which go first
 };
@@ -64,7 +80,8 @@ struct TestPlan {
   std::vector<PlannedTest> tests; ///< seed by seed
 
   const PlateSinkage& plate(TestKind kind) const;
-  double breadth(TestKind kind) const; ///< [m]
+  PlateTest measuredPlate(double diameter) const; ///< [m]
+  double breadth(TestKind kind) const;            ///< [m]
   /// All that the tests depend on.
   nlohmann::ordered_json recipe() const;
   std::string care() const { return options.coarse ? "coarse" : "full"; }
@@ -76,9 +93,13 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options);
 /// The longest first, of those that take as long in their order: so no process is left alone with a long one.
 void longestFirst(std::vector<const PlannedTest*>& tests);
 
-/// Does a test. `folder`: for files on the way; `kept`: where samples that are poured stay, for the other loads.
+/// Does a test. `folder`: for files on the way; `kept`: where samples that are poured stay for other loads, and beds
+/// for measured plates.
 jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
                    const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell);
+
+/// Removes the beds that measured plates have left in `kept`.
+void removeKeptBeds(const std::filesystem::path& kept);
 
 /// The curve of a shear test.
 ShearCurve shearCurve(const jobs::Table& run, double diameter);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/virtual_tests/calibration.hpp"
+#include "runs/virtual_tests/calibration_record.hpp"
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The trials of a calibration: tests of one soil each, in a folder of their own.
+namespace grouser::virtual_tests {
+
+/// Time is up before all tests of a trial are there.
+struct Unfinished {
+  std::string trial;
+  int missing;
+};
+
+class CalibrationTrials {
+public:
+  using Wanted = std::function<bool(const PlannedTest&)>;
+  using Look = std::function<void(const TestPlan&, const jobs::Pieces&)>;
+
+  CalibrationTrials(const CalibrationCommand& command, std::filesystem::path folder, CalibrationRecord& record)
+      : command_(command), folder_(std::move(folder)), record_(record) {}
+
+  /// Does the wanted tests of a soil in the folder `name`; those that a former trial has done of the very same soil are
+  /// taken from there. `look` sees them all. Throws Unfinished, or base::SimulationError where a test ends unsoundly.
+  TestPlan tested(const TestedSoil& soil, const std::string& name, const PlanOptions& options, const Wanted& wanted,
+                  SoilResults& results, const Look& look = {});
+
+private:
+  void takeOver(const TestedSoil& soil, const TestPlan& plan, jobs::Pieces& pieces) const;
+  double spent() const;
+
+  struct Done {
+    decltype(TestedSoil::keys) keys;
+    std::optional<double> porosity;
+    jobs::Pieces pieces;
+  };
+
+  const CalibrationCommand& command_;
+  std::filesystem::path folder_;
+  CalibrationRecord& record_;
+  std::vector<Done> done_; ///< trials that are whole
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/virtual_tests/curve_calibration.hpp"
+
+#include "runs/jobs/estimate.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+constexpr double kWithin = 2; // standard deviations of a measured test in which a pressure counts as reached
+
+double meanPorosity(const TestPlan& plan, const jobs::Pieces& pieces) {
+  std::vector<double> porosities;
+  for (const PlannedTest& test : plan.tests)
+    if (test.kind == TestKind::bed && pieces.has(test.name))
+      porosities.push_back(pieces.read(test.name).values("porosity [-]").front());
+  return jobs::interval95(porosities).value;
+}
+
+} // namespace
+
+void CurveCalibration::run() {
+  std::vector<double> start;
+  for (const SearchRange& range : curves_.ranges) start.push_back(parameterOf(soil_, range.key));
+  CurveSearch search(curves_.ranges, start, curves_.mostTrials);
+  for (bool goesOn = true; goesOn;) {
+    take(search.at());
+    const std::string name = fmt::format("curves_{}", search.trials().size() + 1);
+    const Trial trial = tried(name);
+    goesOn = search.tried(curveResiduals(trial.points, reposeOf(trial), curves_));
+    const double misfit = search.trials().back().misfit();
+    record_.curves(name, soil_, trial.points, trial.results.measured, trial.porosity, misfit);
+    tell(name, trial, misfit);
+  }
+  take(search.trials()[search.nearest()].values);
+  finish();
+}
+
+CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const CalibrationTrials::Look& look) {
+  PlanOptions options = command_.plan;
+  options.coarse = command_.place.quick, options.wide = false;
+  options.plates = curves_.bed(), options.reposeSeeds = curves_.repose ? options.seeds : 0;
+  Trial trial;
+  // Beds first, since all plates of a seed go into the same one.
+  trials_.tested(
+      soil_, name, options, [](const PlannedTest& t) { return t.kind == TestKind::bed; }, trial.results);
+  const auto isOurs = [](const PlannedTest& t) {
+    return t.kind == TestKind::bed || t.kind == TestKind::plate || t.kind == TestKind::repose;
+  };
+  trials_.tested(soil_, name, options, isOurs, trial.results, [&](const TestPlan& plan, const jobs::Pieces& pieces) {
+    trial.points = curvePoints(plan, pieces, curves_);
+    trial.porosity = meanPorosity(plan, pieces);
+    removeKeptBeds(pieces.folder() / "runs");
+    if (look) look(plan, pieces);
+  });
+  return trial;
+}
+
+void CurveCalibration::take(const std::vector<double>& values) {
+  for (std::size_t k = 0; k < values.size(); ++k) setParameter(soil_, curves_.ranges[k].key, values[k]);
+  if (curves_.bulkDensity && soil_.porosity)
+    setNumber(soil_, "density", fourDigits(*curves_.bulkDensity / (1 - *soil_.porosity)));
+}
+
+std::optional<double> CurveCalibration::reposeOf(const Trial& trial) const {
+  const auto found = trial.results.measured.find(Quantity::repose);
+  return found == trial.results.measured.end() ? std::nullopt : std::optional(found->second.value);
+}
+
+void CurveCalibration::tell(const std::string& name, const Trial& trial, double misfit) const {
+  std::string text = fmt::format("          {}:", name);
+  for (const SearchRange& range : curves_.ranges)
+    text += fmt::format(" {} {:.4g},", range.key, parameterOf(soil_, range.key));
+  text += fmt::format(" bed's porosity {:.4f}", trial.porosity);
+  if (const auto found = trial.results.measured.find(Quantity::repose); found != trial.results.measured.end())
+    text += fmt::format(", repose {} deg", jobs::valueText(found->second));
+  fmt::print("{}; misfit {:.2f}\n{}", text, misfit, curvesText(trial.points));
+  std::fflush(stdout);
+}
+
+std::vector<TargetOutcome> CurveCalibration::outcomes(const Trial& trial) const {
+  std::vector<TargetOutcome> all;
+  for (const CurvePoint& p : trial.points)
+    all.push_back({"plate of " + p.name(),
+                   "kPa",
+                   1e-3 * p.measured.mean,
+                   1e-3 * kWithin * p.measured.mean * p.measured.deviation,
+                   {1e-3 * p.simulated.value, 1e-3 * p.simulated.halfWidth}});
+  if (const auto found = trial.results.measured.find(Quantity::repose); found != trial.results.measured.end())
+    all.push_back({"repose", "deg", *curves_.repose, kWithin * curves_.reposeTolerance, found->second});
+  return all;
+}
+
+void CurveCalibration::finish() {
+  std::filesystem::path tables;
+  const Trial trial = tried("final", [&](const TestPlan& plan, const jobs::Pieces& pieces) {
+    tables = pieces.folder();
+    support::writeTextFile(tables / "curves.csv", curvesCsv(plan, pieces), "--out");
+  });
+  const std::vector<TargetOutcome> found = outcomes(trial);
+  const std::string text = outcomesText(found, command_.place.quick);
+  fmt::print("{}", text);
+  support::writeTextFile(folder_ / "calibration.txt", curvesText(trial.points) + text, "--out");
+  support::writeTextFile(tables / "points.csv", curvePointsCsv(trial.points), "--out");
+  output::drawPicture("plate_curves.py", {tables / "curves.csv", tables / "points.csv"}, folder_ / "curves.png");
+  const std::string call = fmt::format("grouser soil --calibrate {}{}", soil_.file.filename().string(),
+                                       command_.place.quick ? " --quick" : "");
+  const std::string file = soil_.name + ".toml";
+  support::replaceTextFile(folder_ / file, soilFileText(soil_, "calibrated by " + call, trial.results, call));
+  record_.ended(found, file, "final");
+  fmt::print("soil      {}\n", (folder_ / file).string());
+}
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/virtual_tests/calibration_trials.hpp"
+
+/// `grouser soil --calibrate` where the targets are measured curves of plates and an angle of repose.
+namespace grouser::virtual_tests {
+
+class CurveCalibration {
+public:
+  CurveCalibration(const CalibrationCommand& command, const CalibrationTargets& targets, std::filesystem::path folder,
+                   CalibrationRecord& record)
+      : command_(command), targets_(targets), curves_(*targets.curves), folder_(std::move(folder)),
+        soil_(targets.start), record_(record), trials_(command, folder_, record) {}
+
+  /// Searches, does the tests of what was found once more in the folder `final`, and writes its tables, a picture and
+  /// the soil's file. Throws Unfinished where time is up.
+  void run();
+
+private:
+  struct Trial {
+    std::vector<CurvePoint> points;
+    SoilResults results;
+    double porosity = 0; ///< mean over the beds [-]
+  };
+  /// With the soil as it is.
+  Trial tried(const std::string& name, const CalibrationTrials::Look& look = {});
+  void take(const std::vector<double>& values);
+  void tell(const std::string& name, const Trial& trial, double misfit) const;
+  void finish();
+  std::optional<double> reposeOf(const Trial& trial) const;
+  std::vector<TargetOutcome> outcomes(const Trial& trial) const;
+
+  const CalibrationCommand& command_;
+  const CalibrationTargets& targets_;
+  const CurveTargets& curves_;
+  std::filesystem::path folder_;
+  TestedSoil soil_;
+  CalibrationRecord& record_;
+  CalibrationTrials trials_;
+};
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/virtual_tests/curve_targets.hpp"
+
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "runs/jobs/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+constexpr double kWindow = 0.1, kLeastWindow = 1e-3; // of the sinkage to both sides; [m]
+constexpr double kFarther = 1.15;                    // a plate goes so much deeper than its last point
+
+struct PlateKeys {
+  std::string file;
+  std::vector<double> sinkages;
+  double bin = 0.3, depth = 0.12;
+};
+
+base::Table<PlateKeys> plateTable() {
+  using T = PlateKeys;
+  base::Table<T> t("plates", "Measured tests of circular plates");
+  t.add("file", &T::file, "",
+        "comma-separated rows of trial, plate_diameter_mm, sinkage_mm and pressure_kPa; beside the file of targets")
+      .required();
+  t.add("sinkages", &T::sinkages, "m", "at which pressures are compared, ascending").above(0).atMost(10).required();
+  t.add("bin", &T::bin, "m", "side of the square bed, between periodic boundaries").above(0).atMost(100);
+  t.add("depth", &T::depth, "m", "of the bed").above(0).atMost(100);
+  return t;
+}
+
+using Span = std::optional<std::array<double, 2>>;
+struct SearchKeys {
+  Span young, stiffness, friction, rolling, porosity, cohesion;
+  int trials = 16;
+};
+
+base::Table<SearchKeys> searchTable() {
+  using T = SearchKeys;
+  base::Table<T> t("search", "Parameters that are sought, and between which values");
+  t.add("young", &T::young, "Pa", "Young's modulus of Hertz' contacts").above(0).atMost(1e13);
+  t.add("stiffness", &T::stiffness, "N/m", "of linear contacts").above(0).atMost(1e12);
+  t.add("friction", &T::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
+  t.add("rolling_friction", &T::rolling, "-", "rolling friction").atLeast(0).atMost(2);
+  t.add("porosity", &T::porosity, "-", "of the bed").atLeast(0.2).atMost(0.7);
+  t.add("cohesion", &T::cohesion, "J/m2", "energy of adhesion").atLeast(0).atMost(1e6);
+  t.add("trials", &T::trials, "-", "at most").atLeast(2).atMost(1000);
+  return t;
+}
+
+void addRange(const base::Section& section, const TestedSoil& start, const std::string& key, const Span& span,
+              std::vector<SearchRange>& ranges) {
+  if (!span) return;
+  const auto [low, high] = *span;
+  if (!(low < high)) section.fail(key, "is not ascending; write [least, greatest]");
+  const double now = parameterOf(start, key);
+  if (std::isnan(now)) section.fail(key, "has no start; give it in [start], or in [bed] where it is porosity");
+  if (now < low || now > high)
+    section.fail(key, fmt::format("does not hold its start, {:g}; widen the range or change the start", now));
+  ranges.push_back({key, low, high, key == "young" || key == "stiffness"});
+}
+
+/// Of the measured plate's tests that are there, by seed.
+std::vector<jobs::Table> runsOfPlate(const TestPlan& plan, const jobs::Pieces& pieces, double diameter) {
+  std::vector<jobs::Table> runs;
+  for (const PlannedTest& test : plan.tests)
+    if (test.kind == TestKind::plate && test.diameter == diameter && pieces.has(test.name))
+      runs.push_back(pieces.read(test.name));
+  return runs;
+}
+
+double areaOf(double diameter) { return 0.25 * base::kPi * diameter * diameter; }
+
+} // namespace
+
+MeasuredPlatesBed CurveTargets::bed() const {
+  MeasuredPlatesBed all;
+  all.bin = bin, all.depth = depth;
+  for (const MeasuredPlate& plate : plates)
+    all.diameters.push_back(plate.diameter), all.sinkages.push_back(kFarther * plate.deepest());
+  return all;
+}
+
+CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::path& file, const TestedSoil& start) {
+  CurveTargets t;
+  const base::Section plates = root.section("plates");
+  const PlateKeys keys = plates.read(plateTable());
+  if (keys.sinkages.empty()) plates.fail("sinkages", "is empty; give one sinkage or more, as [0.005, 0.01]");
+  if (!std::is_sorted(keys.sinkages.begin(), keys.sinkages.end(), std::less_equal<>()))
+    plates.fail("sinkages", "is not ascending; sort it");
+  t.file = keys.file, t.bin = keys.bin, t.depth = keys.depth;
+  t.plates = readMeasuredPlates(file.parent_path() / keys.file, keys.sinkages);
+  const base::Section search = root.section("search");
+  const SearchKeys sought = search.read(searchTable());
+  addRange(search, start, "young", sought.young, t.ranges);
+  addRange(search, start, "stiffness", sought.stiffness, t.ranges);
+  addRange(search, start, "friction", sought.friction, t.ranges);
+  addRange(search, start, "rolling_friction", sought.rolling, t.ranges);
+  addRange(search, start, "porosity", sought.porosity, t.ranges);
+  addRange(search, start, "cohesion", sought.cohesion, t.ranges);
+  if (t.ranges.empty()) search.fail("", "names no parameter; give one or more, as friction = [0.3, 1]");
+  t.mostTrials = static_cast<std::size_t>(sought.trials);
+  return t;
+}
+
+void setParameter(TestedSoil& soil, const std::string& key, double value) {
+  if (key == "porosity")
+    soil.porosity = value;
+  else
+    setNumber(soil, key, value);
+}
+
+double parameterOf(const TestedSoil& soil, const std::string& key) {
+  if (key == "porosity") return soil.porosity.value_or(base::kNaN);
+  return numberOf(soil, key, key == "cohesion" || key == "rolling_friction" ? 0.0 : base::kNaN);
+}
+
+double CurvePoint::deviations() const {
+  return (simulated.value - measured.mean) / (measured.deviation * measured.mean);
+}
+
+std::string CurvePoint::name() const {
+  return fmt::format("{:g} mm at {:g} mm", 1e3 * diameter, 1e3 * measured.sinkage);
+}
+
+std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
+  std::vector<CurvePoint> points;
+  for (const MeasuredPlate& plate : targets.plates) {
+    const std::vector<jobs::Table> runs = runsOfPlate(plan, pieces, plate.diameter);
+    if (runs.empty()) continue;
+    for (const MeasuredPressure& measured : plate.points) {
+      const double window = std::max(kWindow * measured.sinkage, kLeastWindow);
+      std::vector<double> pressures;
+      for (const jobs::Table& run : runs)
+        pressures.push_back(
+            meanPressure(run, areaOf(plate.diameter), measured.sinkage - window, measured.sinkage + window));
+      points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
+    }
+  }
+  return points;
+}
+
+std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
+                                   const CurveTargets& targets) {
+  constexpr double kLeast = 1; // [Pa] a plate that bears nothing
+  std::vector<double> residuals;
+  for (const CurvePoint& p : points)
+    residuals.push_back(base::log(std::max(kLeast, p.simulated.value) / p.measured.mean) /
+                        std::max(kLeastScatter, p.measured.deviation));
+  if (targets.repose) {
+    constexpr double kNeverFlowed = 45; // [deg] of a bed that does not flow, or does not come to rest
+    const double angle = repose && std::isfinite(*repose) ? *repose : kNeverFlowed;
+    residuals.push_back((angle - *targets.repose) / targets.reposeTolerance);
+  }
+  return residuals;
+}
+
+std::string curvesText(const std::vector<CurvePoint>& points) {
+  std::string text = fmt::format("  {:<18} {:>20} {:>16} {:>6} {:>12}\n", "plate and sinkage", "simulated [kPa]",
+                                 "measured [kPa]", "tests", "deviations");
+  for (const CurvePoint& p : points)
+    text +=
+        fmt::format("  {:<18} {:>20} {:>8.2f} +- {:<4.2f} {:>6} {:>12.1f}\n", p.name(),
+                    jobs::valueText({1e-3 * p.simulated.value, 1e-3 * p.simulated.halfWidth}), 1e-3 * p.measured.mean,
+                    1e-3 * p.measured.mean * p.measured.deviation, p.measured.trials.size(), p.deviations());
+  return text;
+}
+
+std::string curvePointsCsv(const std::vector<CurvePoint>& points) {
+  std::string text = "diameter [m],sinkage [m],trial,measured [Pa],measured mean [Pa],measured deviation [Pa],"
+                     "simulated [Pa],half width [Pa],difference [deviations]\n";
+  for (const CurvePoint& p : points)
+    for (const MeasuredTrial& t : p.measured.trials)
+      text += fmt::format("{:g},{:g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g}\n", p.diameter, p.measured.sinkage,
+                          t.number, t.pressure, p.measured.mean, p.measured.mean * p.measured.deviation,
+                          p.simulated.value, p.simulated.halfWidth,
+                          (p.simulated.value - t.pressure) / (p.measured.mean * p.measured.deviation));
+  return text;
+}
+
+std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces) {
+  std::string text = "care,diameter [m],seed,sinkage [m],pressure [Pa],porosity [-]\n";
+  for (const PlannedTest& test : plan.tests) {
+    if (test.kind != TestKind::plate || !pieces.has(test.name)) continue;
+    for (const std::vector<double>& row : pieces.read(test.name).rows)
+      text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.5g}\n", plan.care(), test.diameter, test.seed, row[0],
+                          row[1] / areaOf(test.diameter), row[2]);
+  }
+  return text;
+}
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/table.hpp"
+#include "runs/support/line_fit.hpp"
+#include "runs/virtual_tests/curve_search.hpp"
+#include "runs/virtual_tests/measured_plates.hpp"
+#include "runs/virtual_tests/plan.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Measured curves of plates, and an angle of repose, as targets of a calibration.
+namespace grouser::virtual_tests {
+
+/// Sections [plates] and [search] of a file of targets.
+struct CurveTargets {
+  std::string file; ///< of the measured tests, as it was written
+  std::vector<MeasuredPlate> plates;
+  double bin = 0.3, depth = 0.12; ///< [m] side and depth of the bed that plates go into
+  std::vector<SearchRange> ranges;
+  std::size_t mostTrials = 16;
+  std::optional<double> repose;      ///< [deg]
+  double reposeTolerance = 1;        ///< [deg] counts as a standard deviation
+  std::optional<double> bulkDensity; ///< [kg/m3] from which, with the porosity, that of the solid follows
+
+  /// The plates and their bed as a plan has them.
+  MeasuredPlatesBed bed() const;
+};
+
+/// Reads [plates] and [search]; `start` is the soil that the search begins with. Throws base::InputError: file:line and
+/// key, range and remedy.
+CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::path& file, const TestedSoil& start);
+
+/// Gives a parameter of the search its value: a key of the material, or porosity.
+void setParameter(TestedSoil& soil, const std::string& key, double value);
+/// What it is now.
+double parameterOf(const TestedSoil& soil, const std::string& key);
+
+/// A measured point beside what a trial came to.
+struct CurvePoint {
+  double diameter = 0;         ///< [m]
+  MeasuredPressure measured;   ///< with its sinkage
+  support::Estimate simulated; ///< [Pa] mean over the seeds
+  double deviations() const;   ///< simulated less measured mean, in standard deviations of a measured test [-]
+  std::string name() const;    ///< "60 mm at 5 mm"
+};
+/// Of the plates that are there; a window of a fifth of the sinkage, at least 2 mm, is averaged.
+std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
+
+/// For the search: ln(simulated / measured) of every point over its measured relative deviation, at least
+/// `kLeastScatter`; then (repose - wanted) over its tolerance, where one is wanted.
+inline constexpr double kLeastScatter = 0.05; ///< [-] beds of few seeds scatter by as much
+std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
+                                   const CurveTargets& targets);
+
+/// Tables for people and for plots.
+std::string curvesText(const std::vector<CurvePoint>& points);
+std::string curvePointsCsv(const std::vector<CurvePoint>& points); ///< a row a measured test and point
+std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces);
+
+} // namespace grouser::virtual_tests

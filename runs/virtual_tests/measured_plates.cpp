@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/virtual_tests/measured_plates.hpp"
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace grouser::virtual_tests {
+
+namespace {
+
+constexpr std::array<const char*, 4> kColumns = {"trial", "plate_diameter_mm", "sinkage_mm", "pressure_kPa"};
+constexpr double kLeastDeviation = 0.01; ///< [-] of tests that agree by chance
+
+struct Test {
+  double diameter = 0;                   ///< [m]
+  std::vector<double> sinkage, pressure; ///< [m], [Pa]
+};
+
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',')
+      cells.emplace_back();
+    else if (c != '\r' && c != ' ')
+      cells.back() += c;
+  }
+  return cells;
+}
+
+class Reader {
+public:
+  explicit Reader(const std::filesystem::path& file) : file_(file), in_(file) {
+    if (!in_)
+      throw base::InputError(
+          fmt::format("{} cannot be read; correct plates.file, which is looked for beside the file of "
+                      "targets",
+                      file.string()));
+  }
+
+  std::map<int, Test> tests() {
+    readHead();
+    std::map<int, Test> tests;
+    for (std::string line; next(line);) addRow(cellsOf(line), tests);
+    if (tests.empty()) fail("no rows follow the names of the columns; add the measured tests");
+    return tests;
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw base::InputError(fmt::format("{}:{}: {}", file_.string(), line_, message));
+  }
+
+  /// The next line that is neither empty nor a comment.
+  bool next(std::string& line) {
+    while (std::getline(in_, line)) {
+      ++line_;
+      if (!line.empty() && line[0] != '#' && line != "\r") return true;
+    }
+    return false;
+  }
+
+  void readHead() {
+    std::string line;
+    if (!next(line)) fail("the file is empty; its first row names the columns");
+    const std::vector<std::string> names = cellsOf(line);
+    for (std::size_t k = 0; k < kColumns.size(); ++k) {
+      const auto found = std::find(names.begin(), names.end(), kColumns[k]);
+      if (found == names.end())
+        fail(fmt::format("column {} is missing; the columns are {}, {}, {} and {}", kColumns[k], kColumns[0],
+                         kColumns[1], kColumns[2], kColumns[3]));
+      column_[k] = static_cast<std::size_t>(found - names.begin());
+    }
+  }
+
+  double number(const std::vector<std::string>& cells, std::size_t k) const {
+    const std::string text = column_[k] < cells.size() ? cells[column_[k]] : "";
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+      fail(fmt::format("{} = \"{}\" is not a number", kColumns[k], text));
+    return value;
+  }
+
+  void addRow(const std::vector<std::string>& cells, std::map<int, Test>& tests) const {
+    const double trial = number(cells, 0), diameter = 1e-3 * number(cells, 1);
+    if (trial != std::floor(trial) || trial < 0 || trial > 1e9) fail("trial is not a whole number of 0 or more");
+    if (!(diameter > 0 && diameter <= 10)) fail("plate_diameter_mm is outside (0, 10000]");
+    Test& test = tests[static_cast<int>(trial)];
+    if (!test.sinkage.empty() && test.diameter != diameter)
+      fail(fmt::format("trial {} has plates of {:g} and {:g} mm; give each test a number of its own", trial,
+                       1e3 * test.diameter, 1e3 * diameter));
+    test.diameter = diameter;
+    test.sinkage.push_back(1e-3 * number(cells, 2)), test.pressure.push_back(1e3 * number(cells, 3));
+  }
+
+  std::filesystem::path file_;
+  std::ifstream in_;
+  int line_ = 0;
+  std::array<std::size_t, 4> column_{};
+};
+
+/// Pressure of a test where it first passes a sinkage, on the line between its rows; empty where it never does.
+std::optional<double> pressureAt(const Test& test, double sinkage) {
+  for (std::size_t i = 0; i < test.sinkage.size(); ++i) {
+    if (test.sinkage[i] < sinkage) continue;
+    if (i == 0) return test.sinkage[0] == sinkage ? std::optional(test.pressure[0]) : std::nullopt;
+    const double share = (sinkage - test.sinkage[i - 1]) / (test.sinkage[i] - test.sinkage[i - 1]);
+    return test.pressure[i - 1] + share * (test.pressure[i] - test.pressure[i - 1]);
+  }
+  return {};
+}
+
+MeasuredPressure pointOf(const std::map<int, Test>& tests, double diameter, double sinkage) {
+  MeasuredPressure point;
+  point.sinkage = sinkage;
+  for (const auto& [number, test] : tests)
+    if (test.diameter == diameter)
+      if (const std::optional<double> pressure = pressureAt(test, sinkage)) point.trials.push_back({number, *pressure});
+  const auto n = static_cast<double>(point.trials.size());
+  for (const MeasuredTrial& t : point.trials) point.mean += t.pressure / n;
+  double squares = 0;
+  for (const MeasuredTrial& t : point.trials) squares += (t.pressure - point.mean) * (t.pressure - point.mean);
+  if (n > 1) point.deviation = std::max(kLeastDeviation, std::sqrt(squares / (n - 1)) / point.mean);
+  return point;
+}
+
+/// A single test has no scatter of its own.
+void poolDeviations(std::vector<MeasuredPlate>& plates) {
+  double squares = 0, count = 0;
+  for (const MeasuredPlate& plate : plates)
+    for (const MeasuredPressure& point : plate.points)
+      if (point.trials.size() > 1) squares += point.deviation * point.deviation, ++count;
+  constexpr double kAssumed = 0.1; // [-] where no test was repeated
+  const double pooled = count > 0 ? std::sqrt(squares / count) : kAssumed;
+  for (MeasuredPlate& plate : plates)
+    for (MeasuredPressure& point : plate.points)
+      if (point.trials.size() == 1) point.deviation = pooled;
+}
+
+} // namespace
+
+std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages) {
+  const std::map<int, Test> tests = Reader(file).tests();
+  std::map<double, MeasuredPlate> byDiameter;
+  for (const auto& [number, test] : tests) byDiameter[test.diameter].diameter = test.diameter;
+  std::vector<MeasuredPlate> plates;
+  for (auto& [diameter, plate] : byDiameter) {
+    for (const double sinkage : sinkages) {
+      MeasuredPressure point = pointOf(tests, diameter, sinkage);
+      if (point.trials.empty()) continue;
+      if (!(point.mean > 0))
+        throw base::InputError(
+            fmt::format("{}: the plate of {:g} mm bears {:g} kPa at {:g} mm; remove that sinkage from "
+                        "plates.sinkages",
+                        file.string(), 1e3 * diameter, 1e-3 * point.mean, 1e3 * sinkage));
+      plate.points.push_back(std::move(point));
+    }
+    if (!plate.points.empty()) plates.push_back(std::move(plate));
+  }
+  for (const double sinkage : sinkages) {
+    const auto reaches = [&](const MeasuredPlate& plate) {
+      return std::any_of(plate.points.begin(), plate.points.end(), [&](const auto& p) { return p.sinkage == sinkage; });
+    };
+    if (std::none_of(plates.begin(), plates.end(), reaches))
+      throw base::InputError(fmt::format("{}: no test reaches {:g} mm; remove that sinkage from plates.sinkages",
+                                         file.string(), 1e3 * sinkage));
+  }
+  poolDeviations(plates);
+  return plates;
+}
+
+} // namespace grouser::virtual_tests
