@@ -159,7 +159,8 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
     std::filesystem::remove_all(runs / test.name), std::filesystem::remove_all(runs / (test.name + kAgain));
     std::filesystem::remove(unsound);
   };
-  jobs::shareWork(std::min<int>(jobs, std::max<int>(1, static_cast<int>(due.size()))), due.size(), work,
+  // One test alone has a process of its own too, as long as others may follow: see prepare().
+  jobs::shareWork(jobs > 1 ? std::clamp(static_cast<int>(due.size()), 2, jobs) : 1, due.size(), work,
                   [&] { progress.update(share(there()), jobs > 1 ? "several tests at a time" : "a test has ended"); });
   int missing = 0;
   for (const PlannedTest& test : plan.tests) missing += !pieces.has(test.name);
