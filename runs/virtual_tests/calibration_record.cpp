@@ -128,14 +128,16 @@ void CalibrationRecord::shear(const std::string& name, const TestedSoil& soil,
   add(name, "shear", soil, values);
 }
 
-void CalibrationRecord::curves(const std::string& name, const TestedSoil& soil, const std::vector<CurvePoint>& points,
+void CalibrationRecord::curves(const std::string& name, const SoilInBed& bed, const std::vector<CurvePoint>& points,
                                const std::map<Quantity, support::Estimate>& measured, double porosity, double misfit) {
-  Json values{{"misfit", {{"value", misfit}, {"unit", "-"}}}, {"porosity", {{"value", porosity}, {"unit", "-"}}}};
+  Json values{{"misfit", {{"value", misfit}, {"unit", "-"}}},
+              {"porosity", {{"value", porosity}, {"unit", "-"}}},
+              {"depth", {{"value", bed.depth}, {"unit", "m"}}}};
   for (const CurvePoint& p : points)
     values[p.name()] = estimateJson({1e-3 * p.simulated.value, 1e-3 * p.simulated.halfWidth}, "kPa");
   if (const auto found = measured.find(Quantity::repose); found != measured.end())
     values["repose"] = estimateJson(found->second, unitOf(Quantity::repose));
-  add(name, "curves", soil, values);
+  add(name, "curves", bed.soil, values);
 }
 
 void CalibrationRecord::plate(const std::string& name, const TestedSoil& soil, const support::Estimate& pressure,

@@ -35,13 +35,13 @@ TestPlan CalibrationTrials::tested(const TestedSoil& soil, const std::string& na
   }
   results = resultsOf(plan, pieces);
   if (look) look(plan, pieces);
-  done_.push_back({soil.keys, soil.porosity, pieces});
+  done_.push_back({soil.keys, plan.recipe(), pieces});
   return plan;
 }
 
 void CalibrationTrials::takeOver(const TestedSoil& soil, const TestPlan& plan, jobs::Pieces& pieces) const {
   for (const Done& trial : done_) {
-    if (trial.keys != soil.keys || trial.porosity != soil.porosity) continue;
+    if (trial.keys != soil.keys || trial.recipe != plan.recipe()) continue;
     const auto take = [&](const std::string& name) {
       if (!pieces.has(name) && trial.pieces.has(name)) pieces.keep(name, trial.pieces.read(name));
     };

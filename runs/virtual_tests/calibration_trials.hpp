@@ -38,7 +38,7 @@ private:
 
   struct Done {
     decltype(TestedSoil::keys) keys;
-    std::optional<double> porosity;
+    nlohmann::ordered_json recipe;
     jobs::Pieces pieces;
   };
 

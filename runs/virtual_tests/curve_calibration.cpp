@@ -27,7 +27,7 @@ double meanPorosity(const TestPlan& plan, const jobs::Pieces& pieces) {
 
 void CurveCalibration::run() {
   std::vector<double> start;
-  for (const SearchRange& range : curves_.ranges) start.push_back(parameterOf(soil_, range.key));
+  for (const SearchRange& range : curves_.ranges) start.push_back(parameterOf(bed_, range.key));
   CurveSearch search(curves_.ranges, start, curves_.mostTrials);
   for (bool goesOn = true; goesOn;) {
     take(search.at());
@@ -35,7 +35,7 @@ void CurveCalibration::run() {
     const Trial trial = tried(name);
     goesOn = search.tried(curveResiduals(trial.points, reposeOf(trial), curves_));
     const double misfit = search.trials().back().misfit();
-    record_.curves(name, soil_, trial.points, trial.results.measured, trial.porosity, misfit);
+    record_.curves(name, bed_, trial.points, trial.results.measured, trial.porosity, misfit);
     tell(name, trial, misfit);
   }
   take(search.trials()[search.nearest()].values);
@@ -45,27 +45,28 @@ void CurveCalibration::run() {
 CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const CalibrationTrials::Look& look) {
   PlanOptions options = command_.plan;
   options.coarse = command_.place.quick, options.wide = false;
-  options.plates = curves_.bed(), options.reposeSeeds = curves_.repose ? options.seeds : 0;
+  options.plates = curves_.bed(bed_.depth), options.reposeSeeds = curves_.repose ? options.seeds : 0;
   Trial trial;
   // Beds first, since all plates of a seed go into the same one.
   trials_.tested(
-      soil_, name, options, [](const PlannedTest& t) { return t.kind == TestKind::bed; }, trial.results);
+      bed_.soil, name, options, [](const PlannedTest& t) { return t.kind == TestKind::bed; }, trial.results);
   const auto isOurs = [](const PlannedTest& t) {
     return t.kind == TestKind::bed || t.kind == TestKind::plate || t.kind == TestKind::repose;
   };
-  trials_.tested(soil_, name, options, isOurs, trial.results, [&](const TestPlan& plan, const jobs::Pieces& pieces) {
-    trial.points = curvePoints(plan, pieces, curves_);
-    trial.porosity = meanPorosity(plan, pieces);
-    removeKeptBeds(pieces.folder() / "runs");
-    if (look) look(plan, pieces);
-  });
+  trials_.tested(bed_.soil, name, options, isOurs, trial.results,
+                 [&](const TestPlan& plan, const jobs::Pieces& pieces) {
+                   trial.points = curvePoints(plan, pieces, curves_);
+                   trial.porosity = meanPorosity(plan, pieces);
+                   removeKeptBeds(pieces.folder() / "runs");
+                   if (look) look(plan, pieces);
+                 });
   return trial;
 }
 
 void CurveCalibration::take(const std::vector<double>& values) {
-  for (std::size_t k = 0; k < values.size(); ++k) setParameter(soil_, curves_.ranges[k].key, values[k]);
-  if (curves_.bulkDensity && soil_.porosity)
-    setNumber(soil_, "density", fourDigits(*curves_.bulkDensity / (1 - *soil_.porosity)));
+  for (std::size_t k = 0; k < values.size(); ++k) setParameter(bed_, curves_.ranges[k].key, values[k]);
+  if (curves_.bulkDensity && bed_.soil.porosity)
+    setNumber(bed_.soil, "density", fourDigits(*curves_.bulkDensity / (1 - *bed_.soil.porosity)));
 }
 
 std::optional<double> CurveCalibration::reposeOf(const Trial& trial) const {
@@ -76,7 +77,7 @@ std::optional<double> CurveCalibration::reposeOf(const Trial& trial) const {
 void CurveCalibration::tell(const std::string& name, const Trial& trial, double misfit) const {
   std::string text = fmt::format("          {}:", name);
   for (const SearchRange& range : curves_.ranges)
-    text += fmt::format(" {} {:.4g},", range.key, parameterOf(soil_, range.key));
+    text += fmt::format(" {} {:.4g},", range.key, parameterOf(bed_, range.key));
   text += fmt::format(" bed's porosity {:.4f}", trial.porosity);
   if (const auto found = trial.results.measured.find(Quantity::repose); found != trial.results.measured.end())
     text += fmt::format(", repose {} deg", jobs::valueText(found->second));
@@ -109,10 +110,12 @@ void CurveCalibration::finish() {
   support::writeTextFile(folder_ / "calibration.txt", curvesText(trial.points) + text, "--out");
   support::writeTextFile(tables / "points.csv", curvePointsCsv(trial.points), "--out");
   output::drawPicture("plate_curves.py", {tables / "curves.csv", tables / "points.csv"}, folder_ / "curves.png");
-  const std::string call = fmt::format("grouser soil --calibrate {}{}", soil_.file.filename().string(),
+  const std::string call = fmt::format("grouser soil --calibrate {}{}", bed_.soil.file.filename().string(),
                                        command_.place.quick ? " --quick" : "");
-  const std::string file = soil_.name + ".toml";
-  support::replaceTextFile(folder_ / file, soilFileText(soil_, "calibrated by " + call, trial.results, call));
+  const std::string file = bed_.soil.name + ".toml";
+  support::replaceTextFile(
+      folder_ / file, soilFileText(bed_.soil, fmt::format("calibrated by {} on beds {:g} m deep", call, bed_.depth),
+                                   trial.results, call));
   record_.ended(found, file, "final");
   fmt::print("soil      {}\n", (folder_ / file).string());
 }

@@ -10,8 +10,9 @@ class CurveCalibration {
 public:
   CurveCalibration(const CalibrationCommand& command, const CalibrationTargets& targets, std::filesystem::path folder,
                    CalibrationRecord& record)
-      : command_(command), targets_(targets), curves_(*targets.curves), folder_(std::move(folder)),
-        soil_(targets.start), record_(record), trials_(command, folder_, record) {}
+      : command_(command), targets_(targets), curves_(*targets.curves),
+        folder_(std::move(folder)), bed_{targets.start, targets.curves->depth}, record_(record),
+        trials_(command, folder_, record) {}
 
   /// Searches, does the tests of what was found once more in the folder `final`, and writes its tables, a picture and
   /// the soil's file. Throws Unfinished where time is up.
@@ -23,7 +24,7 @@ private:
     SoilResults results;
     double porosity = 0; ///< mean over the beds [-]
   };
-  /// With the soil as it is.
+  /// With the soil and the depth as they are.
   Trial tried(const std::string& name, const CalibrationTrials::Look& look = {});
   void take(const std::vector<double>& values);
   void tell(const std::string& name, const Trial& trial, double misfit) const;
@@ -35,7 +36,7 @@ private:
   const CalibrationTargets& targets_;
   const CurveTargets& curves_;
   std::filesystem::path folder_;
-  TestedSoil soil_;
+  SoilInBed bed_;
   CalibrationRecord& record_;
   CalibrationTrials trials_;
 };

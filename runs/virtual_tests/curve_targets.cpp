@@ -38,7 +38,7 @@ base::Table<PlateKeys> plateTable() {
 
 using Span = std::optional<std::array<double, 2>>;
 struct SearchKeys {
-  Span young, stiffness, friction, rolling, porosity, cohesion;
+  Span young, stiffness, friction, rolling, porosity, cohesion, depth;
   int trials = 16;
 };
 
@@ -51,17 +51,18 @@ base::Table<SearchKeys> searchTable() {
   t.add("rolling_friction", &T::rolling, "-", "rolling friction").atLeast(0).atMost(2);
   t.add("porosity", &T::porosity, "-", "of the bed").atLeast(0.2).atMost(0.7);
   t.add("cohesion", &T::cohesion, "J/m2", "energy of adhesion").atLeast(0).atMost(1e6);
-  t.add("trials", &T::trials, "-", "at most").atLeast(2).atMost(1000);
+  t.add("depth", &T::depth, "m", "of the bed, where the experiment's is not known").above(0).atMost(100);
+  t.add("trials", &T::trials, "-", "at most; 1: the start is tested alone").atLeast(1).atMost(1000);
   return t;
 }
 
-void addRange(const base::Section& section, const TestedSoil& start, const std::string& key, const Span& span,
+void addRange(const base::Section& section, const SoilInBed& start, const std::string& key, const Span& span,
               std::vector<SearchRange>& ranges) {
   if (!span) return;
   const auto [low, high] = *span;
   if (!(low < high)) section.fail(key, "is not ascending; write [least, greatest]");
   const double now = parameterOf(start, key);
-  if (std::isnan(now)) section.fail(key, "has no start; give it in [start], or in [bed] where it is porosity");
+  if (std::isnan(now)) section.fail(key, "has no start; give it in [start], porosity in [bed] and depth in [plates]");
   if (now < low || now > high)
     section.fail(key, fmt::format("does not hold its start, {:g}; widen the range or change the start", now));
   ranges.push_back({key, low, high, key == "young" || key == "stiffness"});
@@ -80,9 +81,9 @@ double areaOf(double diameter) { return 0.25 * base::kPi * diameter * diameter; 
 
 } // namespace
 
-MeasuredPlatesBed CurveTargets::bed() const {
+MeasuredPlatesBed CurveTargets::bed(double depthOfBed) const {
   MeasuredPlatesBed all;
-  all.bin = bin, all.depth = depth;
+  all.bin = bin, all.depth = depthOfBed;
   for (const MeasuredPlate& plate : plates)
     all.diameters.push_back(plate.diameter), all.sinkages.push_back(kFarther * plate.deepest());
   return all;
@@ -99,27 +100,32 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
   t.plates = readMeasuredPlates(file.parent_path() / keys.file, keys.sinkages);
   const base::Section search = root.section("search");
   const SearchKeys sought = search.read(searchTable());
-  addRange(search, start, "young", sought.young, t.ranges);
-  addRange(search, start, "stiffness", sought.stiffness, t.ranges);
-  addRange(search, start, "friction", sought.friction, t.ranges);
-  addRange(search, start, "rolling_friction", sought.rolling, t.ranges);
-  addRange(search, start, "porosity", sought.porosity, t.ranges);
-  addRange(search, start, "cohesion", sought.cohesion, t.ranges);
+  const SoilInBed given{start, t.depth};
+  addRange(search, given, "young", sought.young, t.ranges);
+  addRange(search, given, "stiffness", sought.stiffness, t.ranges);
+  addRange(search, given, "friction", sought.friction, t.ranges);
+  addRange(search, given, "rolling_friction", sought.rolling, t.ranges);
+  addRange(search, given, "porosity", sought.porosity, t.ranges);
+  addRange(search, given, "cohesion", sought.cohesion, t.ranges);
+  addRange(search, given, "depth", sought.depth, t.ranges);
   if (t.ranges.empty()) search.fail("", "names no parameter; give one or more, as friction = [0.3, 1]");
   t.mostTrials = static_cast<std::size_t>(sought.trials);
   return t;
 }
 
-void setParameter(TestedSoil& soil, const std::string& key, double value) {
+void setParameter(SoilInBed& bed, const std::string& key, double value) {
   if (key == "porosity")
-    soil.porosity = value;
+    bed.soil.porosity = value;
+  else if (key == "depth")
+    bed.depth = value;
   else
-    setNumber(soil, key, value);
+    setNumber(bed.soil, key, value);
 }
 
-double parameterOf(const TestedSoil& soil, const std::string& key) {
-  if (key == "porosity") return soil.porosity.value_or(base::kNaN);
-  return numberOf(soil, key, key == "cohesion" || key == "rolling_friction" ? 0.0 : base::kNaN);
+double parameterOf(const SoilInBed& bed, const std::string& key) {
+  if (key == "porosity") return bed.soil.porosity.value_or(base::kNaN);
+  if (key == "depth") return bed.depth;
+  return numberOf(bed.soil, key, key == "cohesion" || key == "rolling_friction" ? 0.0 : base::kNaN);
 }
 
 double CurvePoint::deviations() const {

@@ -25,18 +25,23 @@ struct CurveTargets {
   double reposeTolerance = 1;        ///< [deg] counts as a standard deviation
   std::optional<double> bulkDensity; ///< [kg/m3] from which, with the porosity, that of the solid follows
 
-  /// The plates and their bed as a plan has them.
-  MeasuredPlatesBed bed() const;
+  /// The plates and their bed as a plan has them, with a bed of this depth [m].
+  MeasuredPlatesBed bed(double depthOfBed) const;
 };
 
 /// Reads [plates] and [search]; `start` is the soil that the search begins with. Throws base::InputError: file:line and
 /// key, range and remedy.
 CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::path& file, const TestedSoil& start);
 
-/// Gives a parameter of the search its value: a key of the material, or porosity.
-void setParameter(TestedSoil& soil, const std::string& key, double value);
-/// What it is now.
-double parameterOf(const TestedSoil& soil, const std::string& key);
+/// A soil and the depth of the bed that it lies in.
+struct SoilInBed {
+  TestedSoil soil;
+  double depth = 0; ///< [m]
+};
+/// Gives a parameter of the search its value: a key of the material, porosity, or depth.
+void setParameter(SoilInBed& bed, const std::string& key, double value);
+/// The value it has; NaN where it has none.
+double parameterOf(const SoilInBed& bed, const std::string& key);
 
 /// A measured point beside what a trial came to.
 struct CurvePoint {

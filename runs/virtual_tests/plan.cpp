@@ -202,7 +202,9 @@ PlateTest TestPlan::measuredPlate(double diameter) const {
   PlateTest test;
   test.shape = PlateShape::circular;
   test.breadth = diameter / grains.grains.diameter();
-  test.bin = p.bin / diameter, test.depth = p.depth / diameter, test.lift = kLift;
+  // So many grains that the settled bed is as deep as asked for.
+  const double laid = (1 - soil.porosity.value_or(kExpectedPorosity)) / (1 - kExpectedPorosity);
+  test.bin = p.bin / diameter, test.depth = laid * p.depth / diameter, test.lift = kLift;
   test.sinkage = p.sinkages.at(k) / diameter, test.inertialNumber = options.inertialNumber;
   return test;
 }
