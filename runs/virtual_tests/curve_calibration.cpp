@@ -18,7 +18,7 @@ constexpr double kWithin = 2; // standard deviations of a measured test in which
 double meanPorosity(const TestPlan& plan, const jobs::Pieces& pieces) {
   std::vector<double> porosities;
   for (const PlannedTest& test : plan.tests)
-    if (test.kind == TestKind::bed && pieces.has(test.name))
+    if (test.kind == TestKind::plate && pieces.has(test.name))
       porosities.push_back(pieces.read(test.name).values("porosity [-]").front());
   return jobs::interval95(porosities).value;
 }
@@ -47,17 +47,11 @@ CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const C
   options.coarse = command_.place.quick, options.wide = false;
   options.plates = curves_.bed(bed_.depth), options.reposeSeeds = curves_.repose ? options.seeds : 0;
   Trial trial;
-  // Beds first, since all plates of a seed go into the same one.
-  trials_.tested(
-      bed_.soil, name, options, [](const PlannedTest& t) { return t.kind == TestKind::bed; }, trial.results);
-  const auto isOurs = [](const PlannedTest& t) {
-    return t.kind == TestKind::bed || t.kind == TestKind::plate || t.kind == TestKind::repose;
-  };
+  const auto isOurs = [](const PlannedTest& t) { return t.kind == TestKind::plate || t.kind == TestKind::repose; };
   trials_.tested(bed_.soil, name, options, isOurs, trial.results,
                  [&](const TestPlan& plan, const jobs::Pieces& pieces) {
                    trial.points = curvePoints(plan, pieces, curves_);
                    trial.porosity = meanPorosity(plan, pieces);
-                   removeKeptBeds(pieces.folder() / "runs");
                    if (look) look(plan, pieces);
                  });
   return trial;

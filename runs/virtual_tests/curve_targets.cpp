@@ -77,7 +77,13 @@ std::vector<jobs::Table> runsOfPlate(const TestPlan& plan, const jobs::Pieces& p
   return runs;
 }
 
-double areaOf(double diameter) { return 0.25 * base::kPi * diameter * diameter; }
+/// Mean pressure [Pa] of a test between two sinkages [m].
+double pressureBetween(const jobs::Table& run, double from, double to) {
+  double sum = 0, count = 0;
+  for (const std::vector<double>& row : run.rows)
+    if (row[0] > from && row[0] <= to) sum += row[1], ++count;
+  return sum / count;
+}
 
 } // namespace
 
@@ -145,8 +151,7 @@ std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pi
       const double window = std::max(kWindow * measured.sinkage, kLeastWindow);
       std::vector<double> pressures;
       for (const jobs::Table& run : runs)
-        pressures.push_back(
-            meanPressure(run, areaOf(plate.diameter), measured.sinkage - window, measured.sinkage + window));
+        pressures.push_back(pressureBetween(run, measured.sinkage - window, measured.sinkage + window));
       points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
     }
   }
@@ -196,8 +201,8 @@ std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces) {
   for (const PlannedTest& test : plan.tests) {
     if (test.kind != TestKind::plate || !pieces.has(test.name)) continue;
     for (const std::vector<double>& row : pieces.read(test.name).rows)
-      text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.5g}\n", plan.care(), test.diameter, test.seed, row[0],
-                          row[1] / areaOf(test.diameter), row[2]);
+      text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.5g}\n", plan.care(), test.diameter, test.seed, row[0], row[1],
+                          row[2]);
   }
   return text;
 }

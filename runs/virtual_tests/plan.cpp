@@ -5,6 +5,7 @@
 #include "base/free_memory.hpp"
 #include "base/math.hpp"
 #include "base/sphere.hpp"
+#include "runs/virtual_tests/measured_plate.hpp"
 
 #include <fmt/format.h>
 
@@ -23,8 +24,6 @@ constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high 
 constexpr double kLiftFall = 0.5;          // [s] simulated for a lift, for costs only
 constexpr double kYielding = 8;            // times as far as into a bed as stiff as columns of grains, for the same
 constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
-constexpr double kLift = 12;               // [d] of the beds of measured plates, as those of strips
-constexpr const char* kKeptBed = "kept_bed_seed";
 
 /// Of two grains pressed together by a force, as if they were elastic [m].
 double overlapUnder(const TestedSoil& soil, double force) {
@@ -76,12 +75,6 @@ double reposeCost(const Soil& soil, const ReposeTest& test) {
   return test.length * test.width * test.depth * (2 * kLiftFall + held);
 }
 
-double bedCost(const TestPlan& plan) {
-  const MeasuredPlatesBed& p = plan.options.plates;
-  const double lifts = p.depth / (kLift * plan.grains.grains.diameter());
-  return p.bin * p.bin * p.depth / plan.grains.meanVolume() * 0.6 * kLiftFall * std::max(1.0, lifts);
-}
-
 double measuredPlateCost(const TestPlan& plan, double diameter) {
   const MeasuredPlatesBed& p = plan.options.plates;
   const PlateTest test = plan.measuredPlate(diameter);
@@ -92,7 +85,6 @@ void addMeasuredPlates(TestPlan& plan) {
   const PlanOptions& o = plan.options;
   const std::string care = o.coarse ? "coarse_" : "";
   for (int seed = 1; seed <= o.seeds && !o.plates.diameters.empty(); ++seed) {
-    plan.tests.push_back({fmt::format("{}bed_seed{}", care, seed), TestKind::bed, 0, 0, seed, bedCost(plan)});
     for (const double d : o.plates.diameters)
       plan.tests.push_back({fmt::format("{}plate{:g}mm_seed{}", care, 1e3 * d, seed), TestKind::plate, 0, d, seed,
                             measuredPlateCost(plan, d)});
@@ -202,9 +194,7 @@ PlateTest TestPlan::measuredPlate(double diameter) const {
   PlateTest test;
   test.shape = PlateShape::circular;
   test.breadth = diameter / grains.grains.diameter();
-  // So many grains that the settled bed is as deep as asked for.
-  const double laid = (1 - soil.porosity.value_or(kExpectedPorosity)) / (1 - kExpectedPorosity);
-  test.bin = p.bin / diameter, test.depth = laid * p.depth / diameter, test.lift = kLift;
+  test.bin = p.bin / diameter, test.depth = p.depth / diameter;
   test.sinkage = p.sinkages.at(k) / diameter, test.inertialNumber = options.inertialNumber;
   return test;
 }
@@ -289,42 +279,10 @@ void longestFirst(std::vector<const PlannedTest*>& tests) {
                    [](const PlannedTest* a, const PlannedTest* b) { return a->cost > b->cost; });
 }
 
-namespace {
-
-/// A bed of measured plates, or one of them on it.
-jobs::Table doMeasured(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
-                       const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell) {
-  const std::filesystem::path bedFolder = kept / fmt::format("{}{}", kKeptBed, test.seed);
-  if (test.kind == TestKind::plate)
-    return pushPlate(plan.grains, plan.measuredPlate(test.diameter), test.seed, folder, exec, tell, bedFolder);
-  std::filesystem::create_directories(bedFolder);
-  const PlateTest plate = plan.measuredPlate(plan.options.plates.diameters.front());
-  const BedPreparation preparation = plate.preparation(plan.grains);
-  const PreparedBed bed =
-      keptBed(plan.grains, preparation, test.seed, bedFolder, exec, [&](const std::string& phase) { tell(0, phase); });
-  const double d = plan.grains.grains.diameter(), off = PlateTest::kOffEnds * d;
-  const double surface = surfaceHeight(bed.grains, preparation.size, d);
-  jobs::Table table;
-  table.names = {"porosity [-]", "surface [m]", "grains", "bed's steps", "bed's wall time [s]"};
-  table.rows = {{1 - solidFraction(bed.grains, preparation.size, off, surface - off), surface,
-                 static_cast<double>(bed.grains.size()), static_cast<double>(bed.steps), bed.seconds}};
-  return table;
-}
-
-} // namespace
-
-void removeKeptBeds(const std::filesystem::path& kept) {
-  std::vector<std::filesystem::path> folders;
-  for (const auto& entry : std::filesystem::directory_iterator(kept))
-    if (entry.path().filename().string().rfind(kKeptBed, 0) == 0) folders.push_back(entry.path());
-  for (const std::filesystem::path& folder : folders) std::filesystem::remove_all(folder);
-}
-
 jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
                    const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell) {
   if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
-  if (test.kind == TestKind::bed || test.kind == TestKind::plate)
-    return doMeasured(plan, test, folder, kept, exec, tell);
+  if (test.kind == TestKind::plate) return pushMeasuredPlate(plan, test.diameter, test.seed, folder, exec, tell);
   if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
   tell(0, "shearing");
   return shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, kept);

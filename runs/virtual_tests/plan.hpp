@@ -18,7 +18,7 @@ namespace grouser::virtual_tests {
 /// The track that pressures and breadths are meant for: pads 0.28 m broad, 47.5 kPa in the mean.
 inline constexpr double kTrackBreadth = 0.28, kTrackPressure = 47.5e3; ///< [m], [Pa]
 
-/// Circular plates that go into one bed each, as somebody has measured them.
+/// Circular plates as somebody has measured them, in beds as scenes make them.
 struct MeasuredPlatesBed {
   std::vector<double> diameters, sinkages; ///< [m] of the plates, and how deep each goes
   double bin = 0.3, depth = 0.12;          ///< [m] side of the square bed between periodic boundaries, and its depth
@@ -53,8 +53,7 @@ enum class TestKind {
   wide,
   shear,
   repose,
-  bed,  ///< of the measured plates, kept for them
-  plate ///< one of them
+  plate ///< a circular one that has been measured
 };
 
 /// Times as many steps a contact, of a test that has ended unsoundly [-].
@@ -93,13 +92,9 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options);
 /// The longest first, of those that take as long in their order: so no process is left alone with a long one.
 void longestFirst(std::vector<const PlannedTest*>& tests);
 
-/// Does a test. `folder`: for files on the way; `kept`: where samples that are poured stay for other loads, and beds
-/// for measured plates.
+/// Does a test. `folder`: for files on the way; `kept`: where samples that are poured stay, for the other loads.
 jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
                    const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell);
-
-/// Removes the beds that measured plates have left in `kept`.
-void removeKeptBeds(const std::filesystem::path& kept);
 
 /// The curve of a shear test.
 ShearCurve shearCurve(const jobs::Table& run, double diameter);

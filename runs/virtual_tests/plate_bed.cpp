@@ -21,6 +21,7 @@ namespace grouser::virtual_tests {
 namespace {
 
 constexpr double kRoughFriction = 2;
+constexpr double kPorosity = 0.4;      // expected of a bed, for the number of its grains
 constexpr double kRestOfPlates = 1e-4; // of m g r: a tenth of the energy of a grain that goes along with a plate
 constexpr double kLiftRest = 1e-2;     // the next one falls with some thousand times that
 constexpr double kBedPatience = 6;     // [s]
@@ -69,7 +70,7 @@ std::vector<BedGrains> looseLifts(const Soil& soil, const BedPreparation& bed, c
                                   std::int64_t seed) {
   terrain::RandomBedOptions o;
   o.radii = {terrain::RadiusLaw::uniform, soil.grains.radius, soil.spread, {}, {}};
-  o.grading = bed.grading, o.depth = bed.size.depth, o.porosity = kExpectedPorosity;
+  o.grading = bed.grading, o.depth = bed.size.depth, o.porosity = kPorosity;
   o.roughFloor = bed.floor == BedFloor::fixed, o.periodic = {true, true}, o.seed = static_cast<std::uint64_t>(seed);
   std::vector<terrain::Seed> there;
   for (const BedGrain& g : floor) there.push_back({g.position, g.radius, true});

@@ -34,9 +34,6 @@ struct PreparedBed {
   double seconds = 0;     ///< of wall time
 };
 
-/// Expected of a bed, for the number of its grains: a bed of another porosity settles to another depth than asked for.
-inline constexpr double kExpectedPorosity = 0.4;
-
 /// Sections of a scene that bear a bed; its floor at about z = 0.
 std::string floorSections(const Soil& soil, const BedPreparation& bed, std::int64_t seed);
 

@@ -2,7 +2,6 @@
 #include "runs/virtual_tests/plate_test.hpp"
 
 #include "base/math.hpp"
-#include "base/table.hpp"
 #include "runs/jobs/study_place.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -66,24 +65,21 @@ double PlateTest::speed(const Soil& soil) const {
 
 BedPreparation PlateTest::preparation(const Soil& soil) const {
   BedPreparation p;
-  p.size = bed(soil), p.floor = floor, p.lattice = lattice;
-  p.lift = (lift > 0 ? lift : breadth) * soil.grains.diameter();
+  p.size = bed(soil), p.floor = floor, p.lattice = lattice, p.lift = breadth * soil.grains.diameter();
   p.grading = {fineDepth * breadth * soil.grains.diameter(), coarsening,
                0.5 * kCoarsest * std::min(p.size.width, p.size.length) / (1 + soil.spread)};
   return p;
 }
 
 jobs::Table pushPlate(const Soil& given, const PlateTest& test, std::int64_t seed, const std::filesystem::path& folder,
-                      const base::Exec& exec, const PlateProgress& tell, const std::filesystem::path& bedFolder) {
+                      const base::Exec& exec, const PlateProgress& tell) {
   Soil soil = given;
   soil.grains.young = test.young;
   const double d = soil.grains.diameter(), b = test.breadth * d, speed = test.speed(soil);
   const BedPreparation preparation = test.preparation(soil);
   const BedSize& size = preparation.size;
-  const bool isKept = !bedFolder.empty() && std::filesystem::exists(bedFolder / "bed.txt");
-  const std::filesystem::path bedFile = isKept ? std::filesystem::absolute(bedFolder) / "bed.txt" : "bed.txt";
-  const PreparedBed bed = keptBed(soil, preparation, seed, isKept ? bedFolder : folder, exec,
-                                  [&](const std::string& phase) { tell(0, phase); });
+  const PreparedBed bed =
+      keptBed(soil, preparation, seed, folder, exec, [&](const std::string& phase) { tell(0, phase); });
   const auto begin = std::chrono::steady_clock::now();
   const double surface = surfaceHeight(bed.grains, size, d), bottom = topUnder(soil, test, bed.grains) + 1e-3 * d;
   // Of the breadth below the surface, where the plate works.
@@ -93,9 +89,9 @@ jobs::Table pushPlate(const Soil& given, const PlateTest& test, std::int64_t see
   const double way = bottom - surface + test.sinkage * b;
   const std::string text =
       soil.scene(way / speed, seed, soil.grains.friction, {0, 0, -jobs::kGravity},
-                 size.run() + fmt::format("impact_speed = {:.17g}\n", std::max({kSlow, 2 * speed, soil.impactSpeed}))) +
+                 size.run() + fmt::format("impact_speed = {:.17g}\n", std::max(kSlow, 2 * speed))) +
       floorSections(soil, preparation, seed) + plateSection(soil, test, bottom, speed) +
-      fmt::format("[[grains]]\nform = \"file\"\nfile = {}\nmaterial = \"grain\"\n", base::toToml(bedFile.string()));
+      "[[grains]]\nform = \"file\"\nfile = \"bed.txt\"\nmaterial = \"grain\"\n";
   coupling::Simulation simulation(setup::simulationSetup(setup::parseScene(text, folder / "push.toml")), exec,
                                   [](double, double) {});
   const auto all = static_cast<std::int64_t>(way / speed / simulation.timeStep());

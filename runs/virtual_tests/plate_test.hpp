@@ -20,7 +20,6 @@ struct PlateTest {
   double fineDepth = 0;           ///< [breadths] down to which grains are as the soil's
   double coarsening = 0;          ///< [-] growth of the mean radius with depth below that; 0: none
   double young = 0;               ///< [Pa] above 0: Hertz' contacts
-  double lift = 0;                ///< [d] of the rain that the bed is made of; 0: the breadth
   double sinkage = 0.3;           ///< [breadths] below the bed's surface, to which the plate is pushed
   double inertialNumber = 1.8e-3; ///< [-] speed over breadth times d sqrt(density / pressure expected)
   int rows = 300;                 ///< of a table
@@ -49,9 +48,9 @@ inline const std::vector<std::string> kPlateColumns = {
 using PlateProgress = std::function<void(double done, const std::string& phase)>;
 
 /// Prepares a bed and pushes the plate into it. `folder`: for files on the way; its bed.txt is the bed, which is taken
-/// from there where an earlier call has left it, or from `bedFolder` where one is there.
+/// from there where an earlier call has left it.
 jobs::Table pushPlate(const Soil& soil, const PlateTest& test, std::int64_t seed, const std::filesystem::path& folder,
-                      const base::Exec& exec, const PlateProgress& tell, const std::filesystem::path& bedFolder = {});
+                      const base::Exec& exec, const PlateProgress& tell);
 
 /// Mean pressure [Pa] from one sinkage to another [m].
 double meanPressure(const jobs::Table& run, double area, double from, double to);
