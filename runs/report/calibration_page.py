@@ -5,14 +5,17 @@ import math
 
 import grouser
 import page as pages
+from grouser.files import read_csv
 from grouser.series import counted
 import soil_page
 import sweep_page
 from page import esc, facts, folded, number, table, with_bar
 
 #: What trials measure: (name, what stands above its column).
-MEASURED = (("phi", "phi"), ("c", "c"), ("K", "K"), ("pressure", "pressure of the small plate"))
-MEANING = {**soil_page.MEANING, "k": "k_c / b + k_phi", "b": "breadth that k is meant at",
+MEASURED = (("phi", "phi"), ("c", "c"), ("K", "K"), ("pressure", "pressure of the small plate"),
+            ("misfit", "misfit"), ("repose", "repose"), ("porosity", "porosity of the beds"), ("depth", "depth of the beds"))
+MEANING = {**soil_page.MEANING, "misfit": "root mean square of the residuals, in standard deviations of a measured test",
+           "repose": "angle of repose of a bed that is tilted", "k": "k_c / b + k_phi", "b": "breadth that k is meant at",
            "pressure": "of the small plate at the sinkage that n and k, or k_c and k_phi, give at the track's mean pressure"}
 VERDICTS = {"reached": "reached", "not reached": "not reached: the nearest that was", "not sought": "not sought, follows"}
 
@@ -139,6 +142,29 @@ def search_plots(made, found, program):
            f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
+def measured_plates(made, found):
+    """Pressure over sinkage of every plate with what was found: a curve a bed, and the measured tests."""
+    final = found.folder / "final"
+    if found.status != "finished" or not (final / "curves.csv").is_file():
+        return ""
+    curves, points, plots = read_csv(final / "curves.csv"), read_csv(final / "points.csv"), []
+    for diameter in sorted({row["diameter [m]"] for row in points}, key=float):
+        lines, means = {}, {}
+        for row in curves:
+            if row["diameter [m]"] == diameter:
+                lines.setdefault(row["seed"], []).append((1e3 * float(row["sinkage [m]"]), 1e-3 * float(row["pressure [Pa]"])))
+        for row in points:
+            if row["diameter [m]"] == diameter:
+                means[1e3 * float(row["sinkage [m]"])] = (1e-3 * float(row["measured mean [Pa]"]),
+                                                          1e-3 * float(row["measured deviation [Pa]"]))
+        drawn = [(f"bed {seed}", *map(list, zip(*line))) for seed, line in lines.items()]
+        drawn.append(("measured", list(means), [m for m, _ in means.values()], [d for _, d in means.values()]))
+        plots.append(made.plot(f"Plate of {1e3 * float(diameter):g} mm", "sinkage [mm]", "pressure [kPa]", drawn,
+                               "Measured: mean of the tests, bars of one standard deviation of a test.", marks=["measured"],
+                               whole=True))
+    return f'<div class="plots">{"".join(plots)}</div>'
+
+
 def soil_file(found):
     file = found.soil_file
     if file is None or not file.is_file():
@@ -158,6 +184,8 @@ def page(folder, options):
     if len(found):
         made.section("trials", "Trials", trials_table(found, options.program))
         made.section("search", "How the search went", search_plots(made, found, options.program))
+    if plates := measured_plates(made, found):
+        made.section("plates", "Measured plates", plates)
     made.section("soil", "The soil that was found", soil_file(found))
     j = found.json
     provenance = [("command", f"<code>{esc(j.get('command', ''))}</code>"),

@@ -130,9 +130,10 @@ void CalibrationRecord::shear(const std::string& name, const TestedSoil& soil,
 
 void CalibrationRecord::curves(const std::string& name, const SoilInBed& bed, const std::vector<CurvePoint>& points,
                                const std::map<Quantity, support::Estimate>& measured, double porosity, double misfit) {
-  Json values{{"misfit", {{"value", misfit}, {"unit", "-"}}},
-              {"porosity", {{"value", porosity}, {"unit", "-"}}},
-              {"depth", {{"value", bed.depth}, {"unit", "m"}}}};
+  const auto exact = [](double value, const char* unit) {
+    return Json{{"value", value}, {"half_width", nullptr}, {"unit", unit}};
+  };
+  Json values{{"misfit", exact(misfit, "-")}, {"porosity", exact(porosity, "-")}, {"depth", exact(bed.depth, "m")}};
   for (const CurvePoint& p : points)
     values[p.name()] = estimateJson({1e-3 * p.simulated.value, 1e-3 * p.simulated.halfWidth}, "kPa");
   if (const auto found = measured.find(Quantity::repose); found != measured.end())

@@ -4,6 +4,7 @@
 #include "runs/jobs/estimate.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/text_file.hpp"
+#include "runs/virtual_tests/soil_report.hpp"
 
 #include <fmt/format.h>
 
@@ -96,6 +97,7 @@ void CurveCalibration::finish() {
   std::filesystem::path tables;
   const Trial trial = tried("final", [&](const TestPlan& plan, const jobs::Pieces& pieces) {
     tables = pieces.folder();
+    reportSoil(plan, pieces, 0);
     support::writeTextFile(tables / "curves.csv", curvesCsv(plan, pieces), "--out");
   });
   const std::vector<TargetOutcome> found = outcomes(trial);

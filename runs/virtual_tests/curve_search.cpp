@@ -18,10 +18,11 @@ using Eigen::VectorXd;
 
 // All lengths in shares of the ranges.
 constexpr double kFirstStep = 0.15, kMostStep = 0.25;
-constexpr double kNear = 0.25;       // a trial so far from the best one counts half
-constexpr double kSame = 0.01;       // nearer than that nothing new is learnt
-constexpr double kRidge = 1e-3;      // keeps slopes of parameters that were hardly varied finite
-constexpr double kWorthwhile = 0.02; // of the sum of squares that a step is expected to save
+constexpr double kNear = 0.25;  // a trial so far from the best one counts half
+constexpr double kSame = 0.01;  // nearer than that nothing new is learnt
+constexpr double kRidge = 1e-3; // keeps slopes of parameters that were hardly varied finite
+constexpr double kWorthwhile = 1,
+                 kShareWorthwhile = 1e-3; // of the sum of squares, that a step is to save; a share of it
 constexpr double kLeastDamping = 1e-6, kMoreDamping = 2;
 
 /// residuals = intercept + slopes * (x - x of the best trial).
@@ -127,7 +128,7 @@ std::vector<double> CurveSearch::stepFrom(const Trial& best) const {
   VectorXd step = boundedStep(model, at, damping);
   while (step.lpNorm<Eigen::Infinity>() > kMostStep) step = boundedStep(model, at, damping *= kMoreDamping);
   const double now = squares(model.intercept), then = squares(model.intercept + model.slopes * step);
-  if (now - then < kWorthwhile * now) return {};
+  if (now - then < kWorthwhile + kShareWorthwhile * now) return {};
   const VectorXd to = at + step;
   return {to.data(), to.data() + to.size()};
 }

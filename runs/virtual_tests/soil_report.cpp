@@ -55,7 +55,7 @@ std::string row(const std::string& name, const Estimate& e, const std::string& u
   return fmt::format("  {:<8} {:>20} {:<11} {}\n", name, jobs::valueText(e), unit, rest);
 }
 
-bool isPlate(TestKind kind) { return kind != TestKind::shear && kind != TestKind::repose; }
+bool isPlate(TestKind kind) { return kind == TestKind::small || kind == TestKind::large || kind == TestKind::wide; }
 
 /// A layer that slides along the teeth tells what these hold, not what it bears itself.
 std::string slipText(const SoilResults& r) {
@@ -228,6 +228,7 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
   json["missing_tests"] = missing;
   json["tests_with_shorter_steps"] = nlohmann::ordered_json::array();
   for (const NotedTest& test : shorterSteps) json["tests_with_shorter_steps"].push_back(test.name);
+  json["constants"] = nlohmann::ordered_json::object();
   for (const auto& [q, e] : r.measured) {
     nlohmann::ordered_json one = estimateJson(e, unitOf(q));
     const std::string doubt = doubtOf(q, e);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -101,6 +102,44 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   const Outcome other = call(words + " --resume --grain-radius 0.012");
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
+}
+
+/// Measured plates as targets: trials, tables, a soil's file, and nothing done twice.
+TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
+  put(folder_ / "plates.csv", "trial,plate_diameter_mm,sinkage_mm,pressure_kPa\n1,100,0,0\n1,100,20,20\n"
+                              "2,100,0,0\n2,100,20,24\n");
+  put(folder_ / "sand.toml",
+      "version = 1\n[plates]\nfile = \"plates.csv\"\nsinkages = [0.005, 0.01]\nbin = 0.2\ndepth = 0.1\n[search]\n"
+      "stiffness = [2e3, 2e5]\ntrials = 3\n[start]\nstiffness = 2e4\nrestitution = 0.3\nfriction = 0.5\n[bed]\n"
+      "grain_radius = 0.01\n");
+  const std::string words = std::string("soil --calibrate sand.toml --out found --seeds 2 --inertial-number 0.03 "
+                                        "--quick --threads 1 --device cpu") +
+                            kLongSteps;
+  const Outcome o = call(words + " --jobs 2");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  const auto record = nlohmann::json::parse(contents(folder_ / "found" / "calibration.json"));
+  EXPECT_EQ(record.at("status"), "finished");
+  const auto& trials = record.at("trials");
+  ASSERT_GE(trials.size(), 2u);
+  EXPECT_EQ(trials.at(0).at("kind"), "curves");
+  EXPECT_NE(trials.at(0).at("parameters").at("stiffness"), trials.at(1).at("parameters").at("stiffness"));
+  double least = 1e9;
+  for (const auto& trial : trials) least = std::min(least, trial.at("measured").at("misfit").at("value").get<double>());
+  const double softer = trials.at(0).at("measured").at("100 mm at 10 mm").at("value").get<double>();
+  const double stiffer = trials.at(1).at("measured").at("100 mm at 10 mm").at("value").get<double>();
+  EXPECT_GT(stiffer, softer);
+  const std::string points = contents(folder_ / "found" / "final" / "points.csv");
+  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 5) << "two tests at two sinkages\n" << points;
+  EXPECT_NE(contents(folder_ / "found" / "calibration.txt").find("plate of 100 mm at 5 mm"), std::string::npos);
+  EXPECT_NE(contents(folder_ / "found" / "sand.toml").find("on beds 0.1 m deep"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "found" / "curves.png"));
+  const std::string seed = "runs/coarse_plate100mm_seed1.csv";
+  EXPECT_EQ(call(words + " --resume").code, 0);
+  const auto again = nlohmann::json::parse(contents(folder_ / "found" / "calibration.json"));
+  EXPECT_EQ(again.at("trials"), trials);
+  EXPECT_FALSE(contents(folder_ / "found" / "final" / seed).empty());
+  const Outcome page = call("report found");
+  EXPECT_EQ(page.code, 0) << page.errors;
 }
 
 /// What a search has tried stands in calibration.json as soon as a trial is whole, and a call that goes on tells the
