@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace grouser::virtual_tests {
@@ -174,13 +173,6 @@ std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted,
   const double x = std::clamp(from.x + (wanted - from.y) / slopeNear(trials, from, slope), low, high);
   if (std::fabs(x - from.x) < same) return {};
   return x;
-}
-
-double fourDigits(double value) {
-  const std::string text = fmt::format("{:.3e}", value);
-  double rounded = value;
-  std::from_chars(text.data(), text.data() + text.size(), rounded);
-  return rounded;
 }
 
 Trial nearestTrial(const std::vector<Trial>& trials, double wanted) {

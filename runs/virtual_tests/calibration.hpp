@@ -45,8 +45,6 @@ struct Trial {
 /// to the trial next to it, at first by `slope`, about which it stays.
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope);
-/// To four significant digits, as people read them in a soil's file: far nearer than trials scatter.
-double fourDigits(double value);
 /// The trial whose y is nearest.
 Trial nearestTrial(const std::vector<Trial>& trials, double wanted);
 

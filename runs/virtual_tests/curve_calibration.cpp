@@ -31,7 +31,7 @@ void CurveCalibration::run() {
   for (const SearchRange& range : curves_.ranges) start.push_back(parameterOf(bed_, range.key));
   CurveSearch search(curves_.ranges, start, curves_.mostTrials);
   for (bool goesOn = true; goesOn;) {
-    take(search.at());
+    setParameters(bed_, curves_, search.at());
     const std::string name = fmt::format("curves_{}", search.trials().size() + 1);
     const Trial trial = tried(name);
     goesOn = search.tried(curveResiduals(trial.points, reposeOf(trial), curves_));
@@ -39,7 +39,7 @@ void CurveCalibration::run() {
     record_.curves(name, bed_, trial.points, trial.results.measured, trial.porosity, misfit);
     tell(name, trial, misfit);
   }
-  take(search.trials()[search.nearest()].values);
+  setParameters(bed_, curves_, search.trials()[search.nearest()].values);
   finish();
 }
 
@@ -56,12 +56,6 @@ CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const C
                    if (look) look(plan, pieces);
                  });
   return trial;
-}
-
-void CurveCalibration::take(const std::vector<double>& values) {
-  for (std::size_t k = 0; k < values.size(); ++k) setParameter(bed_, curves_.ranges[k].key, values[k]);
-  if (curves_.bulkDensity && bed_.soil.porosity)
-    setNumber(bed_.soil, "density", fourDigits(*curves_.bulkDensity / (1 - *bed_.soil.porosity)));
 }
 
 std::optional<double> CurveCalibration::reposeOf(const Trial& trial) const {

@@ -26,7 +26,6 @@ private:
   };
   /// With the soil and the depth as they are.
   Trial tried(const std::string& name, const CalibrationTrials::Look& look = {});
-  void take(const std::vector<double>& values);
   void tell(const std::string& name, const Trial& trial, double misfit) const;
   void finish();
   std::optional<double> reposeOf(const Trial& trial) const;

@@ -2,11 +2,12 @@
 #include "runs/virtual_tests/curve_search.hpp"
 
 #include "base/math.hpp"
-#include "runs/virtual_tests/calibration.hpp"
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace grouser::virtual_tests {
@@ -86,6 +87,13 @@ VectorXd boundedStep(const LinearModel& model, const VectorXd& at, double dampin
 double squares(const VectorXd& v) { return v.squaredNorm(); }
 
 } // namespace
+
+double fourDigits(double value) {
+  const std::string text = fmt::format("{:.3e}", value);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
 
 double CurveSearch::Trial::misfit() const {
   double sum = 0;

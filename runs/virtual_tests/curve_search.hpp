@@ -8,6 +8,9 @@
 /// Least squares over a few trials that are dear and scatter.
 namespace grouser::virtual_tests {
 
+/// To four significant digits, as people read them in a soil's file: far nearer than trials scatter.
+double fourDigits(double value);
+
 /// A parameter that is sought, and where.
 struct SearchRange {
   std::string key; ///< "friction", "porosity"

@@ -128,6 +128,12 @@ void setParameter(SoilInBed& bed, const std::string& key, double value) {
     setNumber(bed.soil, key, value);
 }
 
+void setParameters(SoilInBed& bed, const CurveTargets& targets, const std::vector<double>& values) {
+  for (std::size_t k = 0; k < values.size(); ++k) setParameter(bed, targets.ranges[k].key, values[k]);
+  if (targets.bulkDensity && bed.soil.porosity)
+    setNumber(bed.soil, "density", fourDigits(*targets.bulkDensity / (1 - *bed.soil.porosity)));
+}
+
 double parameterOf(const SoilInBed& bed, const std::string& key) {
   if (key == "porosity") return bed.soil.porosity.value_or(base::kNaN);
   if (key == "depth") return bed.depth;

@@ -40,6 +40,8 @@ struct SoilInBed {
 };
 /// Gives a parameter of the search its value: a key of the material, porosity, or depth.
 void setParameter(SoilInBed& bed, const std::string& key, double value);
+/// Those of a trial, in the order of the ranges, and the density that follows from them.
+void setParameters(SoilInBed& bed, const CurveTargets& targets, const std::vector<double>& values);
 /// The value it has; NaN where it has none.
 double parameterOf(const SoilInBed& bed, const std::string& key);
 

@@ -24,33 +24,30 @@ constexpr double kTall = 2;     // heights of a plate over its sinkage, so that 
 constexpr double kSettlingShare = 0.5; // of a run's time, about
 
 /// The scene that a user would write.
-std::string sceneText(const TestPlan& plan, double diameter, std::int64_t seed) {
-  const MeasuredPlatesBed& bed = plan.options.plates;
-  const Soil& soil = plan.grains;
-  const PlateTest plate = plan.measuredPlate(diameter);
-  const double d = soil.grains.diameter(), speed = plate.speed(soil), tall = kTall * plate.sinkage * diameter;
-  const double way = plate.sinkage * diameter + kHighest * d;
+std::string sceneText(const Soil& soil, const MeasuredPlateTest& test, std::int64_t seed) {
+  const double d = soil.grains.diameter(), speed = test.speed(soil), tall = kTall * test.sinkage;
+  const double way = test.sinkage + kHighest * d;
   std::string text = soil.scene(
       way / speed, seed, soil.grains.friction, {0, 0, -jobs::kGravity},
       fmt::format("periodic = [true, true]\nimpact_speed = {:.17g}\n", std::max({kSlow, 2 * speed, soil.impactSpeed})));
   text += fmt::format("[terrain]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [0, 0]\nsize = [{0:.17g}, "
                       "{0:.17g}]\nmaterial = \"grain\"\ngrain_radius = {1:.17g}\ndepth = {2:.17g}\nwalls = false\n",
-                      bed.bin, soil.grains.radius, bed.depth);
+                      test.bin, soil.grains.radius, test.depth);
   text += soil.spread > 0 ? fmt::format("radius_spread = {:.17g}\n", soil.spread)
                           : std::string("radius_distribution = \"single\"\n");
-  if (plan.soil.porosity) text += fmt::format("porosity = {:.17g}\n", *plan.soil.porosity);
+  if (test.porosity) text += fmt::format("porosity = {:.17g}\n", *test.porosity);
   return text + fmt::format("[[cylinder]]\nname = \"plate\"\nmaterial = \"grain\"\nposition = [{:.17g}, 0, 0]\n"
                             "above_bed = {:.17g}\naxis = [0, 0, 1]\nradius = {:.17g}\nlength = {:.17g}\nvelocity = [0, "
                             "0, {:.17g}]\n",
-                            0.5 * bed.bin, kAbove * d, 0.5 * diameter, tall, -speed);
+                            0.5 * test.bin, kAbove * d, 0.5 * test.diameter, tall, -speed);
 }
 
 /// The plate of a running test.
 class Plate {
 public:
-  Plate(coupling::Simulation& simulation, const PlateTest& test, double diameter)
-      : simulation_(simulation), area_(0.25 * base::kPi * diameter * diameter),
-        halfLength_(0.5 * kTall * test.sinkage * diameter) {
+  Plate(coupling::Simulation& simulation, const MeasuredPlateTest& test)
+      : simulation_(simulation), area_(0.25 * base::kPi * test.diameter * test.diameter),
+        halfLength_(0.5 * kTall * test.sinkage) {
     for (std::size_t i = 0; i < simulation.surfaces()->count(); ++i)
       if (simulation.surfaces()->surface(i).name == "plate") index_ = i;
   }
@@ -70,31 +67,36 @@ private:
 };
 
 /// Porosity off the floor and the surface, by two mean diameters [-].
-double porosityOf(const coupling::Simulation& simulation, const TestPlan& plan) {
-  const MeasuredPlatesBed& bed = plan.options.plates;
-  const BedSize size{bed.bin, bed.bin, bed.depth};
-  const double off = PlateTest::kOffEnds * plan.grains.grains.diameter();
-  return 1 - solidFraction(grainsOf(simulation, size), size, -bed.depth + off, simulation.settled().meanHeight - off);
+double porosityOf(const coupling::Simulation& simulation, const Soil& soil, const MeasuredPlateTest& test) {
+  const BedSize size{test.bin, test.bin, test.depth};
+  const double off = PlateTest::kOffEnds * soil.grains.diameter();
+  return 1 - solidFraction(grainsOf(simulation, size), size, -test.depth + off, simulation.settled().meanHeight - off);
 }
 
 } // namespace
 
-jobs::Table pushMeasuredPlate(const TestPlan& plan, double diameter, std::int64_t seed,
+double MeasuredPlateTest::speed(const Soil& soil) const {
+  PlateTest plate;
+  plate.shape = PlateShape::circular, plate.breadth = diameter / soil.grains.diameter();
+  plate.sinkage = sinkage / diameter, plate.inertialNumber = inertialNumber;
+  return plate.speed(soil);
+}
+
+jobs::Table pushMeasuredPlate(const Soil& soil, const MeasuredPlateTest& test, std::int64_t seed,
                               const std::filesystem::path& folder, const base::Exec& exec, const PlateProgress& tell) {
-  const PlateTest test = plan.measuredPlate(diameter);
   std::optional<storage::BedCache> beds = storage::BedCache::ofUser();
   coupling::Simulation simulation(
-      setup::simulationSetup(setup::parseScene(sceneText(plan, diameter, seed), folder / "push.toml")), exec,
+      setup::simulationSetup(setup::parseScene(sceneText(soil, test, seed), folder / "push.toml")), exec,
       [&](double, double) {
         jobs::stopStudyIfAsked();
         tell(0, "settling the bed");
       },
       {}, beds ? &*beds : nullptr);
   const auto begin = std::chrono::steady_clock::now();
-  const double porosity = porosityOf(simulation, plan), deepest = test.sinkage * diameter;
+  const double porosity = porosityOf(simulation, soil, test), deepest = test.sinkage;
   const auto grains = static_cast<double>(simulation.ground().grains->count());
-  const Plate plate(simulation, test, diameter);
-  const double speed = test.speed(plan.grains), from = plate.sinkage();
+  const Plate plate(simulation, test);
+  const double speed = test.speed(soil), from = plate.sinkage();
   const auto rowSteps =
       std::max<std::int64_t>(1, std::llround((deepest - from) / speed / kPlateRows / simulation.timeStep()));
   jobs::Table table;
@@ -107,8 +109,7 @@ jobs::Table pushMeasuredPlate(const TestPlan& plan, double diameter, std::int64_
     }
     const double now = plate.sinkage();
     table.rows.push_back({0.5 * (before + now), plate.meanPressure(), porosity,
-                          simulation.settled().meanHeight + plan.options.plates.depth, grains,
-                          simulation.settled().friction});
+                          simulation.settled().meanHeight + test.depth, grains, simulation.settled().friction});
     simulation.restartMeans();
     tell(kSettlingShare + (1 - kSettlingShare) * std::min(1.0, (now - from) / (deepest - from)), "pushing");
   }

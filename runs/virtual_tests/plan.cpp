@@ -5,7 +5,6 @@
 #include "base/free_memory.hpp"
 #include "base/math.hpp"
 #include "base/sphere.hpp"
-#include "runs/virtual_tests/measured_plate.hpp"
 
 #include <fmt/format.h>
 
@@ -76,9 +75,9 @@ double reposeCost(const Soil& soil, const ReposeTest& test) {
 }
 
 double measuredPlateCost(const TestPlan& plan, double diameter) {
-  const MeasuredPlatesBed& p = plan.options.plates;
-  const PlateTest test = plan.measuredPlate(diameter);
-  return p.bin * p.bin * p.depth / plan.grains.meanVolume() * test.sinkage * diameter / test.speed(plan.grains);
+  const MeasuredPlateTest test = plan.measuredPlate(diameter);
+  return test.bin * test.bin * test.depth / plan.grains.meanVolume() *
+         (kLiftFall + test.sinkage / test.speed(plan.grains));
 }
 
 void addMeasuredPlates(TestPlan& plan) {
@@ -187,16 +186,11 @@ const PlateSinkage& TestPlan::plate(TestKind kind) const {
   return kind == TestKind::large ? large : kind == TestKind::wide ? wide : small;
 }
 
-PlateTest TestPlan::measuredPlate(double diameter) const {
+MeasuredPlateTest TestPlan::measuredPlate(double diameter) const {
   const MeasuredPlatesBed& p = options.plates;
   const auto k =
       static_cast<std::size_t>(std::find(p.diameters.begin(), p.diameters.end(), diameter) - p.diameters.begin());
-  PlateTest test;
-  test.shape = PlateShape::circular;
-  test.breadth = diameter / grains.grains.diameter();
-  test.bin = p.bin / diameter, test.depth = p.depth / diameter;
-  test.sinkage = p.sinkages.at(k) / diameter, test.inertialNumber = options.inertialNumber;
-  return test;
+  return {diameter, p.sinkages.at(k), p.bin, p.depth, options.inertialNumber, soil.porosity};
 }
 
 double TestPlan::breadth(TestKind kind) const { return plate(kind).strip.breadth * grains.grains.diameter(); }
@@ -282,7 +276,8 @@ void longestFirst(std::vector<const PlannedTest*>& tests) {
 jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
                    const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell) {
   if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
-  if (test.kind == TestKind::plate) return pushMeasuredPlate(plan, test.diameter, test.seed, folder, exec, tell);
+  if (test.kind == TestKind::plate)
+    return pushMeasuredPlate(plan.grains, plan.measuredPlate(test.diameter), test.seed, folder, exec, tell);
   if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
   tell(0, "shearing");
   return shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, kept);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/virtual_tests/measured_plate.hpp"
 #include "runs/virtual_tests/plate_sinkage.hpp"
 #include "runs/virtual_tests/repose.hpp"
 #include "runs/virtual_tests/shear_cell.hpp"
@@ -79,8 +80,8 @@ struct TestPlan {
   std::vector<PlannedTest> tests; ///< seed by seed
 
   const PlateSinkage& plate(TestKind kind) const;
-  PlateTest measuredPlate(double diameter) const; ///< [m]
-  double breadth(TestKind kind) const;            ///< [m]
+  MeasuredPlateTest measuredPlate(double diameter) const; ///< [m]
+  double breadth(TestKind kind) const;                    ///< [m]
   /// All that the tests depend on.
   nlohmann::ordered_json recipe() const;
   std::string care() const { return options.coarse ? "coarse" : "full"; }

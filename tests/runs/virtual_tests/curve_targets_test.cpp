@@ -114,6 +114,11 @@ TEST(CurveParameters, AreOfMaterialBedAndPlates) {
   EXPECT_EQ(bed.soil.friction, 0.4);
   EXPECT_EQ(parameterOf(bed, "rolling_friction"), 0);
   EXPECT_TRUE(std::isnan(parameterOf(bed, "stiffness")));
+  CurveTargets targets;
+  targets.ranges = {{"young", 1e6, 1e9, true}, {"porosity", 0.4, 0.5, false}}, targets.bulkDensity = 1500;
+  setParameters(bed, targets, {2e8, 0.4});
+  EXPECT_EQ(parameterOf(bed, "young"), 2e8);
+  EXPECT_EQ(bed.soil.density, 2500) << "of the solid, which is 0.6 of the bed";
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 
@@ -109,8 +110,9 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   put(folder_ / "plates.csv", "trial,plate_diameter_mm,sinkage_mm,pressure_kPa\n1,100,0,0\n1,100,20,20\n"
                               "2,100,0,0\n2,100,20,24\n");
   put(folder_ / "sand.toml",
-      "version = 1\n[plates]\nfile = \"plates.csv\"\nsinkages = [0.005, 0.01]\nbin = 0.2\ndepth = 0.1\n[search]\n"
-      "stiffness = [2e3, 2e5]\ntrials = 3\n[start]\nstiffness = 2e4\nrestitution = 0.3\nfriction = 0.5\n[bed]\n"
+      "version = 1\n[plates]\nfile = \"plates.csv\"\nsinkages = [0.005, 0.01]\n"
+      "bin = 0.2\ndepth = 0.1\n[search]\nstiffness = [5e2, 5e5]\ndepth = [0.06, 0.11]\ntrials = 3\n[start]\nstiffness "
+      "= 2e3\nrestitution = 0.3\nfriction = 0.5\n[bed]\n"
       "grain_radius = 0.01\n");
   const std::string words = std::string("soil --calibrate sand.toml --out found --seeds 2 --inertial-number 0.03 "
                                         "--quick --threads 1 --device cpu") +
@@ -123,15 +125,21 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   ASSERT_GE(trials.size(), 2u);
   EXPECT_EQ(trials.at(0).at("kind"), "curves");
   EXPECT_NE(trials.at(0).at("parameters").at("stiffness"), trials.at(1).at("parameters").at("stiffness"));
-  double least = 1e9;
-  for (const auto& trial : trials) least = std::min(least, trial.at("measured").at("misfit").at("value").get<double>());
-  const double softer = trials.at(0).at("measured").at("100 mm at 10 mm").at("value").get<double>();
-  const double stiffer = trials.at(1).at("measured").at("100 mm at 10 mm").at("value").get<double>();
-  EXPECT_GT(stiffer, softer);
+  const auto pressure = [&](int trial) {
+    return trials.at(trial).at("measured").at("100 mm at 10 mm").at("value").get<double>();
+  };
+  EXPECT_GT(pressure(1), pressure(0)) << "stiffer";
+  EXPECT_EQ(trials.at(2).at("parameters"), trials.at(0).at("parameters"));
+  EXPECT_NE(pressure(2), pressure(0)) << "on a bed of another depth, which is not the former trial's";
   const std::string points = contents(folder_ / "found" / "final" / "points.csv");
   EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 5) << "two tests at two sinkages\n" << points;
   EXPECT_NE(contents(folder_ / "found" / "calibration.txt").find("plate of 100 mm at 5 mm"), std::string::npos);
-  EXPECT_NE(contents(folder_ / "found" / "sand.toml").find("on beds 0.1 m deep"), std::string::npos);
+  EXPECT_NE(contents(folder_ / "found" / "sand.toml").find("m deep"), std::string::npos);
+  double sinkage = 0, pressed = 0;
+  const std::string curves = contents(folder_ / "found" / "final" / "curves.csv");
+  ASSERT_EQ(std::sscanf(curves.c_str() + curves.find('\n') + 1, "coarse,0.1,1,%lf,%lf", &sinkage, &pressed), 2);
+  EXPECT_TRUE(sinkage < -1e-3 && sinkage > -0.04) << sinkage << ": the plate starts at the highest grain";
+  EXPECT_LT(pressed, 1000);
   EXPECT_TRUE(fs::exists(folder_ / "found" / "curves.png"));
   const std::string seed = "runs/coarse_plate100mm_seed1.csv";
   EXPECT_EQ(call(words + " --resume").code, 0);
