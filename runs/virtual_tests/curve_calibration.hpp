@@ -10,7 +10,7 @@ class CurveCalibration {
 public:
   CurveCalibration(const CalibrationCommand& command, const CalibrationTargets& targets, std::filesystem::path folder,
                    CalibrationRecord& record)
-      : command_(command), targets_(targets), curves_(*targets.curves),
+      : command_(command), curves_(*targets.curves),
         folder_(std::move(folder)), bed_{targets.start, targets.curves->depth}, record_(record),
         trials_(command, folder_, record) {}
 
@@ -32,7 +32,6 @@ private:
   std::vector<TargetOutcome> outcomes(const Trial& trial) const;
 
   const CalibrationCommand& command_;
-  const CalibrationTargets& targets_;
   const CurveTargets& curves_;
   std::filesystem::path folder_;
   SoilInBed bed_;
