@@ -159,7 +159,7 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
     std::filesystem::remove_all(runs / test.name), std::filesystem::remove_all(runs / (test.name + kAgain));
     std::filesystem::remove(unsound);
   };
-  // One test alone has a process of its own too, as long as others may follow: see prepare().
+  // A single test also runs in a child process: no process can be forked after CUDA has started in this one.
   jobs::shareWork(jobs > 1 ? std::clamp(static_cast<int>(due.size()), 2, jobs) : 1, due.size(), work,
                   [&] { progress.update(share(there()), jobs > 1 ? "several tests at a time" : "a test has ended"); });
   int missing = 0;

@@ -57,20 +57,17 @@ base::Table<ToleranceKeys> toleranceTable() {
   return t;
 }
 
-/// Measured curves stand alone: what a bevameter's constants want is another search.
+/// Measured curves and soil constants are mutually exclusive targets.
 void checkBesidePlates(const base::Section& section, const TargetKeys& k, bool hasPlates) {
   const std::pair<const char*, const std::optional<double>*> constants[] = {
       {"n", &k.n}, {"k_c", &k.kc},  {"k_phi", &k.kphi},    {"k", &k.k},
       {"c", &k.c}, {"phi", &k.phi}, {"K", &k.shearModulus}};
   for (const auto& [key, value] : constants)
     if (hasPlates && *value)
-      section.fail(key,
-                   "stands beside [plates]; remove it, or [plates] and [search]: constants and measured curves are "
-                   "sought by searches of their own");
-  if (!hasPlates && k.repose)
-    section.fail("repose", "is sought with [plates] only; add that section, or remove the key");
+      section.fail(key, "is mutually exclusive with [plates]; remove it, or remove [plates] and [search]");
+  if (!hasPlates && k.repose) section.fail("repose", "requires [plates]; add that section, or remove the key");
   if (!hasPlates && k.bulkDensity)
-    section.fail("bulk_density", "is used with [plates] only; give density in [start] instead");
+    section.fail("bulk_density", "requires [plates]; add that section, or give density in [start]");
 }
 
 void checkTogether(const base::Section& section, const TargetKeys& k) {
@@ -106,7 +103,7 @@ CalibrationTargets withCurves(const base::Section& root, const std::filesystem::
   t.curves->repose = keys.repose, t.curves->reposeTolerance = within.repose;
   t.curves->bulkDensity = keys.bulkDensity;
   if (keys.bulkDensity && !t.start.porosity)
-    root.section("targets").fail("bulk_density", "needs bed.porosity; the density of the solid follows from both");
+    root.section("targets").fail("bulk_density", "requires bed.porosity, which sets the density of the solid with it");
   return t;
 }
 
@@ -125,8 +122,7 @@ CalibrationTargets readTargets(const std::filesystem::path& file, double grainRa
   const TargetKeys keys = section.read(targetTable());
   checkBesidePlates(section, keys, hasPlates);
   if (hasPlates) return withCurves(root, file, grainRadius, keys, within);
-  if (root.has("search"))
-    root.section("search").fail("", "is used with [plates] only; add that section, or remove this");
+  if (root.has("search")) root.section("search").fail("", "requires [plates]; add that section, or remove this one");
   checkTogether(section, keys);
   const auto take = [&](Quantity quantity, const std::optional<double>& value) {
     if (value) t.wanted[quantity] = *value;

@@ -13,7 +13,7 @@
 /// The trials of a calibration: tests of one soil each, in a folder of their own.
 namespace grouser::virtual_tests {
 
-/// Time is up before all tests of a trial are there.
+/// The time limit ends a call before all tests of a trial are done.
 struct Unfinished {
   std::string trial;
   int missing;
@@ -27,8 +27,8 @@ public:
   CalibrationTrials(const CalibrationCommand& command, std::filesystem::path folder, CalibrationRecord& record)
       : command_(command), folder_(std::move(folder)), record_(record) {}
 
-  /// Does the wanted tests of a soil in the folder `name`; those that a former trial has done of the very same soil are
-  /// taken from there. `look` sees them all. Throws Unfinished, or base::SimulationError where a test ends unsoundly.
+  /// Runs the wanted tests of a soil in the folder `name`, and reuses those of an earlier trial of the same soil. Calls
+  /// `look` when all are done. Throws Unfinished, or base::SimulationError if a test fails.
   TestPlan tested(const TestedSoil& soil, const std::string& name, const PlanOptions& options, const Wanted& wanted,
                   SoilResults& results, const Look& look = {});
 
@@ -45,7 +45,7 @@ private:
   const CalibrationCommand& command_;
   std::filesystem::path folder_;
   CalibrationRecord& record_;
-  std::vector<Done> done_; ///< trials that are whole
+  std::vector<Done> done_; ///< finished trials
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

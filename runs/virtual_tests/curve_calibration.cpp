@@ -14,7 +14,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kWithin = 2; // standard deviations of a measured test in which a pressure counts as reached
+constexpr double kWithin = 2; // a pressure is reached within so many standard deviations of a measured test
 
 double meanPorosity(const TestPlan& plan, const jobs::Pieces& pieces) {
   std::vector<double> porosities;

@@ -14,8 +14,8 @@ public:
         folder_(std::move(folder)), bed_{targets.start, targets.curves->depth}, record_(record),
         trials_(command, folder_, record) {}
 
-  /// Searches, does the tests of what was found once more in the folder `final`, and writes its tables, a picture and
-  /// the soil's file. Throws Unfinished where time is up.
+  /// Searches, collects the tests of the best trial in the folder `final`, and writes its tables, a picture and the
+  /// soil file. Throws Unfinished at the time limit.
   void run();
 
 private:
@@ -24,7 +24,7 @@ private:
     SoilResults results;
     double porosity = 0; ///< mean over the beds [-]
   };
-  /// With the soil and the depth as they are.
+  /// Evaluates the present soil and depth.
   Trial tried(const std::string& name, const CalibrationTrials::Look& look = {});
   void tell(const std::string& name, const Trial& trial, double misfit) const;
   void finish();

@@ -17,14 +17,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// All lengths in shares of the ranges.
+// Lengths are fractions of the ranges.
 constexpr double kFirstStep = 0.15, kMostStep = 0.25;
-constexpr double kNear = 0.25;  // a trial so far from the best one counts half
-constexpr double kSame = 0.01;  // nearer than that nothing new is learnt
-constexpr double kRidge = 1e-3; // keeps slopes of parameters that were hardly varied finite
-constexpr double kWorthwhile = 1,
-                 kShareWorthwhile = 1e-3; // of the sum of squares, that a step is to save; a share of it
+constexpr double kNear = 0.25;  // distance from the best trial at which the weight of a trial is one half
+constexpr double kSame = 0.01;  // trials closer than this repeat each other
+constexpr double kRidge = 1e-3; // bounds the slopes of parameters that have hardly varied
 constexpr double kLeastDamping = 1e-6, kMoreDamping = 2;
+constexpr double kLeastSaving = 1;        // a step must reduce the sum of squares by this much,
+constexpr double kLeastShareSaved = 1e-3; // plus this fraction of it
 
 /// residuals = intercept + slopes * (x - x of the best trial).
 struct LinearModel {
@@ -54,8 +54,8 @@ LinearModel fitModel(const std::vector<CurveSearch::Trial>& trials, const CurveS
   return {solved.row(0).transpose(), solved.bottomRows(k).transpose()};
 }
 
-/// Minimises |intercept + slopes s|^2 + damping |s|^2 with at + s in [0, 1]: what a bound stops is held there, and the
-/// others are sought anew.
+/// Minimises |intercept + slopes s|^2 + damping |s|^2 with at + s in [0, 1]. Parameters that reach a bound are fixed
+/// there, and the rest is solved again.
 VectorXd boundedStep(const LinearModel& model, const VectorXd& at, double damping) {
   const Eigen::Index k = at.size();
   VectorXd step = VectorXd::Zero(k);
@@ -136,7 +136,7 @@ std::vector<double> CurveSearch::stepFrom(const Trial& best) const {
   VectorXd step = boundedStep(model, at, damping);
   while (step.lpNorm<Eigen::Infinity>() > kMostStep) step = boundedStep(model, at, damping *= kMoreDamping);
   const double now = squares(model.intercept), then = squares(model.intercept + model.slopes * step);
-  if (now - then < kWorthwhile + kShareWorthwhile * now) return {};
+  if (now - then < kLeastSaving + kLeastShareSaved * now) return {};
   const VectorXd to = at + step;
   return {to.data(), to.data() + to.size()};
 }

@@ -5,29 +5,30 @@
 #include <string>
 #include <vector>
 
-/// Least squares over a few trials that are dear and scatter.
+/// Least squares with few trials, each of them expensive and noisy.
 namespace grouser::virtual_tests {
 
-/// To four significant digits, as people read them in a soil's file: far nearer than trials scatter.
+/// Rounds to four significant digits, which keeps soil files readable; trials scatter by far more.
 double fourDigits(double value);
 
-/// A parameter that is sought, and where.
+/// A parameter to fit and its range.
 struct SearchRange {
   std::string key; ///< "friction", "porosity"
   double low = 0, high = 0;
-  bool isLogarithmic = false; ///< steps are of its logarithm
+  bool isLogarithmic = false; ///< the search works with its logarithm
 };
 
-/// Gauss-Newton steps whose slopes come from a linear regression over all trials, in which those far from the best
-/// count less; Levenberg and Marquardt's damping keeps a step within a quarter of the ranges (Nocedal and Wright 2006,
-/// Numerical Optimization, section 10.3). First come the start and a step along each parameter.
+/// Gauss-Newton method. The Jacobian is a linear regression over all trials, weighted by their distance from the best;
+/// Levenberg-Marquardt damping limits a step to a quarter of the ranges (Nocedal and Wright 2006, Numerical
+/// Optimization, section 10.3). The first trials are the start and one step along each parameter.
 class CurveSearch {
 public:
   CurveSearch(std::vector<SearchRange> ranges, const std::vector<double>& start, std::size_t mostTrials);
 
-  /// The values to try, in the order of the ranges, to four digits.
+  /// Values of the next trial, in the order of the ranges, rounded to four digits.
   const std::vector<double>& at() const { return next_; }
-  /// Residuals [standard deviations] of the trial at(), as many each time. Returns whether another trial is worthwhile.
+  /// Adds the residuals [standard deviations] of the trial at(); their number is constant. Returns whether another
+  /// trial is worthwhile.
   bool tried(const std::vector<double>& residuals);
 
   struct Trial {

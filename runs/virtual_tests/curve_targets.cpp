@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/jobs/estimate.hpp"
+#include "runs/virtual_tests/pressure_sinkage.hpp"
 
 #include <fmt/format.h>
 
@@ -15,8 +16,9 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kWindow = 0.1, kLeastWindow = 1e-3; // of the sinkage to both sides; [m]
-constexpr double kFarther = 1.15;                    // a plate goes so much deeper than its last point
+constexpr double kWindow = 0.1;       // half width of the averaging window over the sinkage
+constexpr double kLeastWindow = 1e-3; // [m] its least half width
+constexpr double kFarther = 1.15;     // final sinkage of a plate over that of its last point
 
 struct PlateKeys {
   std::string file;
@@ -30,7 +32,10 @@ base::Table<PlateKeys> plateTable() {
   t.add("file", &T::file, "",
         "comma-separated rows of trial, plate_diameter_mm, sinkage_mm and pressure_kPa; beside the file of targets")
       .required();
-  t.add("sinkages", &T::sinkages, "m", "at which pressures are compared, ascending").above(0).atMost(10).required();
+  t.add("sinkages", &T::sinkages, "m", "sinkages at which pressures are compared, ascending")
+      .above(0)
+      .atMost(10)
+      .required();
   t.add("bin", &T::bin, "m", "side of the square bed, between periodic boundaries").above(0).atMost(100);
   t.add("depth", &T::depth, "m", "of the bed").above(0).atMost(100);
   return t;
@@ -44,15 +49,15 @@ struct SearchKeys {
 
 base::Table<SearchKeys> searchTable() {
   using T = SearchKeys;
-  base::Table<T> t("search", "Parameters that are sought, and between which values");
+  base::Table<T> t("search", "Parameters to fit, with their ranges");
   t.add("young", &T::young, "Pa", "Young's modulus of Hertz' contacts").above(0).atMost(1e13);
   t.add("stiffness", &T::stiffness, "N/m", "of linear contacts").above(0).atMost(1e12);
   t.add("friction", &T::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
   t.add("rolling_friction", &T::rolling, "-", "rolling friction").atLeast(0).atMost(2);
   t.add("porosity", &T::porosity, "-", "of the bed").atLeast(0.2).atMost(0.7);
   t.add("cohesion", &T::cohesion, "J/m2", "energy of adhesion").atLeast(0).atMost(1e6);
-  t.add("depth", &T::depth, "m", "of the bed, where the experiment's is not known").above(0).atMost(100);
-  t.add("trials", &T::trials, "-", "at most; 1: the start is tested alone").atLeast(1).atMost(1000);
+  t.add("depth", &T::depth, "m", "of the bed, if that of the experiment is unknown").above(0).atMost(100);
+  t.add("trials", &T::trials, "-", "maximum number; 1 evaluates the start only").atLeast(1).atMost(1000);
   return t;
 }
 
@@ -68,21 +73,13 @@ void addRange(const base::Section& section, const SoilInBed& start, const std::s
   ranges.push_back({key, low, high, key == "young" || key == "stiffness"});
 }
 
-/// Of the measured plate's tests that are there, by seed.
+/// Finished tests of one plate, ordered by seed.
 std::vector<jobs::Table> runsOfPlate(const TestPlan& plan, const jobs::Pieces& pieces, double diameter) {
   std::vector<jobs::Table> runs;
   for (const PlannedTest& test : plan.tests)
     if (test.kind == TestKind::plate && test.diameter == diameter && pieces.has(test.name))
       runs.push_back(pieces.read(test.name));
   return runs;
-}
-
-/// Mean pressure [Pa] of a test between two sinkages [m].
-double pressureBetween(const jobs::Table& run, double from, double to) {
-  double sum = 0, count = 0;
-  for (const std::vector<double>& row : run.rows)
-    if (row[0] > from && row[0] <= to) sum += row[1], ++count;
-  return sum / count;
 }
 
 } // namespace
@@ -102,18 +99,17 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
   if (keys.sinkages.empty()) plates.fail("sinkages", "is empty; give one sinkage or more, as [0.005, 0.01]");
   if (!std::is_sorted(keys.sinkages.begin(), keys.sinkages.end(), std::less_equal<>()))
     plates.fail("sinkages", "is not ascending; sort it");
-  t.file = keys.file, t.bin = keys.bin, t.depth = keys.depth;
+  t.bin = keys.bin, t.depth = keys.depth;
   t.plates = readMeasuredPlates(file.parent_path() / keys.file, keys.sinkages);
   const base::Section search = root.section("search");
   const SearchKeys sought = search.read(searchTable());
   const SoilInBed given{start, t.depth};
-  addRange(search, given, "young", sought.young, t.ranges);
-  addRange(search, given, "stiffness", sought.stiffness, t.ranges);
-  addRange(search, given, "friction", sought.friction, t.ranges);
-  addRange(search, given, "rolling_friction", sought.rolling, t.ranges);
-  addRange(search, given, "porosity", sought.porosity, t.ranges);
-  addRange(search, given, "cohesion", sought.cohesion, t.ranges);
-  addRange(search, given, "depth", sought.depth, t.ranges);
+  const std::pair<const char*, const Span*> spans[] = {
+      {"young", &sought.young},       {"stiffness", &sought.stiffness},
+      {"friction", &sought.friction}, {"rolling_friction", &sought.rolling},
+      {"porosity", &sought.porosity}, {"cohesion", &sought.cohesion},
+      {"depth", &sought.depth}};
+  for (const auto& [key, span] : spans) addRange(search, given, key, *span, t.ranges);
   if (t.ranges.empty()) search.fail("", "names no parameter; give one or more, as friction = [0.3, 1]");
   t.mostTrials = static_cast<std::size_t>(sought.trials);
   return t;
@@ -157,7 +153,8 @@ std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pi
       const double window = std::max(kWindow * measured.sinkage, kLeastWindow);
       std::vector<double> pressures;
       for (const jobs::Table& run : runs)
-        pressures.push_back(pressureBetween(run, measured.sinkage - window, measured.sinkage + window));
+        pressures.push_back(meanPressureBetween({run.values("sinkage [m]"), run.values("pressure [Pa]")},
+                                                measured.sinkage - window, measured.sinkage + window));
       points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
     }
   }
@@ -166,13 +163,13 @@ std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pi
 
 std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
                                    const CurveTargets& targets) {
-  constexpr double kLeast = 1; // [Pa] a plate that bears nothing
+  constexpr double kLeast = 1; // [Pa] keeps the logarithm finite
   std::vector<double> residuals;
   for (const CurvePoint& p : points)
     residuals.push_back(base::log(std::max(kLeast, p.simulated.value) / p.measured.mean) /
                         std::max(kLeastScatter, p.measured.deviation));
   if (targets.repose) {
-    constexpr double kNeverFlowed = 45; // [deg] of a bed that does not flow, or does not come to rest
+    constexpr double kNeverFlowed = 45; // [deg] assumed for a bed that never flows or never rests
     const double angle = repose && std::isfinite(*repose) ? *repose : kNeverFlowed;
     residuals.push_back((angle - *targets.repose) / targets.reposeTolerance);
   }

@@ -16,14 +16,13 @@ namespace grouser::virtual_tests {
 
 /// Sections [plates] and [search] of a file of targets.
 struct CurveTargets {
-  std::string file; ///< of the measured tests, as it was written
   std::vector<MeasuredPlate> plates;
-  double bin = 0.3, depth = 0.12; ///< [m] side and depth of the bed that plates go into
+  double bin = 0.3, depth = 0.12; ///< [m] side and depth of the bed
   std::vector<SearchRange> ranges;
   std::size_t mostTrials = 16;
   std::optional<double> repose;      ///< [deg]
   double reposeTolerance = 1;        ///< [deg] counts as a standard deviation
-  std::optional<double> bulkDensity; ///< [kg/m3] from which, with the porosity, that of the solid follows
+  std::optional<double> bulkDensity; ///< [kg/m3] of the bed; sets the density of the solid
 
   /// The plates and their bed as a plan has them, with a bed of this depth [m].
   MeasuredPlatesBed bed(double depthOfBed) const;
@@ -38,14 +37,14 @@ struct SoilInBed {
   TestedSoil soil;
   double depth = 0; ///< [m]
 };
-/// Gives a parameter of the search its value: a key of the material, porosity, or depth.
+/// Sets a parameter of the search: a key of the material, porosity, or depth.
 void setParameter(SoilInBed& bed, const std::string& key, double value);
-/// Those of a trial, in the order of the ranges, and the density that follows from them.
+/// Sets the parameters of a trial, in the order of the ranges, and the density of the solid from the bulk density.
 void setParameters(SoilInBed& bed, const CurveTargets& targets, const std::vector<double>& values);
-/// The value it has; NaN where it has none.
+/// Present value of a parameter; NaN if it is not set.
 double parameterOf(const SoilInBed& bed, const std::string& key);
 
-/// A measured point beside what a trial came to.
+/// A measured point and its simulated value.
 struct CurvePoint {
   double diameter = 0;         ///< [m]
   MeasuredPressure measured;   ///< with its sinkage
@@ -53,18 +52,19 @@ struct CurvePoint {
   double deviations() const;   ///< simulated less measured mean, in standard deviations of a measured test [-]
   std::string name() const;    ///< "60 mm at 5 mm"
 };
-/// Of the plates that are there; a window of a fifth of the sinkage, at least 2 mm, is averaged.
+/// Compares the finished plate tests with the measured points. Simulated pressures are averaged over 90 to 110 % of the
+/// sinkage, at least over 2 mm.
 std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 
 /// For the search: ln(simulated / measured) of every point over its measured relative deviation, at least
 /// `kLeastScatter`; then (repose - wanted) over its tolerance, where one is wanted.
-inline constexpr double kLeastScatter = 0.05; ///< [-] beds of few seeds scatter by as much
+inline constexpr double kLeastScatter = 0.05; ///< [-] scatter of a simulated bed
 std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
                                    const CurveTargets& targets);
 
-/// Tables for people and for plots.
+/// Tables: a text, a row for each measured test and point, and all curves.
 std::string curvesText(const std::vector<CurvePoint>& points);
-std::string curvePointsCsv(const std::vector<CurvePoint>& points); ///< a row a measured test and point
+std::string curvePointsCsv(const std::vector<CurvePoint>& points);
 std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces);
 
 } // namespace grouser::virtual_tests

@@ -18,12 +18,12 @@ namespace grouser::virtual_tests {
 namespace {
 
 constexpr int kPlateRows = 300;
-constexpr double kAbove = 1e-3; // [d] of the plate over the highest grain at the start
-constexpr double kHighest = 2;  // [d] that the highest grain lies above the mean surface at most, for the duration
-constexpr double kTall = 2;     // heights of a plate over its sinkage, so that no grain rolls onto it
-constexpr double kSettlingShare = 0.5; // of a run's time, about
+constexpr double kAbove = 1e-3;        // [d] initial gap between the plate and the highest grain
+constexpr double kHighest = 2;         // [d] assumed height of that grain above the mean surface
+constexpr double kTall = 2;            // height of the plate over its sinkage, so that no grain rolls onto it
+constexpr double kSettlingShare = 0.5; // estimated share of the settling in the wall time
 
-/// The scene that a user would write.
+/// Scene file of the test.
 std::string sceneText(const Soil& soil, const MeasuredPlateTest& test, std::int64_t seed) {
   const double d = soil.grains.diameter(), speed = test.speed(soil), tall = kTall * test.sinkage;
   const double way = test.sinkage + kHighest * d;
@@ -52,9 +52,9 @@ public:
       if (simulation.surfaces()->surface(i).name == "plate") index_ = i;
   }
 
-  /// Of its face below the mean surface of the bed [m].
+  /// Depth of its lower face below the mean surface of the bed [m].
   double sinkage() const { return simulation_.settled().meanHeight - (observed().position.z - halfLength_); }
-  double meanPressure() const { return observed().force.z / area_; } ///< since the last row [Pa]
+  double meanPressure() const { return observed().force.z / area_; } ///< mean since the last row [Pa]
 
 private:
   coupling::Surfaces::Observation observed() const {
@@ -66,7 +66,7 @@ private:
   std::size_t index_ = 0;
 };
 
-/// Porosity off the floor and the surface, by two mean diameters [-].
+/// Porosity of the bed without two mean diameters at the floor and at the surface [-].
 double porosityOf(const coupling::Simulation& simulation, const Soil& soil, const MeasuredPlateTest& test) {
   const BedSize size{test.bin, test.bin, test.depth};
   const double off = PlateTest::kOffEnds * soil.grains.diameter();

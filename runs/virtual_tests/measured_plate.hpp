@@ -10,21 +10,21 @@ namespace grouser::virtual_tests {
 
 struct MeasuredPlateTest {
   double diameter = 0;            ///< [m] of the plate
-  double sinkage = 0;             ///< [m] below the mean surface of the bed, to which it goes
+  double sinkage = 0;             ///< [m] final sinkage below the mean surface of the bed
   double bin = 0, depth = 0;      ///< [m] side of the square bed between periodic boundaries, and its depth
   double inertialNumber = 1.8e-3; ///< [-] as PlateTest has it
-  std::optional<double> porosity; ///< [-] terrain.porosity; empty: as the bed falls
+  std::optional<double> porosity; ///< [-] terrain.porosity; without it the bed settles with its own friction
 
   double speed(const Soil& soil) const; ///< [m/s]
 };
 
-/// Columns of a run's table; from the third on the same in all rows.
+/// Columns of a test's table; those from the third on are constant.
 inline const std::vector<std::string> kMeasuredPlateColumns = {"sinkage [m]", "pressure [Pa]", "porosity [-]",
                                                                "depth [m]",   "grains",        "settling friction [-]",
                                                                "steps",       "wall time [s]"};
 
 /// Settles the bed, or takes it from the cache, and pushes the plate, which is as rough as the grains. Throws
-/// SimulationError where the run fails, and InputError where the bed cannot have the porosity.
+/// SimulationError if the run fails, and InputError if the bed cannot reach the porosity.
 jobs::Table pushMeasuredPlate(const Soil& soil, const MeasuredPlateTest& test, std::int64_t seed,
                               const std::filesystem::path& folder, const base::Exec& exec, const PlateProgress& tell);
 

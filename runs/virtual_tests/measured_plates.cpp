@@ -19,7 +19,7 @@ namespace grouser::virtual_tests {
 namespace {
 
 constexpr std::array<const char*, 4> kColumns = {"trial", "plate_diameter_mm", "sinkage_mm", "pressure_kPa"};
-constexpr double kLeastDeviation = 0.01; ///< [-] of tests that agree by chance
+constexpr double kLeastDeviation = 0.01; ///< [-] for tests that agree by chance
 
 struct Test {
   double diameter = 0;                   ///< [m]
@@ -109,7 +109,7 @@ private:
   std::array<std::size_t, 4> column_{};
 };
 
-/// Pressure of a test where it first passes a sinkage, on the line between its rows; empty where it never does.
+/// Pressure where a test first passes a sinkage, by linear interpolation; empty if it never does.
 std::optional<double> pressureAt(const Test& test, double sinkage) {
   for (std::size_t i = 0; i < test.sinkage.size(); ++i) {
     if (test.sinkage[i] < sinkage) continue;
@@ -134,7 +134,7 @@ MeasuredPressure pointOf(const std::map<int, Test>& tests, double diameter, doub
   return point;
 }
 
-/// A single test has no scatter of its own.
+/// Sets the deviation of tests without repetition.
 void poolDeviations(std::vector<MeasuredPlate>& plates) {
   double squares = 0, count = 0;
   for (const MeasuredPlate& plate : plates)

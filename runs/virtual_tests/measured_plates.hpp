@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-/// Pressure-sinkage tests of circular plates that somebody has measured on a soil.
+/// Measured pressure-sinkage tests of circular plates on a soil.
 namespace grouser::virtual_tests {
 
-/// Pressure of one test at a sinkage, between its rows.
+/// Pressure of one test at a sinkage, interpolated between its rows.
 struct MeasuredTrial {
   int number = 0;      ///< as in the file
   double pressure = 0; ///< [Pa]
@@ -18,7 +18,7 @@ struct MeasuredPressure {
   double sinkage = 0;                ///< [m]
   std::vector<MeasuredTrial> trials; ///< those that reach it
   double mean = 0;                   ///< [Pa]
-  /// Standard deviation of a single test over the mean [-]; of one test alone that of all others, root mean square.
+  /// Relative standard deviation of a test [-]. A test without repetition has the root mean square of all others.
   double deviation = 0;
 };
 
@@ -28,10 +28,10 @@ struct MeasuredPlate {
   double deepest() const { return points.back().sinkage; } ///< [m]
 };
 
-/// Reads comma-separated rows with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa behind lines of
-/// comment (#), and interpolates every trial at `sinkages` [m]. Plates by ascending diameter. Throws base::InputError
-/// with file:line: no such file, a missing column, a cell that is no number, a trial of two diameters, a sinkage that
-/// no trial reaches.
+/// Reads comma-separated rows with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa after comment
+/// lines (#), and interpolates every trial at `sinkages` [m]. Plates are sorted by diameter. Throws base::InputError
+/// with file:line: no such file, a missing column, a cell that is not a number, a trial with two diameters, a sinkage
+/// that no trial reaches.
 std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages);
 
 } // namespace grouser::virtual_tests

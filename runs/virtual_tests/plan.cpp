@@ -136,7 +136,7 @@ void checkSizes(const TestPlan& plan) {
                       plan.soil.grainRadius));
 }
 
-/// Every plate within the bed, and off its floor.
+/// Checks that every plate fits its bed and stays clear of the floor.
 void checkMeasuredPlates(const MeasuredPlatesBed& p, double coarsest) {
   for (std::size_t k = 0; k < p.diameters.size(); ++k) {
     if (p.bin < 2 * p.diameters[k])

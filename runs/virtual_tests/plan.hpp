@@ -19,9 +19,9 @@ namespace grouser::virtual_tests {
 /// The track that pressures and breadths are meant for: pads 0.28 m broad, 47.5 kPa in the mean.
 inline constexpr double kTrackBreadth = 0.28, kTrackPressure = 47.5e3; ///< [m], [Pa]
 
-/// Circular plates as somebody has measured them, in beds as scenes make them.
+/// Measured circular plates and the bed that each is pushed into, made as a scene's [terrain].
 struct MeasuredPlatesBed {
-  std::vector<double> diameters, sinkages; ///< [m] of the plates, and how deep each goes
+  std::vector<double> diameters, sinkages; ///< [m] of the plates, and their final sinkages
   double bin = 0.3, depth = 0.12;          ///< [m] side of the square bed between periodic boundaries, and its depth
 };
 
@@ -42,7 +42,7 @@ struct PlanOptions {
   double mostPressure = 100e3;                                ///< [Pa]
   int seeds = 8, largeSeeds = 3;
   int reposeSeeds = 0;      ///< beds that are tilted
-  MeasuredPlatesBed plates; ///< for each of `seeds`; none: no such tests
+  MeasuredPlatesBed plates; ///< one test of each for every seed
   bool wide = true;         ///< the small plate on a bin of twice the width, too
 };
 /// What --quick takes instead.
@@ -54,7 +54,7 @@ enum class TestKind {
   wide,
   shear,
   repose,
-  plate ///< a circular one that has been measured
+  plate ///< a measured circular plate
 };
 
 /// Times as many steps a contact, of a test that has ended unsoundly [-].

@@ -175,4 +175,11 @@ BekkerFit fitOnePlate(const PlateTests& plate, const std::vector<int>& counts, s
   return fit;
 }
 
+double meanPressureBetween(const SinkageCurve& curve, double from, double to) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
+    if (curve.sinkage[i] > from && curve.sinkage[i] <= to) sum += curve.pressure[i], ++count;
+  return sum / count;
+}
+
 } // namespace grouser::virtual_tests

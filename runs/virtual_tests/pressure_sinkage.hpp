@@ -35,6 +35,9 @@ struct PlateTests {
   std::vector<SinkageCurve> curves;
 };
 
+/// Mean pressure [Pa] of the rows with a sinkage in (from, to] [m]; NaN without such rows.
+double meanPressureBetween(const SinkageCurve& curve, double from, double to);
+
 struct BekkerFit {
   double n = 0;                     ///< [-] the same for both breadths
   double kc = 0, kphi = 0;          ///< [N/m^(n+1)], [N/m^(n+2)]; kc may have either sign

@@ -74,14 +74,6 @@ void addUnloading(SoilResults& r, std::size_t i, const std::vector<jobs::Table>&
   r.addedByMotion[i] = over(added);
 }
 
-/// Mean pressure of a loading between two sinkages.
-double pressureBetween(const SinkageCurve& curve, double from, double to) {
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
-    if (curve.sinkage[i] > from && curve.sinkage[i] <= to) sum += curve.pressure[i], ++count;
-  return sum / count;
-}
-
 /// The small plate on a bin of twice the width against the other, over the sinkages that all of them reach.
 std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide) {
   if (small.curves.size() < 2 || wide.curves.size() < 2) return {};
@@ -89,8 +81,8 @@ std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide
   for (const PlateTests* tests : {&small, &wide})
     for (const SinkageCurve& curve : tests->curves) common = std::min(common, curve.sinkage.back());
   std::vector<double> a, b;
-  for (const SinkageCurve& c : small.curves) a.push_back(pressureBetween(c, kCompareFrom * common, common));
-  for (const SinkageCurve& c : wide.curves) b.push_back(pressureBetween(c, kCompareFrom * common, common));
+  for (const SinkageCurve& c : small.curves) a.push_back(meanPressureBetween(c, kCompareFrom * common, common));
+  for (const SinkageCurve& c : wide.curves) b.push_back(meanPressureBetween(c, kCompareFrom * common, common));
   return jobs::relativeDifference(a, b);
 }
 

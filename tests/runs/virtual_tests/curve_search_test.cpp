@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search on measured curves, on functions whose least squares are known.
+// The search for measured curves, tested on functions with a known minimum.
 #include "runs/virtual_tests/curve_search.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::vector<double> powers(const std::vector<double>& x, double scatter = 0) {
   for (int k = 0; k < 8; ++k) {
     const double value =
         0.2 * std::log(x[0] / 1e8) * (1 + 0.1 * k) + 2 * std::log(x[1] / 0.6) + 30 * (0.46 - x[2]) * (1 - 0.12 * k);
-    // Scatter from the values themselves, as that of beds: the same trial has the same.
+    // Deterministic scatter: the same values give the same residuals.
     const double phase = std::sin(1e3 * x[1] + 17 * k + 1e4 * x[2]);
     residuals.push_back((value + scatter * phase) / 0.05);
   }
@@ -37,9 +37,9 @@ TEST(CurveSearch, FindsWhereAllCurvesAreMet) {
   const int trials = search(s, 0);
   const CurveSearch::Trial& found = s.trials()[s.nearest()];
   EXPECT_LE(trials, 16);
-  // It ends where no step saves a standard deviation of one of the eight curves.
+  // The search ends when no step reduces the sum of squares by 1.
   EXPECT_LT(found.misfit(), std::sqrt(1.0 / 8));
-  // Friction and porosity make up for each other along a valley of that height.
+  // Friction and porosity compensate each other along a valley of that height.
   EXPECT_NEAR(found.values[1], 0.6, 0.08);
   EXPECT_NEAR(found.values[2], 0.46, 0.004);
 }
@@ -48,7 +48,7 @@ TEST(CurveSearch, ComesAsNearAsScatterAllows) {
   CurveSearch s(kRanges, {3e7, 0.4, 0.44}, 20);
   search(s, 0.05);
   const CurveSearch::Trial& found = s.trials()[s.nearest()];
-  EXPECT_LT(found.misfit(), 1.5) << "of scatter alone: 0.7";
+  EXPECT_LT(found.misfit(), 1.5) << "the scatter alone gives 0.7";
   EXPECT_NEAR(found.values[1], 0.6, 0.08);
   EXPECT_NEAR(found.values[2], 0.46, 0.006);
 }
@@ -65,7 +65,7 @@ TEST(CurveSearch, StaysInItsRangesAndEndsAtTheNearestBound) {
   }
   const CurveSearch::Trial& found = s.trials()[s.nearest()];
   EXPECT_NEAR(found.values[0], 1, 1e-3);
-  EXPECT_NEAR(found.values[1], 0.5, 0.16) << "what a step to it would save is not worth a trial";
+  EXPECT_NEAR(found.values[1], 0.5, 0.16) << "the search stops where a step saves too little";
   EXPECT_LT(s.trials().size(), 12u);
 }
 
@@ -76,7 +76,7 @@ TEST(CurveSearch, FirstVariesOneParameterAtATime) {
     ASSERT_TRUE(s.tried(powers(s.at())));
     for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(s.at()[j] != start[j], j == k) << j;
   }
-  EXPECT_LT(s.trials()[2].values[1], 0.9) << "no step of that size is left above";
+  EXPECT_LT(s.trials()[2].values[1], 0.9) << "a step up would leave the range";
 }
 
 TEST(CurveSearch, OneTrialTestsTheStartAlone) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measured curves as targets of a calibration: what is read, what is refused, and what a residual is.
+// Measured curves as calibration targets: parsing, input errors, and the definition of a residual.
 #include "runs/virtual_tests/calibration.hpp"
 
 #include "base/error.hpp"
@@ -50,17 +50,17 @@ TEST_F(CurveTargetsTest, ReadsPlatesSearchAndStart) {
   EXPECT_FALSE(t.curves->ranges[0].isLogarithmic);
   const MeasuredPlatesBed bed = t.curves->bed(0.15);
   EXPECT_EQ(bed.depth, 0.15);
-  EXPECT_NEAR(bed.sinkages[0], 1.15 * 0.01, 1e-12) << "somewhat deeper than the last point";
+  EXPECT_NEAR(bed.sinkages[0], 1.15 * 0.01, 1e-12) << "15 % deeper than the last point";
 }
 
 TEST_F(CurveTargetsTest, RefusesWhatDoesNotFit) {
   const std::string targets = kTargets, plates = kPlates, search = kSearch, start = kStart;
   const std::pair<std::string, const char*> cases[] = {
       {targets + plates + start, "search"},
-      {targets + "phi = 30\n" + plates + search + start, "stands beside [plates]"},
-      {targets + search + start, "repose = 29 is sought with [plates] only"},
-      {"version = 1\n[targets]\nphi = 30\n" + search + start, "is used with [plates] only"},
-      {"version = 1\n[targets]\nphi = 30\nbulk_density = 1500\n" + start, "is used with [plates] only"},
+      {targets + "phi = 30\n" + plates + search + start, "mutually exclusive with [plates]"},
+      {targets + search + start, "repose = 29 requires [plates]"},
+      {"version = 1\n[targets]\nphi = 30\n" + search + start, "requires [plates]"},
+      {"version = 1\n[targets]\nphi = 30\nbulk_density = 1500\n" + start, "requires [plates]"},
       {targets + plates + "[search]\ntrials = 4\n" + start, "names no parameter"},
       {targets + plates + "[search]\nfriction = [0.8, 0.3]\n" + start, "is not ascending"},
       {targets + plates + "[search]\nfriction = [0.6, 0.9]\n" + start, "does not hold its start, 0.5"},
@@ -71,7 +71,7 @@ TEST_F(CurveTargetsTest, RefusesWhatDoesNotFit) {
       {targets + "[plates]\nfile = \"other.csv\"\nsinkages = [0.01]\n" + search + start, "cannot be read"},
       {targets + plates + search + "[start]\nfriction = 0.5\n[bed]\ngrain_radius = 0.002\n", "has no start"},
       {targets + plates + "[search]\nfriction = [0.3, 0.8]\n[start]\nfriction = 0.5\n[bed]\ngrain_radius = 0.002\n",
-       "needs bed.porosity"}};
+       "requires bed.porosity"}};
   for (const auto& [text, message] : cases)
     EXPECT_NE(errorOf(text).find(message), std::string::npos) << text << "\n" << errorOf(text);
 }
@@ -100,8 +100,8 @@ TEST(CurveResiduals, AreLogarithmsOverTheScatterAndTheAngleOverItsTolerance) {
   EXPECT_NEAR(points[0].deviations(), 1, 1e-12);
   const std::vector<CurvePoint> high{{0.06, exact, {22e3, 0}}};
   EXPECT_NEAR(curveResiduals(high, {}, targets)[0], std::log(1.1) / kLeastScatter, 1e-12)
-      << "less scatter than that of beds is not asked for";
-  EXPECT_NEAR(high[0].deviations(), 10, 1e-12) << "but what is told is the measured one";
+      << "the scatter of simulated beds is the least";
+  EXPECT_NEAR(high[0].deviations(), 10, 1e-12) << "the table shows measured standard deviations";
 }
 
 TEST(CurveParameters, AreOfMaterialBedAndPlates) {
@@ -118,7 +118,7 @@ TEST(CurveParameters, AreOfMaterialBedAndPlates) {
   targets.ranges = {{"young", 1e6, 1e9, true}, {"porosity", 0.4, 0.5, false}}, targets.bulkDensity = 1500;
   setParameters(bed, targets, {2e8, 0.4});
   EXPECT_EQ(parameterOf(bed, "young"), 2e8);
-  EXPECT_EQ(bed.soil.density, 2500) << "of the solid, which is 0.6 of the bed";
+  EXPECT_EQ(bed.soil.density, 2500) << "the solid fills 0.6 of the bed";
 }
 
 } // namespace

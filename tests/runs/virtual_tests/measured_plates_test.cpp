@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measured tests of plates as they are read, and what is said of files that are wrong.
+// Parsing of measured plate tests, and errors in their files.
 #include "runs/virtual_tests/measured_plates.hpp"
 
 #include "base/error.hpp"

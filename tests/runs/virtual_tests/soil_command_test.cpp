@@ -105,7 +105,7 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
 }
 
-/// Measured plates as targets: trials, tables, a soil's file, and nothing done twice.
+/// Measured plates as targets: trials, tables, the soil file, and reuse of finished tests.
 TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   put(folder_ / "plates.csv", "trial,plate_diameter_mm,sinkage_mm,pressure_kPa\n1,100,0,0\n1,100,20,20\n"
                               "2,100,0,0\n2,100,20,24\n");
@@ -130,9 +130,9 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   };
   EXPECT_GT(pressure(1), pressure(0)) << "stiffer";
   EXPECT_EQ(trials.at(2).at("parameters"), trials.at(0).at("parameters"));
-  EXPECT_NE(pressure(2), pressure(0)) << "on a bed of another depth, which is not the former trial's";
+  EXPECT_NE(pressure(2), pressure(0)) << "the depth of the bed differs";
   const std::string points = contents(folder_ / "found" / "final" / "points.csv");
-  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 5) << "two tests at two sinkages\n" << points;
+  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 5) << "two tests, two sinkages\n" << points;
   EXPECT_NE(contents(folder_ / "found" / "calibration.txt").find("plate of 100 mm at 5 mm"), std::string::npos);
   EXPECT_NE(contents(folder_ / "found" / "sand.toml").find("m deep"), std::string::npos);
   double sinkage = 0, pressed = 0;
