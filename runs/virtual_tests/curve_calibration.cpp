@@ -8,12 +8,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace grouser::virtual_tests {
 
 namespace {
 
+constexpr int kLeastTilted = 4; // beds for the angle of repose, which scatters more than pressures do
 constexpr double kWithin = 2; // a pressure is reached within so many standard deviations of a measured test
 
 double meanPorosity(const TestPlan& plan, const jobs::Pieces& pieces) {
@@ -46,7 +48,7 @@ void CurveCalibration::run() {
 CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const CalibrationTrials::Look& look) {
   PlanOptions options = command_.plan;
   options.coarse = command_.place.quick, options.wide = false;
-  options.plates = curves_.bed(bed_.depth), options.reposeSeeds = curves_.repose ? options.seeds : 0;
+  options.plates = curves_.bed(bed_.depth), options.reposeSeeds = curves_.repose ? std::max(kLeastTilted, options.seeds) : 0;
   Trial trial;
   const auto isOurs = [](const PlannedTest& t) { return t.kind == TestKind::plate || t.kind == TestKind::repose; };
   trials_.tested(bed_.soil, name, options, isOurs, trial.results,

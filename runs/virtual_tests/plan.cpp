@@ -258,6 +258,7 @@ nlohmann::ordered_json TestPlan::recipe() const {
       {"shear_strain", options.shearStrain},
       {"shear_inertial_number", options.shearInertialNumber},
       {"repose_length_d", repose.length},
+      {"repose_width_d", repose.width},
       {"repose_depth_d", repose.depth},
       {"repose_stage", repose.stage}};
   if (!options.plates.diameters.empty())

@@ -8,7 +8,7 @@
 namespace grouser::virtual_tests {
 
 struct ReposeTest {
-  double length = 12, width = 8, depth = 14; ///< [d]
+  double length = 24, width = 16, depth = 14; ///< [d]
   double from = 12, most = 60;               ///< [deg] where the tilting begins, and where it ends at the latest
   double up = 1, down = 0.5;                 ///< [deg] a stage
   double stage = 10;                         ///< [sqrt(d / g)] that an angle is held
