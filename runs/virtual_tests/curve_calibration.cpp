@@ -16,7 +16,7 @@ namespace grouser::virtual_tests {
 namespace {
 
 constexpr int kLeastTilted = 4; // beds for the angle of repose, which scatters more than pressures do
-constexpr double kWithin = 2; // a pressure is reached within so many standard deviations of a measured test
+constexpr double kWithin = 2;   // a pressure is reached within so many standard deviations of a measured test
 
 double meanPorosity(const TestPlan& plan, const jobs::Pieces& pieces) {
   std::vector<double> porosities;
@@ -48,13 +48,15 @@ void CurveCalibration::run() {
 CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const CalibrationTrials::Look& look) {
   PlanOptions options = command_.plan;
   options.coarse = command_.place.quick, options.wide = false;
-  options.plates = curves_.bed(bed_.depth), options.reposeSeeds = curves_.repose ? std::max(kLeastTilted, options.seeds) : 0;
+  options.plates = curves_.bed(bed_.depth),
+  options.reposeSeeds = curves_.repose ? std::max(kLeastTilted, options.seeds) : 0;
   Trial trial;
   const auto isOurs = [](const PlannedTest& t) { return t.kind == TestKind::plate || t.kind == TestKind::repose; };
   trials_.tested(bed_.soil, name, options, isOurs, trial.results,
                  [&](const TestPlan& plan, const jobs::Pieces& pieces) {
                    trial.points = curvePoints(plan, pieces, curves_);
                    trial.porosity = meanPorosity(plan, pieces);
+                   trial.contactHeight = contactHeight(plan, pieces, curves_);
                    if (look) look(plan, pieces);
                  });
   return trial;
@@ -70,6 +72,8 @@ void CurveCalibration::tell(const std::string& name, const Trial& trial, double 
   for (const SearchRange& range : curves_.ranges)
     text += fmt::format(" {} {:.4g},", range.key, parameterOf(bed_, range.key));
   text += fmt::format(" bed's porosity {:.4f}", trial.porosity);
+  if (curves_.contactPressure > 0)
+    text += fmt::format(", first contact {:.2f} mm above its mean surface", 1e3 * trial.contactHeight);
   if (const auto found = trial.results.measured.find(Quantity::repose); found != trial.results.measured.end())
     text += fmt::format(", repose {} deg", jobs::valueText(found->second));
   fmt::print("{}; misfit {:.2f}\n{}", text, misfit, curvesText(trial.points));
@@ -94,7 +98,7 @@ void CurveCalibration::finish() {
   const Trial trial = tried("final", [&](const TestPlan& plan, const jobs::Pieces& pieces) {
     tables = pieces.folder();
     reportSoil(plan, pieces, 0);
-    support::writeTextFile(tables / "curves.csv", curvesCsv(plan, pieces), "--out");
+    support::writeTextFile(tables / "curves.csv", curvesCsv(plan, pieces, curves_), "--out");
   });
   const std::vector<TargetOutcome> found = outcomes(trial);
   const std::string text = outcomesText(found, command_.place.quick);

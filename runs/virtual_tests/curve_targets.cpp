@@ -4,7 +4,6 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/jobs/estimate.hpp"
-#include "runs/virtual_tests/pressure_sinkage.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +22,7 @@ constexpr double kFarther = 1.15;     // final sinkage of a plate over that of i
 struct PlateKeys {
   std::string file;
   std::vector<double> sinkages;
-  double bin = 0.3, depth = 0.12;
+  double bin = 0.3, depth = 0.12, contact = 0;
 };
 
 base::Table<PlateKeys> plateTable() {
@@ -38,6 +37,10 @@ base::Table<PlateKeys> plateTable() {
       .required();
   t.add("bin", &T::bin, "m", "side of the square bed, between periodic boundaries").above(0).atMost(100);
   t.add("depth", &T::depth, "m", "of the bed").above(0).atMost(100);
+  t.add("contact_pressure", &T::contact, "Pa",
+        "sinkage of simulated plates counts from where they first bear it; 0: from the mean surface of the bed")
+      .atLeast(0)
+      .atMost(1e6);
   return t;
 }
 
@@ -99,7 +102,7 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
   if (keys.sinkages.empty()) plates.fail("sinkages", "is empty; give one sinkage or more, as [0.005, 0.01]");
   if (!std::is_sorted(keys.sinkages.begin(), keys.sinkages.end(), std::less_equal<>()))
     plates.fail("sinkages", "is not ascending; sort it");
-  t.bin = keys.bin, t.depth = keys.depth;
+  t.bin = keys.bin, t.depth = keys.depth, t.contactPressure = keys.contact;
   t.plates = readMeasuredPlates(file.parent_path() / keys.file, keys.sinkages);
   const base::Section search = root.section("search");
   const SearchKeys sought = search.read(searchTable());
@@ -144,6 +147,20 @@ std::string CurvePoint::name() const {
   return fmt::format("{:g} mm at {:g} mm", 1e3 * diameter, 1e3 * measured.sinkage);
 }
 
+SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets) {
+  const SinkageCurve curve{run.values("sinkage [m]"), run.values("pressure [Pa]")};
+  return targets.contactPressure > 0 ? fromContactPressure(curve, targets.contactPressure) : curve;
+}
+
+double contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
+  std::vector<double> heights;
+  for (const MeasuredPlate& plate : targets.plates)
+    for (const jobs::Table& run : runsOfPlate(plan, pieces, plate.diameter))
+      if (const SinkageCurve compared = comparedCurve(run, targets); !compared.sinkage.empty())
+        heights.push_back(compared.sinkage.back() - run.values("sinkage [m]").back());
+  return jobs::interval95(heights).value;
+}
+
 std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
   std::vector<CurvePoint> points;
   for (const MeasuredPlate& plate : targets.plates) {
@@ -153,8 +170,8 @@ std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pi
       const double window = std::max(kWindow * measured.sinkage, kLeastWindow);
       std::vector<double> pressures;
       for (const jobs::Table& run : runs)
-        pressures.push_back(meanPressureBetween({run.values("sinkage [m]"), run.values("pressure [Pa]")},
-                                                measured.sinkage - window, measured.sinkage + window));
+        pressures.push_back(
+            meanPressureBetween(comparedCurve(run, targets), measured.sinkage - window, measured.sinkage + window));
       points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
     }
   }
@@ -199,13 +216,16 @@ std::string curvePointsCsv(const std::vector<CurvePoint>& points) {
   return text;
 }
 
-std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces) {
+std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
   std::string text = "care,diameter [m],seed,sinkage [m],pressure [Pa],porosity [-]\n";
   for (const PlannedTest& test : plan.tests) {
     if (test.kind != TestKind::plate || !pieces.has(test.name)) continue;
-    for (const std::vector<double>& row : pieces.read(test.name).rows)
-      text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.5g}\n", plan.care(), test.diameter, test.seed, row[0], row[1],
-                          row[2]);
+    const jobs::Table run = pieces.read(test.name);
+    const double porosity = run.values("porosity [-]").front();
+    const SinkageCurve curve = comparedCurve(run, targets);
+    for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
+      text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.5g}\n", plan.care(), test.diameter, test.seed, curve.sinkage[i],
+                          curve.pressure[i], porosity);
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include "runs/virtual_tests/curve_search.hpp"
 #include "runs/virtual_tests/measured_plates.hpp"
 #include "runs/virtual_tests/plan.hpp"
+#include "runs/virtual_tests/pressure_sinkage.hpp"
 
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ namespace grouser::virtual_tests {
 struct CurveTargets {
   std::vector<MeasuredPlate> plates;
   double bin = 0.3, depth = 0.12; ///< [m] side and depth of the bed
+  /// [Pa] sinkage of simulated plates counts from where they first bear it, as tests are zeroed at contact: coarse
+  /// grains stand out of the bed's mean surface, from which it counts if this is 0.
+  double contactPressure = 0;
   std::vector<SearchRange> ranges;
   std::size_t mostTrials = 16;
   std::optional<double> repose;      ///< [deg]
@@ -52,6 +56,10 @@ struct CurvePoint {
   double deviations() const;   ///< simulated less measured mean, in standard deviations of a measured test [-]
   std::string name() const;    ///< "60 mm at 5 mm"
 };
+/// The curve of a test with sinkage as it is compared.
+SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets);
+/// Mean height of first contact above the bed's mean surface [m]; 0 without a contact pressure.
+double contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 /// Compares the finished plate tests with the measured points. Simulated pressures are averaged over 90 to 110 % of the
 /// sinkage, at least over 2 mm.
 std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
@@ -65,6 +73,6 @@ std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const 
 /// Tables: a text, a row for each measured test and point, and all curves.
 std::string curvesText(const std::vector<CurvePoint>& points);
 std::string curvePointsCsv(const std::vector<CurvePoint>& points);
-std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces);
+std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 
 } // namespace grouser::virtual_tests

@@ -128,10 +128,13 @@ BeddedCurve correctedForBedding(const SinkageCurve& measured, double room) {
 }
 
 SinkageCurve fromFirstContact(const SinkageCurve& measured) {
+  if (measured.pressure.empty()) return {};
+  return fromContactPressure(measured, kFirst * *std::max_element(measured.pressure.begin(), measured.pressure.end()));
+}
+
+SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure) {
   SinkageCurve curve;
-  if (measured.pressure.empty()) return curve;
-  const double most = *std::max_element(measured.pressure.begin(), measured.pressure.end());
-  const std::size_t first = firstWith(measured, kFirst * most);
+  const std::size_t first = firstWith(measured, pressure);
   for (std::size_t i = first; i < measured.sinkage.size(); ++i) {
     curve.sinkage.push_back(measured.sinkage[i] - measured.sinkage[first]);
     curve.pressure.push_back(measured.pressure[i]);

@@ -9,10 +9,10 @@ namespace grouser::virtual_tests {
 
 struct ReposeTest {
   double length = 24, width = 16, depth = 14; ///< [d]
-  double from = 12, most = 60;               ///< [deg] where the tilting begins, and where it ends at the latest
-  double up = 1, down = 0.5;                 ///< [deg] a stage
-  double stage = 10;                         ///< [sqrt(d / g)] that an angle is held
-  double flows = 0.1, rests = 0.01;          ///< [sqrt(g d)] root mean square speed of grains that flow, that rest
+  double from = 12, most = 60;                ///< [deg] where the tilting begins, and where it ends at the latest
+  double up = 1, down = 0.5;                  ///< [deg] a stage
+  double stage = 10;                          ///< [sqrt(d / g)] that an angle is held
+  double flows = 0.1, rests = 0.01;           ///< [sqrt(g d)] root mean square speed of grains that flow, that rest
 };
 
 /// Columns of a run's table, a row a stage: tilt, and speed at its end.

@@ -18,6 +18,7 @@ from pathlib import Path
 
 RADIUS = 0.058  # [m] of the drum
 TOWED = 0.010  # [m/s]
+CONTACT = 0.0024  # [m] height over the bed's mean surface where the calibration's plates first bear 100 Pa
 STARTS = 0.6  # [s] the wheel stands until then
 RIMS = {0: (0, 3, 5, 8, 10, 12, 20, 40, 100), 15: (5, 10, 20), 30: (5, 10, 20), 45: (5, 10, 20)}  # [mm/s] by [deg]
 SECTION = {"smooth": "cylinder", "grousers": "mesh"}
@@ -73,7 +74,7 @@ def figures(folder, rim, sideslip):
         return sum(float(row[f"surfaces.wheel.{name}"]) for row in rows) / len(rows)
 
     return (mean("force.x [N]"), mean("force.y [N]"), -mean("torque.y [N m]"),
-            1e3 * (surface - (mean("position.z [m]") - RADIUS)))
+            1e3 * (surface + CONTACT - (mean("position.z [m]") - RADIUS)))
 
 
 def student95(freedom):

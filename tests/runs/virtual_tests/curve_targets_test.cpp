@@ -48,6 +48,9 @@ TEST_F(CurveTargetsTest, ReadsPlatesSearchAndStart) {
   ASSERT_EQ(t.curves->ranges.size(), 3u);
   EXPECT_EQ(t.curves->ranges[2].key, "depth");
   EXPECT_FALSE(t.curves->ranges[0].isLogarithmic);
+  EXPECT_EQ(t.curves->contactPressure, 0);
+  EXPECT_EQ(
+      read(std::string(kTargets) + kPlates + "contact_pressure = 50\n" + kSearch + kStart).curves->contactPressure, 50);
   const MeasuredPlatesBed bed = t.curves->bed(0.15);
   EXPECT_EQ(bed.depth, 0.15);
   EXPECT_NEAR(bed.sinkages[0], 1.15 * 0.01, 1e-12) << "15 % deeper than the last point";
@@ -102,6 +105,20 @@ TEST(CurveResiduals, AreLogarithmsOverTheScatterAndTheAngleOverItsTolerance) {
   EXPECT_NEAR(curveResiduals(high, {}, targets)[0], std::log(1.1) / kLeastScatter, 1e-12)
       << "the scatter of simulated beds is the least";
   EXPECT_NEAR(high[0].deviations(), 10, 1e-12) << "the table shows measured standard deviations";
+}
+
+TEST(ComparedCurve, CountsSinkageFromContactWhereAContactPressureIsGiven) {
+  jobs::Table run;
+  run.names = {"sinkage [m]", "pressure [Pa]"};
+  run.rows = {{-0.003, 20}, {-0.002, 120}, {0, 1000}, {0.004, 5000}};
+  CurveTargets targets;
+  EXPECT_EQ(comparedCurve(run, targets).sinkage, (std::vector<double>{-0.003, -0.002, 0, 0.004}));
+  targets.contactPressure = 100;
+  const SinkageCurve compared = comparedCurve(run, targets);
+  EXPECT_EQ(compared.sinkage, (std::vector<double>{0, 0.002, 0.006}));
+  EXPECT_EQ(compared.pressure, (std::vector<double>{120, 1000, 5000}));
+  targets.contactPressure = 1e5;
+  EXPECT_TRUE(comparedCurve(run, targets).sinkage.empty()) << "a plate that bears less than that";
 }
 
 TEST(CurveParameters, AreOfMaterialBedAndPlates) {

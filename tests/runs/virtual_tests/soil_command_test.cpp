@@ -148,6 +148,14 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   EXPECT_FALSE(contents(folder_ / "found" / "final" / seed).empty());
   const Outcome page = call("report found");
   EXPECT_EQ(page.code, 0) << page.errors;
+  // From contact, which is above the mean surface, the same plates bear less at a sinkage.
+  std::string targets = contents(folder_ / "sand.toml");
+  put(folder_ / "sand.toml", targets.insert(targets.find("bin"), "contact_pressure = 100\n"));
+  const Outcome zeroed = call(words + " --force");
+  EXPECT_EQ(zeroed.code, 0) << zeroed.errors;
+  EXPECT_NE(zeroed.out.find("first contact"), std::string::npos) << zeroed.out;
+  const auto lower = nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")).at("trials").at(0);
+  EXPECT_LT(lower.at("measured").at("100 mm at 10 mm").at("value").get<double>(), pressure(0));
 }
 
 /// What a search has tried stands in calibration.json as soon as a trial is whole, and a call that goes on tells the
