@@ -48,7 +48,7 @@ void CurveCalibration::run() {
 CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const CalibrationTrials::Look& look) {
   PlanOptions options = command_.plan;
   options.coarse = command_.place.quick, options.wide = false;
-  options.plates = curves_.bed(bed_.depth),
+  options.plates = curves_.bed(bed_.depth);
   options.reposeSeeds = curves_.repose ? std::max(kLeastTilted, options.seeds) : 0;
   Trial trial;
   const auto isOurs = [](const PlannedTest& t) { return t.kind == TestKind::plate || t.kind == TestKind::repose; };
@@ -72,8 +72,8 @@ void CurveCalibration::tell(const std::string& name, const Trial& trial, double 
   for (const SearchRange& range : curves_.ranges)
     text += fmt::format(" {} {:.4g},", range.key, parameterOf(bed_, range.key));
   text += fmt::format(" bed's porosity {:.4f}", trial.porosity);
-  if (curves_.contactPressure > 0)
-    text += fmt::format(", first contact {:.2f} mm above its mean surface", 1e3 * trial.contactHeight);
+  if (trial.contactHeight)
+    text += fmt::format(", first contact {:.2f} mm above its mean surface", 1e3 * *trial.contactHeight);
   if (const auto found = trial.results.measured.find(Quantity::repose); found != trial.results.measured.end())
     text += fmt::format(", repose {} deg", jobs::valueText(found->second));
   fmt::print("{}; misfit {:.2f}\n{}", text, misfit, curvesText(trial.points));

@@ -22,8 +22,8 @@ private:
   struct Trial {
     std::vector<CurvePoint> points;
     SoilResults results;
-    double porosity = 0;      ///< mean over the beds [-]
-    double contactHeight = 0; ///< [m] as contactHeight() has it
+    double porosity = 0;                 ///< mean over the beds [-]
+    std::optional<double> contactHeight; ///< [m] as contactHeight() has it
   };
   /// Evaluates the present soil and depth.
   Trial tried(const std::string& name, const CalibrationTrials::Look& look = {});

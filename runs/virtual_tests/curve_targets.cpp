@@ -76,6 +76,8 @@ void addRange(const base::Section& section, const SoilInBed& start, const std::s
   ranges.push_back({key, low, high, key == "young" || key == "stiffness"});
 }
 
+SinkageCurve curveOf(const jobs::Table& run) { return {run.values("sinkage [m]"), run.values("pressure [Pa]")}; }
+
 /// Finished tests of one plate, ordered by seed.
 std::vector<jobs::Table> runsOfPlate(const TestPlan& plan, const jobs::Pieces& pieces, double diameter) {
   std::vector<jobs::Table> runs;
@@ -148,30 +150,31 @@ std::string CurvePoint::name() const {
 }
 
 SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets) {
-  const SinkageCurve curve{run.values("sinkage [m]"), run.values("pressure [Pa]")};
+  const SinkageCurve curve = curveOf(run);
   return targets.contactPressure > 0 ? fromContactPressure(curve, targets.contactPressure) : curve;
 }
 
-double contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
+std::optional<double> contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
+  if (targets.contactPressure <= 0) return {};
   std::vector<double> heights;
   for (const MeasuredPlate& plate : targets.plates)
     for (const jobs::Table& run : runsOfPlate(plan, pieces, plate.diameter))
-      if (const SinkageCurve compared = comparedCurve(run, targets); !compared.sinkage.empty())
-        heights.push_back(compared.sinkage.back() - run.values("sinkage [m]").back());
+      heights.push_back(-contactSinkage(curveOf(run), targets.contactPressure));
   return jobs::interval95(heights).value;
 }
 
 std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
   std::vector<CurvePoint> points;
   for (const MeasuredPlate& plate : targets.plates) {
-    const std::vector<jobs::Table> runs = runsOfPlate(plan, pieces, plate.diameter);
-    if (runs.empty()) continue;
+    std::vector<SinkageCurve> curves;
+    for (const jobs::Table& run : runsOfPlate(plan, pieces, plate.diameter))
+      curves.push_back(comparedCurve(run, targets));
+    if (curves.empty()) continue;
     for (const MeasuredPressure& measured : plate.points) {
       const double window = std::max(kWindow * measured.sinkage, kLeastWindow);
       std::vector<double> pressures;
-      for (const jobs::Table& run : runs)
-        pressures.push_back(
-            meanPressureBetween(comparedCurve(run, targets), measured.sinkage - window, measured.sinkage + window));
+      for (const SinkageCurve& curve : curves)
+        pressures.push_back(meanPressureBetween(curve, measured.sinkage - window, measured.sinkage + window));
       points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
     }
   }

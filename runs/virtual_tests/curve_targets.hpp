@@ -58,8 +58,8 @@ struct CurvePoint {
 };
 /// The curve of a test with sinkage as it is compared.
 SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets);
-/// Mean height of first contact above the bed's mean surface [m]; 0 without a contact pressure.
-double contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
+/// Mean height [m] above the bed's mean surface at which plates first bear the contact pressure, if there is one.
+std::optional<double> contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 /// Compares the finished plate tests with the measured points. Simulated pressures are averaged over 90 to 110 % of the
 /// sinkage, at least over 2 mm.
 std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);

@@ -134,12 +134,17 @@ SinkageCurve fromFirstContact(const SinkageCurve& measured) {
 
 SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure) {
   SinkageCurve curve;
-  const std::size_t first = firstWith(measured, pressure);
-  for (std::size_t i = first; i < measured.sinkage.size(); ++i) {
-    curve.sinkage.push_back(measured.sinkage[i] - measured.sinkage[first]);
+  const double contact = contactSinkage(measured, pressure);
+  for (std::size_t i = firstWith(measured, pressure); i < measured.sinkage.size(); ++i) {
+    curve.sinkage.push_back(measured.sinkage[i] - contact);
     curve.pressure.push_back(measured.pressure[i]);
   }
   return curve;
+}
+
+double contactSinkage(const SinkageCurve& measured, double pressure) {
+  const std::size_t first = firstWith(measured, pressure);
+  return first < measured.sinkage.size() ? measured.sinkage[first] : base::kNaN;
 }
 
 double BekkerFit::sinkageAt(double pressure, double breadth) const {

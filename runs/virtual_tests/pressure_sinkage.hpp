@@ -30,6 +30,8 @@ BeddedCurve correctedForBedding(const SinkageCurve& measured, double room);
 SinkageCurve fromFirstContact(const SinkageCurve& measured);
 /// The same from the first row with this pressure [Pa]; empty if there is none.
 SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure);
+/// Sinkage of that row [m]; NaN if there is none.
+double contactSinkage(const SinkageCurve& measured, double pressure);
 
 /// A plate's breadth, and all of its tests.
 struct PlateTests {

@@ -3,15 +3,13 @@
 """Plot of the predicted states of both wheels: plot.py TABLE.csv FILE.png
 
 Left: straight ahead, over the speed of the rim. Right: over the sideslip angle, a line for each speed of the rim. Bars are
-half widths of 95 %.
+95 % confidence intervals of the mean.
 """
-import csv
+import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "runs" / "plots"))
+import drawing  # noqa: E402
 
 QUANTITIES = ("drawbar pull [N]", "side force [N]", "torque [N m]", "sinkage [mm]")
 STYLES = {"smooth": ("o", "-"), "grousers": ("s", "--")}
@@ -25,10 +23,10 @@ def line(axis, rows, key, colour, label, style):
                   capsize=3, color=colour, label=label)
 
 
-def main(table, target):
-    with open(table, encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    figure, axes = plt.subplots(len(QUANTITIES), 2, figsize=(10, 12), sharex="col", sharey="row", layout="constrained")
+def draw(table):
+    rows = drawing.rows(table)
+    figure = drawing.Figure(figsize=(10, 12))
+    axes = figure.subplots(len(QUANTITIES), 2, sharex="col", sharey="row")
     for (left, right), quantity in zip(axes, QUANTITIES):
         for wheel, style in STYLES.items():
             ours = [row for row in rows if row["wheel"] == wheel and row["quantity"] == quantity]
@@ -39,20 +37,15 @@ def main(table, target):
                 at_rim = [row for row in ours if float(row["rim speed [mm/s]"]) == rim]
                 line(right, at_rim, "sideslip [deg]", colour, f"{wheel}, rim at {rim} mm/s", style)
         left.set_ylabel(quantity)
-    axes[1][0].text(0.5, 0.5, "none straight ahead", ha="center", transform=axes[1][0].transAxes)
-    axes[0][0].set_title("straight ahead, towed at 10 mm/s")
-    axes[0][1].set_title("with sideslip")
-    axes[0][0].legend(fontsize=8)
-    axes[0][1].legend(fontsize=8, ncols=2)
+    axes[1][0].text(0.5, 0.5, "not tabulated straight ahead", ha="center", transform=axes[1][0].transAxes)
     axes[-1][0].set_xscale("symlog", linthresh=5)
     axes[-1][0].set_xticks([0, 3, 5, 10, 20, 40, 100], ["0", "3", "5", "10", "20", "40", "100"])
-    axes[-1][0].set_xlabel("speed of the rim [mm/s]")
+    axes[-1][0].set_xlabel("speed of the rim [mm/s], towed straight ahead at 10 mm/s")
     axes[-1][1].set_xlabel("sideslip [deg]")
-    figure.savefig(target, dpi=110)
+    drawing.legend_above(axes[0][0], 2)
+    drawing.legend_above(axes[0][1], 2)
+    return figure
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        print(__doc__, file=sys.stderr)
-        sys.exit(2)
-    main(*sys.argv[1:])
+    drawing.main(__doc__, draw, dpi=110)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 namespace grouser::virtual_tests {
@@ -156,6 +157,32 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   EXPECT_NE(zeroed.out.find("first contact"), std::string::npos) << zeroed.out;
   const auto lower = nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")).at("trials").at(0);
   EXPECT_LT(lower.at("measured").at("100 mm at 10 mm").at("value").get<double>(), pressure(0));
+  // Its curves begin at contact, whose height is that of the tests' own sinkage, which counts from the mean surface.
+  const std::string shifted = contents(folder_ / "found" / "final" / "curves.csv");
+  ASSERT_EQ(std::sscanf(shifted.c_str() + shifted.find('\n') + 1, "coarse,0.1,1,%lf,%lf", &sinkage, &pressed), 2);
+  EXPECT_EQ(sinkage, 0);
+  EXPECT_GE(pressed, 100);
+  double height = 0, all = 0;
+  ASSERT_EQ(std::sscanf(zeroed.out.c_str() + zeroed.out.find("first contact"), "first contact %lf mm", &height), 1);
+  for (int n = 1; n <= 2; ++n) {
+    std::istringstream rows(
+        contents(folder_ / "found" / "curves_1" / "runs" / fmt::format("coarse_plate100mm_seed{}.csv", n)));
+    std::string row;
+    std::getline(rows, row);
+    for (double p = 0; p < 100 && std::getline(rows, row);) std::sscanf(row.c_str(), "%lf,%lf", &sinkage, &p);
+    all -= sinkage;
+  }
+  EXPECT_NEAR(height, 1e3 * all / 2, 0.006);
+}
+
+TEST_F(SoilCommandTest, TiltsFourBedsForAnAngleOfReposeEvenWithOneSeed) {
+  put(folder_ / "plates.csv", "trial,plate_diameter_mm,sinkage_mm,pressure_kPa\n1,100,0,0\n1,100,20,20\n");
+  put(folder_ / "sand.toml", "version = 1\n[targets]\nrepose = 29\n[plates]\nfile = \"plates.csv\"\nsinkages = [0.01]\n"
+                             "bin = 0.2\ndepth = 0.1\n[search]\nfriction = [0.3, 0.8]\n[start]\nstiffness = 2e3\n"
+                             "friction = 0.5\n[bed]\ngrain_radius = 0.01\n");
+  const Outcome o = call("soil --calibrate sand.toml --seeds 1 --quick --seconds 1e-9 --threads 1 --device cpu");
+  EXPECT_NE((o.out + o.errors).find("5 tests of this trial are missing"), std::string::npos)
+      << o.code << o.out << o.errors;
 }
 
 /// What a search has tried stands in calibration.json as soon as a trial is whole, and a call that goes on tells the
