@@ -36,6 +36,16 @@ def prose_lines(text):
             yield number, line
 
 
+def commits(house):
+    """Commits of measured figures stand in records under docs/evidence/, not in guides."""
+    for path in house.documents:
+        if path.startswith('docs/evidence/'):
+            continue
+        text = house.text[path]
+        for match in re.finditer(r'\b(?=\d*[a-f])(?=[a-f]*\d)[0-9a-f]{7,8}\b|\bcommits?\s+\d{7,8}\b', text):
+            yield f'{path}:{line_at(text, match.start())}: names a commit, {match[0]}; move it to docs/evidence/commits.md'
+
+
 def links(house):
     """Links of documents, paths named as `room/file`, and files of code named in documents and comments are there."""
     tops = '|'.join(TOPS)

@@ -9,7 +9,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from checkout import House  # noqa: E402
-from references import links, long_tests, mutants, prose  # noqa: E402
+from references import commits, links, long_tests, mutants, prose  # noqa: E402
 from rules_test import faults  # noqa: E402
 
 
@@ -24,6 +24,13 @@ class Documents(unittest.TestCase):
         for text in ('| ' + self.WIDE, '    ' + self.WIDE, '```\n' + self.WIDE + '\n```\n',
                      '- <https://' + 'a' * 130 + '>'):
             self.assertEqual(faults(prose, {'docs/a.md': text}), [], text)
+
+    def test_commits_stand_in_records(self):
+        for bad in ('on one H200, commit ef291b3', '(fb19f37c)', 'commit\n4063015', '    run # 82d7a24'):
+            self.assertEqual(len(faults(commits, {'docs/a.md': bad})), 1, bad)
+            self.assertEqual(faults(commits, {'docs/evidence/a.md': bad}), [], bad)
+        for good in ('2000000 grains', 'feedback', 'a hash 9f86d081884c7d65', 'commit 12'):
+            self.assertEqual(faults(commits, {'README.md': good}), [], good)
 
     def test_links(self):
         files = {'docs/a.md': '# Title: of `code`\n\n## Part two\n', 'README.md': ''}

@@ -6,7 +6,7 @@ from pathlib import Path
 from checkout import GENERATED, OTHERS, SCRIPTS, SUFFIXES, TOPS, line_at, room_of
 from cpp_outline import outline
 from include_graph import chains_from, circles_of
-from references import links, long_tests, mutants, prose
+from references import commits, links, long_tests, mutants, prose
 
 # A room, and the rooms beside itself that it may include.
 LIBRARIES = {
@@ -296,5 +296,5 @@ def licence(house):
             yield f'{path}:{number + 1}: here stands the licence: SPDX-License-Identifier: BSD-3-Clause'
 
 
-RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, links,
-         long_tests, mutants]
+RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, commits,
+         links, long_tests, mutants]
