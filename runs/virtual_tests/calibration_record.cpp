@@ -86,6 +86,7 @@ CalibrationRecord::CalibrationRecord(const CalibrationCommand& command, const Ca
       {"grain_radius_m", targets.start.grainRadius},
       {"seeds", {{"small", command.plan.seeds}, {"large", command.plan.largeSeeds}, {"shear", command.plan.seeds}}},
       {"targets", targetsJson(targets)}};
+  if (targets.curves) json_["contact_pressure_pa"] = targets.curves->contactPressure;
   if (targets.wantsSinkage())
     json_["pressure"] = {{"wanted", 1e-3 * kTrackPressure},
                          {"unit", "kPa"},
@@ -100,7 +101,7 @@ bool CalibrationRecord::isOfThisCall() const {
   std::ifstream file(file_);
   const Json former = Json::parse(file, nullptr, false);
   if (!former.is_object()) return false;
-  const auto keys = {"soil", "targets_file", "care", "grain_radius_m", "seeds", "targets"};
+  const auto keys = {"soil", "targets_file", "care", "grain_radius_m", "seeds", "targets", "contact_pressure_pa"};
   return std::all_of(keys.begin(), keys.end(),
                      [&](const char* key) { return former.value(key, Json()) == json_.at(key); });
 }
@@ -128,13 +129,16 @@ void CalibrationRecord::shear(const std::string& name, const TestedSoil& soil,
   add(name, "shear", soil, values);
 }
 
-void CalibrationRecord::curves(const std::string& name, const SoilInBed& bed, const std::vector<CurvePoint>& points,
-                               const std::map<Quantity, support::Estimate>& measured, double porosity, double misfit) {
+void CalibrationRecord::curves(const std::string& name, const SoilInBed& bed, const CurveComparison& curves,
+                               const std::map<Quantity, support::Estimate>& measured, double misfit) {
   const auto exact = [](double value, const char* unit) {
     return Json{{"value", value}, {"half_width", nullptr}, {"unit", unit}};
   };
-  Json values{{"misfit", exact(misfit, "-")}, {"porosity", exact(porosity, "-")}, {"depth", exact(bed.depth, "m")}};
-  for (const CurvePoint& p : points)
+  Json values{{"misfit", exact(misfit, "-")},
+              {"porosity", exact(curves.porosity, "-")},
+              {"depth", exact(bed.depth, "m")},
+              {"zero_of_sinkage", exact(curves.zeroOfSinkage, "m")}};
+  for (const CurvePoint& p : curves.points)
     values[p.name()] = estimateJson({1e-3 * p.simulated.value, 1e-3 * p.simulated.halfWidth}, "kPa");
   if (const auto found = measured.find(Quantity::repose); found != measured.end())
     values["repose"] = estimateJson(found->second, unitOf(Quantity::repose));

@@ -43,8 +43,8 @@ public:
   /// A trial of the small plate: its mean pressure at the sinkage wanted [Pa], [m].
   void plate(const std::string& name, const TestedSoil& soil, const support::Estimate& pressure, double sinkage);
   /// A trial of measured curves.
-  void curves(const std::string& name, const SoilInBed& bed, const std::vector<CurvePoint>& points,
-              const std::map<Quantity, support::Estimate>& measured, double porosity, double misfit);
+  void curves(const std::string& name, const SoilInBed& bed, const CurveComparison& curves,
+              const std::map<Quantity, support::Estimate>& measured, double misfit);
   /// Time was up in a trial.
   void stopped(const std::string& name, int missingTests);
   /// All tests are there with what was found.

@@ -18,14 +18,6 @@ namespace {
 constexpr int kLeastTilted = 4; // beds for the angle of repose, which scatters more than pressures do
 constexpr double kWithin = 2;   // a pressure is reached within so many standard deviations of a measured test
 
-double meanPorosity(const TestPlan& plan, const jobs::Pieces& pieces) {
-  std::vector<double> porosities;
-  for (const PlannedTest& test : plan.tests)
-    if (test.kind == TestKind::plate && pieces.has(test.name))
-      porosities.push_back(pieces.read(test.name).values("porosity [-]").front());
-  return jobs::interval95(porosities).value;
-}
-
 } // namespace
 
 void CurveCalibration::run() {
@@ -36,9 +28,9 @@ void CurveCalibration::run() {
     setParameters(bed_, curves_, search.at());
     const std::string name = fmt::format("curves_{}", search.trials().size() + 1);
     const Trial trial = tried(name);
-    goesOn = search.tried(curveResiduals(trial.points, reposeOf(trial), curves_));
+    goesOn = search.tried(curveResiduals(trial.curves.points, reposeOf(trial), curves_));
     const double misfit = search.trials().back().misfit();
-    record_.curves(name, bed_, trial.points, trial.results.measured, trial.porosity, misfit);
+    record_.curves(name, bed_, trial.curves, trial.results.measured, misfit);
     tell(name, trial, misfit);
   }
   setParameters(bed_, curves_, search.trials()[search.nearest()].values);
@@ -54,9 +46,7 @@ CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const C
   const auto isOurs = [](const PlannedTest& t) { return t.kind == TestKind::plate || t.kind == TestKind::repose; };
   trials_.tested(bed_.soil, name, options, isOurs, trial.results,
                  [&](const TestPlan& plan, const jobs::Pieces& pieces) {
-                   trial.points = curvePoints(plan, pieces, curves_);
-                   trial.porosity = meanPorosity(plan, pieces);
-                   trial.contactHeight = contactHeight(plan, pieces, curves_);
+                   trial.curves = compareCurves(plan, pieces, curves_);
                    if (look) look(plan, pieces);
                  });
   return trial;
@@ -71,18 +61,18 @@ void CurveCalibration::tell(const std::string& name, const Trial& trial, double 
   std::string text = fmt::format("          {}:", name);
   for (const SearchRange& range : curves_.ranges)
     text += fmt::format(" {} {:.4g},", range.key, parameterOf(bed_, range.key));
-  text += fmt::format(" bed's porosity {:.4f}", trial.porosity);
-  if (trial.contactHeight)
-    text += fmt::format(", first contact {:.2f} mm above its mean surface", 1e3 * *trial.contactHeight);
+  text += fmt::format(" bed's porosity {:.4f}", trial.curves.porosity);
+  if (trial.curves.zeroOfSinkage != 0)
+    text += fmt::format(", sinkage from {:.2f} mm above its mean surface", 1e3 * trial.curves.zeroOfSinkage);
   if (const auto found = trial.results.measured.find(Quantity::repose); found != trial.results.measured.end())
     text += fmt::format(", repose {} deg", jobs::valueText(found->second));
-  fmt::print("{}; misfit {:.2f}\n{}", text, misfit, curvesText(trial.points));
+  fmt::print("{}; misfit {:.2f}\n{}", text, misfit, curvesText(trial.curves.points));
   std::fflush(stdout);
 }
 
 std::vector<TargetOutcome> CurveCalibration::outcomes(const Trial& trial) const {
   std::vector<TargetOutcome> all;
-  for (const CurvePoint& p : trial.points)
+  for (const CurvePoint& p : trial.curves.points)
     all.push_back({"plate of " + p.name(),
                    "kPa",
                    1e-3 * p.measured.mean,
@@ -103,8 +93,8 @@ void CurveCalibration::finish() {
   const std::vector<TargetOutcome> found = outcomes(trial);
   const std::string text = outcomesText(found, command_.place.quick);
   fmt::print("{}", text);
-  support::writeTextFile(folder_ / "calibration.txt", curvesText(trial.points) + text, "--out");
-  support::writeTextFile(tables / "points.csv", curvePointsCsv(trial.points), "--out");
+  support::writeTextFile(folder_ / "calibration.txt", curvesText(trial.curves.points) + text, "--out");
+  support::writeTextFile(tables / "points.csv", curvePointsCsv(trial.curves.points), "--out");
   output::drawPicture("plate_curves.py", {tables / "curves.csv", tables / "points.csv"}, folder_ / "curves.png");
   const std::string call = fmt::format("grouser soil --calibrate {}{}", bed_.soil.file.filename().string(),
                                        command_.place.quick ? " --quick" : "");

@@ -20,10 +20,8 @@ public:
 
 private:
   struct Trial {
-    std::vector<CurvePoint> points;
+    CurveComparison curves;
     SoilResults results;
-    double porosity = 0;                 ///< mean over the beds [-]
-    std::optional<double> contactHeight; ///< [m] as contactHeight() has it
   };
   /// Evaluates the present soil and depth.
   Trial tried(const std::string& name, const CalibrationTrials::Look& look = {});

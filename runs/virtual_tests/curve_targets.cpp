@@ -38,7 +38,8 @@ base::Table<PlateKeys> plateTable() {
   t.add("bin", &T::bin, "m", "side of the square bed, between periodic boundaries").above(0).atMost(100);
   t.add("depth", &T::depth, "m", "of the bed").above(0).atMost(100);
   t.add("contact_pressure", &T::contact, "Pa",
-        "sinkage of simulated plates counts from where they first bear it; 0: from the mean surface of the bed")
+        "simulated plates first bear it at the mean sinkage at which the tests do; 0: sinkage counts from the mean "
+        "surface")
       .atLeast(0)
       .atMost(1e6);
   return t;
@@ -105,7 +106,7 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
   if (!std::is_sorted(keys.sinkages.begin(), keys.sinkages.end(), std::less_equal<>()))
     plates.fail("sinkages", "is not ascending; sort it");
   t.bin = keys.bin, t.depth = keys.depth, t.contactPressure = keys.contact;
-  t.plates = readMeasuredPlates(file.parent_path() / keys.file, keys.sinkages);
+  t.plates = readMeasuredPlates(file.parent_path() / keys.file, keys.sinkages, keys.contact);
   const base::Section search = root.section("search");
   const SearchKeys sought = search.read(searchTable());
   const SoilInBed given{start, t.depth};
@@ -149,36 +150,38 @@ std::string CurvePoint::name() const {
   return fmt::format("{:g} mm at {:g} mm", 1e3 * diameter, 1e3 * measured.sinkage);
 }
 
-SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets) {
+SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, const MeasuredPlate& plate) {
   const SinkageCurve curve = curveOf(run);
-  return targets.contactPressure > 0 ? fromContactPressure(curve, targets.contactPressure) : curve;
+  if (targets.contactPressure <= 0) return curve;
+  SinkageCurve compared = fromContactPressure(curve, targets.contactPressure, plate.contact);
+  if (compared.sinkage.empty())
+    throw base::InputError(fmt::format("the simulated plate of {:g} mm never bears plates.contact_pressure = {:g} Pa; "
+                                       "lower it, or narrow the ranges of [search]",
+                                       1e3 * plate.diameter, targets.contactPressure));
+  return compared;
 }
 
-std::optional<double> contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
-  if (targets.contactPressure <= 0) return {};
-  std::vector<double> heights;
-  for (const MeasuredPlate& plate : targets.plates)
-    for (const jobs::Table& run : runsOfPlate(plan, pieces, plate.diameter))
-      heights.push_back(-contactSinkage(curveOf(run), targets.contactPressure));
-  return jobs::interval95(heights).value;
-}
-
-std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
-  std::vector<CurvePoint> points;
+CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
+  CurveComparison all;
+  std::vector<double> porosities, zeros;
   for (const MeasuredPlate& plate : targets.plates) {
     std::vector<SinkageCurve> curves;
-    for (const jobs::Table& run : runsOfPlate(plan, pieces, plate.diameter))
-      curves.push_back(comparedCurve(run, targets));
+    for (const jobs::Table& run : runsOfPlate(plan, pieces, plate.diameter)) {
+      curves.push_back(comparedCurve(run, targets, plate));
+      porosities.push_back(run.values("porosity [-]").front());
+      zeros.push_back(curves.back().sinkage.back() - curveOf(run).sinkage.back());
+    }
     if (curves.empty()) continue;
     for (const MeasuredPressure& measured : plate.points) {
       const double window = std::max(kWindow * measured.sinkage, kLeastWindow);
       std::vector<double> pressures;
       for (const SinkageCurve& curve : curves)
         pressures.push_back(meanPressureBetween(curve, measured.sinkage - window, measured.sinkage + window));
-      points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
+      all.points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
     }
   }
-  return points;
+  all.porosity = jobs::interval95(porosities).value, all.zeroOfSinkage = jobs::interval95(zeros).value;
+  return all;
 }
 
 std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
@@ -221,15 +224,16 @@ std::string curvePointsCsv(const std::vector<CurvePoint>& points) {
 
 std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
   std::string text = "care,diameter [m],seed,sinkage [m],pressure [Pa],porosity [-]\n";
-  for (const PlannedTest& test : plan.tests) {
-    if (test.kind != TestKind::plate || !pieces.has(test.name)) continue;
-    const jobs::Table run = pieces.read(test.name);
-    const double porosity = run.values("porosity [-]").front();
-    const SinkageCurve curve = comparedCurve(run, targets);
-    for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
-      text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.5g}\n", plan.care(), test.diameter, test.seed, curve.sinkage[i],
-                          curve.pressure[i], porosity);
-  }
+  for (const MeasuredPlate& plate : targets.plates)
+    for (const PlannedTest& test : plan.tests) {
+      if (test.kind != TestKind::plate || test.diameter != plate.diameter || !pieces.has(test.name)) continue;
+      const jobs::Table run = pieces.read(test.name);
+      const double porosity = run.values("porosity [-]").front();
+      const SinkageCurve curve = comparedCurve(run, targets, plate);
+      for (std::size_t i = 0; i < curve.sinkage.size(); ++i)
+        text += fmt::format("{},{:g},{},{:.6g},{:.6g},{:.5g}\n", plan.care(), test.diameter, test.seed,
+                            curve.sinkage[i], curve.pressure[i], porosity);
+    }
   return text;
 }
 

@@ -19,8 +19,8 @@ namespace grouser::virtual_tests {
 struct CurveTargets {
   std::vector<MeasuredPlate> plates;
   double bin = 0.3, depth = 0.12; ///< [m] side and depth of the bed
-  /// [Pa] sinkage of simulated plates counts from where they first bear it, as tests are zeroed at contact: coarse
-  /// grains stand out of the bed's mean surface, from which it counts if this is 0.
+  /// [Pa] simulated plates first bear it at the mean sinkage at which the tests of that plate do, which are zeroed at
+  /// contact: coarse grains stand out of the bed's mean surface, from which sinkage counts if this is 0.
   double contactPressure = 0;
   std::vector<SearchRange> ranges;
   std::size_t mostTrials = 16;
@@ -56,13 +56,17 @@ struct CurvePoint {
   double deviations() const;   ///< simulated less measured mean, in standard deviations of a measured test [-]
   std::string name() const;    ///< "60 mm at 5 mm"
 };
-/// The curve of a test with sinkage as it is compared.
-SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets);
-/// Mean height [m] above the bed's mean surface at which plates first bear the contact pressure, if there is one.
-std::optional<double> contactHeight(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
-/// Compares the finished plate tests with the measured points. Simulated pressures are averaged over 90 to 110 % of the
-/// sinkage, at least over 2 mm.
-std::vector<CurvePoint> curvePoints(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
+/// The curve of a test of a plate with sinkage as it is compared. Throws base::InputError if it never bears the contact
+/// pressure.
+SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, const MeasuredPlate& plate);
+/// The finished tests of plates beside the measured points; means over the plates.
+struct CurveComparison {
+  std::vector<CurvePoint> points;
+  double porosity = 0;      ///< of the beds [-]
+  double zeroOfSinkage = 0; ///< [m] height above the bed's mean surface from which sinkage counts
+};
+/// Simulated pressures are averaged over 90 to 110 % of the sinkage, at least over 2 mm.
+CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 
 /// For the search: ln(simulated / measured) of every point over its measured relative deviation, at least
 /// `kLeastScatter`; then (repose - wanted) over its tolerance, where one is wanted.

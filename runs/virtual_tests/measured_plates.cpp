@@ -109,15 +109,27 @@ private:
   std::array<std::size_t, 4> column_{};
 };
 
-/// Pressure where a test first passes a sinkage, by linear interpolation; empty if it never does.
-std::optional<double> pressureAt(const Test& test, double sinkage) {
-  for (std::size_t i = 0; i < test.sinkage.size(); ++i) {
-    if (test.sinkage[i] < sinkage) continue;
-    if (i == 0) return test.sinkage[0] == sinkage ? std::optional(test.pressure[0]) : std::nullopt;
-    const double share = (sinkage - test.sinkage[i - 1]) / (test.sinkage[i] - test.sinkage[i - 1]);
-    return test.pressure[i - 1] + share * (test.pressure[i] - test.pressure[i - 1]);
+/// y where x first passes a value, by linear interpolation; empty if it never does, or passed it before the first row.
+std::optional<double> valueAt(const std::vector<double>& x, const std::vector<double>& y, double value) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < value) continue;
+    if (i == 0) return x[0] == value ? std::optional(y[0]) : std::nullopt;
+    return y[i - 1] + (value - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
   }
   return {};
+}
+
+/// Mean sinkage at which the tests of a plate first bear a pressure; that of the first row for those that begin with
+/// more. Empty if none bears it.
+std::optional<double> contactOf(const std::map<int, Test>& tests, double diameter, double pressure) {
+  double sum = 0, count = 0;
+  for (const auto& [number, test] : tests) {
+    if (test.diameter != diameter) continue;
+    const std::optional<double> sinkage =
+        test.pressure.front() > pressure ? test.sinkage.front() : valueAt(test.pressure, test.sinkage, pressure);
+    if (sinkage) sum += *sinkage, ++count;
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 MeasuredPressure pointOf(const std::map<int, Test>& tests, double diameter, double sinkage) {
@@ -125,7 +137,8 @@ MeasuredPressure pointOf(const std::map<int, Test>& tests, double diameter, doub
   point.sinkage = sinkage;
   for (const auto& [number, test] : tests)
     if (test.diameter == diameter)
-      if (const std::optional<double> pressure = pressureAt(test, sinkage)) point.trials.push_back({number, *pressure});
+      if (const std::optional<double> pressure = valueAt(test.sinkage, test.pressure, sinkage))
+        point.trials.push_back({number, *pressure});
   const auto n = static_cast<double>(point.trials.size());
   for (const MeasuredTrial& t : point.trials) point.mean += t.pressure / n;
   double squares = 0;
@@ -149,7 +162,8 @@ void poolDeviations(std::vector<MeasuredPlate>& plates) {
 
 } // namespace
 
-std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages) {
+std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages,
+                                              double contactPressure) {
   const std::map<int, Test> tests = Reader(file).tests();
   std::map<double, MeasuredPlate> byDiameter;
   for (const auto& [number, test] : tests) byDiameter[test.diameter].diameter = test.diameter;
@@ -165,7 +179,16 @@ std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file,
                         file.string(), 1e3 * diameter, 1e-3 * point.mean, 1e3 * sinkage));
       plate.points.push_back(std::move(point));
     }
-    if (!plate.points.empty()) plates.push_back(std::move(plate));
+    if (plate.points.empty()) continue;
+    if (contactPressure > 0) {
+      const std::optional<double> contact = contactOf(tests, diameter, contactPressure);
+      if (!contact)
+        throw base::InputError(fmt::format("{}: no test of the plate of {:g} mm bears plates.contact_pressure = {:g} "
+                                           "Pa; lower it",
+                                           file.string(), 1e3 * diameter, contactPressure));
+      plate.contact = *contact;
+    }
+    plates.push_back(std::move(plate));
   }
   for (const double sinkage : sinkages) {
     const auto reaches = [&](const MeasuredPlate& plate) {

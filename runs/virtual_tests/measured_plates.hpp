@@ -25,13 +25,16 @@ struct MeasuredPressure {
 struct MeasuredPlate {
   double diameter = 0; ///< [m]
   std::vector<MeasuredPressure> points;
+  double contact = 0; ///< [m] mean sinkage at which its tests first bear the contact pressure
   double deepest() const { return points.back().sinkage; } ///< [m]
 };
 
 /// Reads comma-separated rows with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa after comment
-/// lines (#), and interpolates every trial at `sinkages` [m]. Plates are sorted by diameter. Throws base::InputError
-/// with file:line: no such file, a missing column, a cell that is not a number, a trial with two diameters, a sinkage
-/// that no trial reaches.
-std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages);
+/// lines (#), and interpolates every trial at `sinkages` [m]. Plates are sorted by diameter. Contact is where trials
+/// first bear `contactPressure` [Pa]; it stays 0 if that is 0. Throws base::InputError with file:line: no such file, a
+/// missing column, a cell that is not a number, a trial with two diameters, a sinkage or contact pressure that no trial
+/// reaches.
+std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages,
+                                              double contactPressure = 0);
 
 } // namespace grouser::virtual_tests

@@ -132,11 +132,11 @@ SinkageCurve fromFirstContact(const SinkageCurve& measured) {
   return fromContactPressure(measured, kFirst * *std::max_element(measured.pressure.begin(), measured.pressure.end()));
 }
 
-SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure) {
+SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure, double at) {
   SinkageCurve curve;
   const double contact = contactSinkage(measured, pressure);
   for (std::size_t i = firstWith(measured, pressure); i < measured.sinkage.size(); ++i) {
-    curve.sinkage.push_back(measured.sinkage[i] - contact);
+    curve.sinkage.push_back(measured.sinkage[i] - contact + at);
     curve.pressure.push_back(measured.pressure[i]);
   }
   return curve;

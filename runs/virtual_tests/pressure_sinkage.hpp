@@ -28,8 +28,8 @@ struct BeddedCurve {
 BeddedCurve correctedForBedding(const SinkageCurve& measured, double room);
 /// Instead: sinkage counts from where the plate first carries 2 % of the greatest pressure, and nothing is replaced.
 SinkageCurve fromFirstContact(const SinkageCurve& measured);
-/// The same from the first row with this pressure [Pa]; empty if there is none.
-SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure);
+/// The same from the first row with this pressure [Pa], which comes to the sinkage `at` [m]; empty if there is none.
+SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure, double at = 0);
 /// Sinkage of that row [m]; NaN if there is none.
 double contactSinkage(const SinkageCurve& measured, double pressure);
 

@@ -4,9 +4,11 @@
 
     states.py run smooth|grousers OUT [options of `grouser sweep`]
     states.py table OUT_SMOOTH OUT_GROUSERS FILE.csv
+    states.py row OUT SIDESLIP RIM
 
 A state is a sideslip angle and a speed of the rim, both in the experiment's numbers: it is towed at 10 mm/s there, and
-`faster(rim)` times as fast here. Three seeds straight ahead and at a rim speed of 10 mm/s, two otherwise.
+`faster(rim)` times as fast here. Each has three seeds, which are the same three beds in every state. `row` prints the
+figures of the runs of one state.
 """
 import csv
 import json
@@ -18,9 +20,11 @@ from pathlib import Path
 
 RADIUS = 0.058  # [m] of the drum
 TOWED = 0.010  # [m/s]
-CONTACT = 0.0024  # [m] height over the bed's mean surface where the calibration's plates first bear 100 Pa
+ZERO = 0.00289  # [m] height over the bed's mean surface from which the calibration counts the sinkage of plates
 STARTS = 0.6  # [s] the wheel stands until then
+PITCH = 2 * math.pi * RADIUS / 20  # [m] from grouser to grouser
 RIMS = {0: (0, 3, 5, 8, 10, 12, 20, 40, 100), 15: (5, 10, 20), 30: (5, 10, 20), 45: (5, 10, 20)}  # [mm/s] by [deg]
+SEEDS = (1, 2, 3)
 SECTION = {"smooth": "cylinder", "grousers": "mesh"}
 QUANTITIES = ("drawbar pull [N]", "side force [N]", "torque [N m]", "sinkage [mm]")
 
@@ -34,90 +38,120 @@ def travel(sideslip):
     return 0.1 if sideslip == 0 else 0.08  # [m]
 
 
-def seeds(sideslip, rim):
-    return 3 if sideslip == 0 or rim == 10 else 2
+def duration(sideslip, rim):
+    return STARTS + travel(sideslip) / (faster(rim) * TOWED)  # [s]
+
+
+def window(sideslip, rim):
+    """Travel over which results are averaged [m]: a third of all, as many whole pitches of the rim as fit best. Where a
+    pitch takes more than 0.04 m of travel it is a third."""
+    pitch = PITCH * 1e3 * TOWED / max(1, rim)
+    third = travel(sideslip) / 3
+    return max(1, round(third / pitch)) * pitch if pitch < 0.04 else third
 
 
 def states():
-    return [(sideslip, rim, seed) for sideslip, rims in RIMS.items() for rim in rims
-            for seed in range(1, seeds(sideslip, rim) + 1)]
+    return [(sideslip, rim) for sideslip, rims in RIMS.items() for rim in rims]
+
+
+def name(sideslip, rim, seed):
+    return f"sideslip{sideslip}_rim{rim}_seed{seed}"
 
 
 def case(wheel, sideslip, rim, seed):
     """Name and keys of a run."""
     speed, angle, section = faster(rim) * TOWED, math.radians(sideslip), f"{SECTION[wheel]}.wheel"
     velocity = f"[{speed * math.cos(angle):.8f}, {speed * math.sin(angle):.8f}, 0]"
-    keys = [f"run.seed={seed}", f"run.duration={STARTS + travel(sideslip) / speed:.4f}",
+    keys = [f"run.seed={seed}", f"run.duration={duration(sideslip, rim):.4f}",
             f"{section}.velocity={velocity}", f"{section}.spin=[0, {1e-3 * rim * faster(rim) / RADIUS:.8f}, 0]",
             f"{section}.position=[0.085, {-0.5 * travel(sideslip) * math.sin(angle):.5f}, 0]"]
-    return f"sideslip{sideslip}_rim{rim}_seed{seed}: " + ", ".join(keys)
+    return f"{name(sideslip, rim, seed)}: " + ", ".join(keys)
 
 
 def run(wheel, out, options):
     scene = Path(__file__).with_name(f"{wheel}.toml")
-    words = [os.environ.get("GROUSER_PROGRAM", "grouser"), "sweep", str(scene), "--out", out, "--set", "output.frames=false",
-             "--set", "output.picture=false", "--set", "output.plots=false"]
+    words = [os.environ.get("GROUSER_PROGRAM", "grouser"), "sweep", str(scene), "--out", out]
+    for key in ("frames", "picture", "plots"):
+        words += ["--set", f"output.{key}=false"]
     for state in states():
-        words += ["--case", case(wheel, *state)]
+        for seed in SEEDS:
+            words += ["--case", case(wheel, *state, seed)]
     return subprocess.call([*words, *options])
 
 
-def figures(folder, rim, sideslip):
-    """Means over the last third of the travel."""
-    surface = json.loads((folder / "manifest.json").read_text())["figures"]["bed_mean_height_m"]
+def figures(folder, sideslip, rim):
+    """Means over the window at the end of the travel, which has to be complete."""
+    manifest = json.loads((folder / "manifest.json").read_text())
     with open(folder / "timeseries.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     last = float(rows[-1]["time [s]"])
-    rows = [row for row in rows if float(row["time [s]"]) > last - travel(sideslip) / (3 * faster(rim) * TOWED)]
+    moved = [float(rows[k]["surfaces.wheel.position.x [m]"]) for k in (0, -1)]
+    travelled = (moved[1] - moved[0]) / math.cos(math.radians(sideslip))
+    if manifest["status"] != "finished" or abs(travelled - travel(sideslip)) > 1e-3:
+        sys.exit(f"{folder}: {manifest['status']}, {1e3 * travelled:.1f} mm travelled; run it to its end")
+    first = last - (last - STARTS) * window(sideslip, rim) / travel(sideslip)
+    rows = [row for row in rows if float(row["time [s]"]) > first]
 
-    def mean(name):
-        return sum(float(row[f"surfaces.wheel.{name}"]) for row in rows) / len(rows)
+    def mean(column):
+        return sum(float(row[f"surfaces.wheel.{column}"]) for row in rows) / len(rows)
 
+    surface = manifest["figures"]["bed_mean_height_m"] + ZERO
     return (mean("force.x [N]"), mean("force.y [N]"), -mean("torque.y [N m]"),
-            1e3 * (surface + CONTACT - (mean("position.z [m]") - RADIUS)))
+            1e3 * (surface - (mean("position.z [m]") - RADIUS)))
 
 
 def student95(freedom):
-    """The 97.5 % quantile of Student's distribution."""
-    table = {1: 12.706, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 8: 2.306, 10: 2.228, 15: 2.131, 20: 2.086}
-    return next(value for least, value in reversed(table.items()) if freedom >= least)
+    """The 97.5 % quantile of Student's distribution, within 1 %."""
+    if freedom < 3:
+        return {1: 12.706, 2: 4.303}[max(1, int(freedom))]
+    z, n = 1.959964, freedom
+    return z + (z**3 + z) / (4 * n) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * n**2) \
+        + (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / (384 * n**3)
 
 
-def half_widths(values):
-    """{state: half width of 95 %} of a quantity of one wheel: the variance of a seed is pooled over the states of the same
-    kind (straight, with sideslip), since two or three seeds alone do not tell it."""
-    found = {}
-    for straight in (True, False):
-        kind = {state: v for state, v in values.items() if (state[0] == 0) == straight}
-        freedom = sum(len(v) - 1 for v in kind.values())
-        squares = sum(sum((x - sum(v) / len(v)) ** 2 for x in v) for v in kind.values())
-        for state, v in kind.items():
-            found[state] = student95(freedom) * math.sqrt(squares / freedom / len(v))
-    return found
+def half_width(values):
+    """95 % of the mean of a state, from all states of one kind: rows of `values`, a column for each bed.
+
+    The beds are the same in all states, so deviations of a bed from the mean may go along with one another. Two-way
+    analysis of variance: mean squares of beds and of the rest; a deviation of a single run has the variance
+    (beds + (n - 1) rest) / n of n states, with Satterthwaite's degrees of freedom."""
+    n, beds = len(values), len(values[0])
+    total = sum(map(sum, values)) / (n * beds)
+    of_state = [sum(row) / beds for row in values]
+    of_bed = [sum(row[k] for row in values) / n for k in range(beds)]
+    by_bed = n * sum((mean - total) ** 2 for mean in of_bed) / (beds - 1)
+    rest = sum((values[s][k] - of_state[s] - of_bed[k] + total) ** 2 for s in range(n) for k in range(beds))
+    rest /= (n - 1) * (beds - 1)
+    shares = (by_bed / n, (n - 1) * rest / n)
+    freedom = sum(shares) ** 2 / (shares[0] ** 2 / (beds - 1) + shares[1] ** 2 / ((n - 1) * (beds - 1)))
+    return student95(freedom) * math.sqrt(sum(shares) / beds)
 
 
 def table(folders, target):
-    rows = []
+    rows, commits = [], set()
     for wheel, folder in folders.items():
-        runs = {}
-        for sideslip, rim, seed in states():
-            one = folder / f"sideslip{sideslip}_rim{rim}_seed{seed}"
-            runs.setdefault((sideslip, rim), []).append(figures(one, rim, sideslip))
-        commit = json.loads((one / "manifest.json").read_text())["commit"]
-        for index, quantity in enumerate(QUANTITIES):
-            values = {state: [f[index] for f in found] for state, found in runs.items()}
-            bars = half_widths(values)
-            for (sideslip, rim), found in values.items():
-                if index != 1 or sideslip:
-                    rows.append((wheel, sideslip, rim, quantity, f"{sum(found) / len(found):.4g}",
-                                 f"{bars[sideslip, rim]:.2g}", len(found), f"states.py run {wheel}", commit))
+        runs = {state: [figures(folder / name(*state, seed), *state) for seed in SEEDS] for state in states()}
+        commits |= {json.loads((folder / name(*state, seed) / "manifest.json").read_text())["commit"]
+                    for state in states() for seed in SEEDS}
+        for straight in (True, False):
+            kind = [state for state in states() if (state[0] == 0) == straight]
+            for index, quantity in enumerate(QUANTITIES):
+                if straight and index == 1:
+                    continue
+                values = [[found[index] for found in runs[state]] for state in kind]
+                bar = half_width(values)
+                digits = max(0, 1 - math.floor(math.log10(bar)))
+                rows += [(wheel, *state, quantity, f"{sum(v) / len(v):.{digits}f}", f"{bar:.{digits}f}", len(SEEDS),
+                          f"states.py run {wheel}") for state, v in zip(kind, values)]
+    if len(commits) != 1:
+        sys.exit(f"runs of {len(commits)} commits: {', '.join(sorted(commits))}; run them again with one program")
     order = {wheel: k for k, wheel in enumerate(folders)}
     rows.sort(key=lambda row: (order[row[0]], row[1], row[2], QUANTITIES.index(row[3])))
     with open(target, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("wheel", "sideslip [deg]", "rim speed [mm/s]", "quantity", "mean", "half width of 95 %", "seeds",
                          "command", "commit"))
-        writer.writerows(rows)
+        writer.writerows((*row, *commits) for row in rows)
 
 
 def main(words):
@@ -125,9 +159,14 @@ def main(words):
         return run(words[1], words[2], words[3:])
     if len(words) == 4 and words[0] == "table":
         table({"smooth": Path(words[1]), "grousers": Path(words[2])}, words[3])
-        return 0
-    print(__doc__, file=sys.stderr)
-    return 2
+    elif len(words) == 4 and words[0] == "row":
+        state = int(words[2]), int(words[3])
+        for folder in sorted(Path(words[1]).glob(f"sideslip{words[2]}_rim{words[3]}_*")):
+            print(folder.name, *(f"{q} {v:.4g}" for q, v in zip(QUANTITIES, figures(folder, *state))), sep="  ")
+    else:
+        print(__doc__, file=sys.stderr)
+        return 2
+    return 0
 
 
 if __name__ == "__main__":

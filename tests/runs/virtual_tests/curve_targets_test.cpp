@@ -112,13 +112,17 @@ TEST(ComparedCurve, CountsSinkageFromContactWhereAContactPressureIsGiven) {
   run.names = {"sinkage [m]", "pressure [Pa]"};
   run.rows = {{-0.003, 20}, {-0.002, 120}, {0, 1000}, {0.004, 5000}};
   CurveTargets targets;
-  EXPECT_EQ(comparedCurve(run, targets).sinkage, (std::vector<double>{-0.003, -0.002, 0, 0.004}));
+  MeasuredPlate plate;
+  plate.contact = 0.0005;
+  EXPECT_EQ(comparedCurve(run, targets, plate).sinkage, (std::vector<double>{-0.003, -0.002, 0, 0.004}));
   targets.contactPressure = 100;
-  const SinkageCurve compared = comparedCurve(run, targets);
-  EXPECT_EQ(compared.sinkage, (std::vector<double>{0, 0.002, 0.006}));
+  const SinkageCurve compared = comparedCurve(run, targets, plate);
+  ASSERT_EQ(compared.sinkage.size(), 3u);
+  EXPECT_NEAR(compared.sinkage[0], 0.0005, 1e-15) << "as deep as the tests, which bear as much there";
+  EXPECT_NEAR(compared.sinkage[2], 0.0065, 1e-15);
   EXPECT_EQ(compared.pressure, (std::vector<double>{120, 1000, 5000}));
   targets.contactPressure = 1e5;
-  EXPECT_TRUE(comparedCurve(run, targets).sinkage.empty()) << "a plate that bears less than that";
+  EXPECT_THROW(comparedCurve(run, targets, plate), base::InputError) << "a plate that bears less than that";
 }
 
 TEST(CurveParameters, AreOfMaterialBedAndPlates) {

@@ -53,6 +53,23 @@ TEST_F(MeasuredPlatesTest, InterpolatesEveryTestAndPoolsTheScatterOfSingleOnes) 
   EXPECT_NEAR(large.deviation, 0.25, 1e-12) << "root mean square of the repeated tests";
 }
 
+TEST_F(MeasuredPlatesTest, FindsWhereEachPlateFirstBearsTheContactPressure) {
+  std::ofstream(folder_ / "plates.csv") << kHead << "1,60,0,0\n1,60,10,10\n2,60,0,-1\n2,60,6,2\n2,60,10,9\n"
+                                        << "3,100,0.4,3\n3,100,10,30\n";
+  const auto plates = readMeasuredPlates(folder_ / "plates.csv", {0.005}, 500);
+  EXPECT_NEAR(plates[0].contact, 0.5 * (0.0005 + 0.003), 1e-12) << "0.5 and 3 mm";
+  EXPECT_NEAR(plates[1].contact, 0.0004, 1e-12) << "it begins with more";
+  EXPECT_EQ(readMeasuredPlates(folder_ / "plates.csv", {0.005})[0].contact, 0) << "without a contact pressure";
+  try {
+    readMeasuredPlates(folder_ / "plates.csv", {0.005}, 2e4);
+    FAIL() << "the plate of 60 mm bears less";
+  } catch (const base::InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("no test of the plate of 60 mm bears plates.contact_pressure = 20000 Pa"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 TEST_F(MeasuredPlatesTest, LeavesOutWhatATestDoesNotReach) {
   const auto plates =
       read(std::string(kHead) + "1,60,0,0\n1,60,10,6\n2,60,0,0\n2,60,6,5\n4,100,0,1\n4,100,4,9\n", {0.003, 0.008});
