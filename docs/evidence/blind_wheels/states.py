@@ -131,7 +131,7 @@ def table(folders, target):
     rows, commits = [], set()
     for wheel, folder in folders.items():
         runs = {state: [figures(folder / name(*state, seed), *state) for seed in SEEDS] for state in states()}
-        commits |= {json.loads((folder / name(*state, seed) / "manifest.json").read_text())["commit"]
+        commits |= {json.loads((folder / name(*state, seed) / "manifest.json").read_text())["program"]["commit"]
                     for state in states() for seed in SEEDS}
         for straight in (True, False):
             kind = [state for state in states() if (state[0] == 0) == straight]
