@@ -103,7 +103,7 @@ bool CalibrationRecord::isOfThisCall() const {
   if (!former.is_object()) return false;
   const auto keys = {"soil", "targets_file", "care", "grain_radius_m", "seeds", "targets", "contact_pressure_pa"};
   return std::all_of(keys.begin(), keys.end(),
-                     [&](const char* key) { return former.value(key, Json()) == json_.at(key); });
+                     [&](const char* key) { return former.value(key, Json()) == json_.value(key, Json()); });
 }
 
 void CalibrationRecord::begun() {

@@ -96,8 +96,9 @@ void CurveCalibration::finish() {
   support::writeTextFile(folder_ / "calibration.txt", curvesText(trial.curves.points) + text, "--out");
   support::writeTextFile(tables / "points.csv", curvePointsCsv(trial.curves.points), "--out");
   output::drawPicture("plate_curves.py", {tables / "curves.csv", tables / "points.csv"}, folder_ / "curves.png");
-  const std::string call = fmt::format("grouser soil --calibrate {}{}", bed_.soil.file.filename().string(),
-                                       command_.place.quick ? " --quick" : "");
+  const std::string call =
+      fmt::format("grouser soil --calibrate {}{} --seeds {} --pressure {:g}", bed_.soil.file.filename().string(),
+                  command_.place.quick ? " --quick" : "", command_.plan.seeds, command_.plan.mostPressure);
   const std::string file = bed_.soil.name + ".toml";
   support::replaceTextFile(
       folder_ / file, soilFileText(bed_.soil, fmt::format("calibrated by {} on beds {:g} m deep", call, bed_.depth),

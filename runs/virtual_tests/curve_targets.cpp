@@ -77,6 +77,8 @@ void addRange(const base::Section& section, const SoilInBed& start, const std::s
   ranges.push_back({key, low, high, key == "young" || key == "stiffness"});
 }
 
+double windowOf(double sinkage) { return std::max(kWindow * sinkage, kLeastWindow); }
+
 SinkageCurve curveOf(const jobs::Table& run) { return {run.values("sinkage [m]"), run.values("pressure [Pa]")}; }
 
 /// Finished tests of one plate, ordered by seed.
@@ -107,6 +109,14 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
     plates.fail("sinkages", "is not ascending; sort it");
   t.bin = keys.bin, t.depth = keys.depth, t.contactPressure = keys.contact;
   t.plates = readMeasuredPlates(file.parent_path() / keys.file, keys.sinkages, keys.contact);
+  for (const MeasuredPlate& plate : t.plates)
+    if (const double first = plate.points.front().sinkage - windowOf(plate.points.front().sinkage);
+        plate.contact >= first)
+      plates.fail(
+          "contact_pressure",
+          fmt::format("is first borne by the plate of {:g} mm at {:.2f} mm, but pressures are compared from {:g} "
+                      "mm on; lower it, or remove the first of sinkages",
+                      1e3 * plate.diameter, 1e3 * plate.contact, 1e3 * first));
   const base::Section search = root.section("search");
   const SearchKeys sought = search.read(searchTable());
   const SoilInBed given{start, t.depth};
@@ -153,12 +163,7 @@ std::string CurvePoint::name() const {
 SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, const MeasuredPlate& plate) {
   const SinkageCurve curve = curveOf(run);
   if (targets.contactPressure <= 0) return curve;
-  SinkageCurve compared = fromContactPressure(curve, targets.contactPressure, plate.contact);
-  if (compared.sinkage.empty())
-    throw base::InputError(fmt::format("the simulated plate of {:g} mm never bears plates.contact_pressure = {:g} Pa; "
-                                       "lower it, or narrow the ranges of [search]",
-                                       1e3 * plate.diameter, targets.contactPressure));
-  return compared;
+  return fromContactPressure(curve, targets.contactPressure, plate.contact);
 }
 
 CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets) {
@@ -169,14 +174,16 @@ CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, 
     for (const jobs::Table& run : runsOfPlate(plan, pieces, plate.diameter)) {
       curves.push_back(comparedCurve(run, targets, plate));
       porosities.push_back(run.values("porosity [-]").front());
-      zeros.push_back(curves.back().sinkage.back() - curveOf(run).sinkage.back());
+      if (!curves.back().sinkage.empty()) zeros.push_back(curves.back().sinkage.back() - curveOf(run).sinkage.back());
     }
     if (curves.empty()) continue;
     for (const MeasuredPressure& measured : plate.points) {
-      const double window = std::max(kWindow * measured.sinkage, kLeastWindow);
+      const double window = windowOf(measured.sinkage);
       std::vector<double> pressures;
       for (const SinkageCurve& curve : curves)
-        pressures.push_back(meanPressureBetween(curve, measured.sinkage - window, measured.sinkage + window));
+        pressures.push_back(curve.sinkage.empty()
+                                ? 0
+                                : meanPressureBetween(curve, measured.sinkage - window, measured.sinkage + window));
       all.points.push_back({plate.diameter, measured, jobs::interval95(pressures)});
     }
   }

@@ -56,8 +56,7 @@ struct CurvePoint {
   double deviations() const;   ///< simulated less measured mean, in standard deviations of a measured test [-]
   std::string name() const;    ///< "60 mm at 5 mm"
 };
-/// The curve of a test of a plate with sinkage as it is compared. Throws base::InputError if it never bears the contact
-/// pressure.
+/// The curve of a test of a plate with sinkage as it is compared; empty if it never bears the contact pressure.
 SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, const MeasuredPlate& plate);
 /// The finished tests of plates beside the measured points; means over the plates.
 struct CurveComparison {
@@ -65,7 +64,8 @@ struct CurveComparison {
   double porosity = 0;      ///< of the beds [-]
   double zeroOfSinkage = 0; ///< [m] height above the bed's mean surface from which sinkage counts
 };
-/// Simulated pressures are averaged over 90 to 110 % of the sinkage, at least over 2 mm.
+/// Simulated pressures are averaged over 90 to 110 % of the sinkage, at least over 2 mm. A plate that never bears the
+/// contact pressure bears nothing.
 CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 
 /// For the search: ln(simulated / measured) of every point over its measured relative deviation, at least

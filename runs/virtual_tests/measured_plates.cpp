@@ -40,7 +40,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
 class Reader {
 public:
   explicit Reader(const std::filesystem::path& file) : file_(file), in_(file) {
-    if (!in_)
+    if (!in_ || !std::filesystem::is_regular_file(file))
       throw base::InputError(
           fmt::format("{} cannot be read; correct plates.file, which is looked for beside the file of "
                       "targets",
@@ -119,17 +119,22 @@ std::optional<double> valueAt(const std::vector<double>& x, const std::vector<do
   return {};
 }
 
-/// Mean sinkage at which the tests of a plate first bear a pressure; that of the first row for those that begin with
-/// more. Empty if none bears it.
-std::optional<double> contactOf(const std::map<int, Test>& tests, double diameter, double pressure) {
+/// Mean sinkage at which the tests of a plate first bear a pressure.
+double contactOf(const std::filesystem::path& file, const std::map<int, Test>& tests, double diameter,
+                 double pressure) {
   double sum = 0, count = 0;
   for (const auto& [number, test] : tests) {
     if (test.diameter != diameter) continue;
-    const std::optional<double> sinkage =
-        test.pressure.front() > pressure ? test.sinkage.front() : valueAt(test.pressure, test.sinkage, pressure);
-    if (sinkage) sum += *sinkage, ++count;
+    const std::optional<double> sinkage = valueAt(test.pressure, test.sinkage, pressure);
+    if (!sinkage)
+      throw base::InputError(fmt::format(
+          "{}: trial {} {} plates.contact_pressure = {:g} Pa; choose one between {:g} and "
+          "{:g} Pa",
+          file.string(), number, test.pressure.front() > pressure ? "begins above" : "never bears", pressure,
+          std::max(0.0, test.pressure.front()), *std::max_element(test.pressure.begin(), test.pressure.end())));
+    sum += *sinkage, ++count;
   }
-  return count > 0 ? std::optional(sum / count) : std::nullopt;
+  return sum / count;
 }
 
 MeasuredPressure pointOf(const std::map<int, Test>& tests, double diameter, double sinkage) {
@@ -180,14 +185,7 @@ std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file,
       plate.points.push_back(std::move(point));
     }
     if (plate.points.empty()) continue;
-    if (contactPressure > 0) {
-      const std::optional<double> contact = contactOf(tests, diameter, contactPressure);
-      if (!contact)
-        throw base::InputError(fmt::format("{}: no test of the plate of {:g} mm bears plates.contact_pressure = {:g} "
-                                           "Pa; lower it",
-                                           file.string(), 1e3 * diameter, contactPressure));
-      plate.contact = *contact;
-    }
+    if (contactPressure > 0) plate.contact = contactOf(file, tests, diameter, contactPressure);
     plates.push_back(std::move(plate));
   }
   for (const double sinkage : sinkages) {

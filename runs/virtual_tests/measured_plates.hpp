@@ -32,8 +32,8 @@ struct MeasuredPlate {
 /// Reads comma-separated rows with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa after comment
 /// lines (#), and interpolates every trial at `sinkages` [m]. Plates are sorted by diameter. Contact is where trials
 /// first bear `contactPressure` [Pa]; it stays 0 if that is 0. Throws base::InputError with file:line: no such file, a
-/// missing column, a cell that is not a number, a trial with two diameters, a sinkage or contact pressure that no trial
-/// reaches.
+/// missing column, a cell that is not a number, a trial with two diameters, a sinkage that no trial reaches, a contact
+/// pressure that a trial begins with or never bears.
 std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages,
                                               double contactPressure = 0);
 

@@ -4,11 +4,13 @@
 
     states.py run smooth|grousers OUT [options of `grouser sweep`]
     states.py table OUT_SMOOTH OUT_GROUSERS FILE.csv
+    states.py check OUT [options of `grouser sweep`]
     states.py row OUT SIDESLIP RIM
 
 A state is a sideslip angle and a speed of the rim, both in the experiment's numbers: it is towed at 10 mm/s there, and
-`faster(rim)` times as fast here. Each has three seeds, which are the same three beds in every state. `row` prints the
-figures of the runs of one state.
+`faster(rim)` times as fast here. Each has three seeds, which are the same three beds in every state. `check` runs one
+state of the smooth wheel at half the speed, in a wider bed, and with grains half as large; `row` prints the figures of the
+runs of one state.
 """
 import csv
 import json
@@ -38,10 +40,6 @@ def travel(sideslip):
     return 0.1 if sideslip == 0 else 0.08  # [m]
 
 
-def duration(sideslip, rim):
-    return STARTS + travel(sideslip) / (faster(rim) * TOWED)  # [s]
-
-
 def window(sideslip, rim):
     """Travel over which results are averaged [m]: a third of all, as many whole pitches of the rim as fit best. Where a
     pitch takes more than 0.04 m of travel it is a third."""
@@ -58,12 +56,13 @@ def name(sideslip, rim, seed):
     return f"sideslip{sideslip}_rim{rim}_seed{seed}"
 
 
-def case(wheel, sideslip, rim, seed):
-    """Name and keys of a run."""
-    speed, angle, section = faster(rim) * TOWED, math.radians(sideslip), f"{SECTION[wheel]}.wheel"
+def case(wheel, sideslip, rim, seed, pace=1):
+    """Name and keys of a run; `pace`: times its usual speed."""
+    fast, section = pace * faster(rim), f"{SECTION[wheel]}.wheel"
+    speed, angle = fast * TOWED, math.radians(sideslip)
     velocity = f"[{speed * math.cos(angle):.8f}, {speed * math.sin(angle):.8f}, 0]"
-    keys = [f"run.seed={seed}", f"run.duration={duration(sideslip, rim):.4f}",
-            f"{section}.velocity={velocity}", f"{section}.spin=[0, {1e-3 * rim * faster(rim) / RADIUS:.8f}, 0]",
+    keys = [f"run.seed={seed}", f"run.duration={STARTS + travel(sideslip) / speed:.4f}",
+            f"{section}.velocity={velocity}", f"{section}.spin=[0, {1e-3 * rim * fast / RADIUS:.8f}, 0]",
             f"{section}.position=[0.085, {-0.5 * travel(sideslip) * math.sin(angle):.5f}, 0]"]
     return f"{name(sideslip, rim, seed)}: " + ", ".join(keys)
 
@@ -77,6 +76,22 @@ def run(wheel, out, options):
         for seed in SEEDS:
             words += ["--case", case(wheel, *state, seed)]
     return subprocess.call([*words, *options])
+
+
+CHECKED = (0, 20)  # sideslip and rim
+CHECKS = {"speed": [], "bin": ["terrain.size=[0.72, 0.6]"], "grain": ["terrain.grain_radius=0.001"]}
+
+
+def check(out, options):
+    scene, program = Path(__file__).with_name("smooth.toml"), os.environ.get("GROUSER_PROGRAM", "grouser")
+    for name_of_check, keys in CHECKS.items():
+        words = [program, "sweep", str(scene), "--out", f"{out}/{name_of_check}",
+                 "--case", case("smooth", *CHECKED, 1, 0.5 if name_of_check == "speed" else 1)]
+        for key in keys:
+            words += ["--set", key]
+        if status := subprocess.call([*words, *options]):
+            return status
+    return 0
 
 
 def figures(folder, sideslip, rim):
@@ -101,9 +116,10 @@ def figures(folder, sideslip, rim):
 
 
 def student95(freedom):
-    """The 97.5 % quantile of Student's distribution, within 1 %."""
+    """The 97.5 % quantile of Student's distribution for two degrees of freedom or more, within 4 %: from 3 on by three
+    terms of its expansion, below 3 by interpolation."""
     if freedom < 3:
-        return {1: 12.706, 2: 4.303}[max(1, int(freedom))]
+        return 4.303 + (3.182 - 4.303) * (max(2, freedom) - 2)
     z, n = 1.959964, freedom
     return z + (z**3 + z) / (4 * n) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * n**2) \
         + (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / (384 * n**3)
@@ -114,7 +130,8 @@ def half_width(values):
 
     The beds are the same in all states, so deviations of a bed from the mean may go along with one another. Two-way
     analysis of variance: mean squares of beds and of the rest; a deviation of a single run has the variance
-    (beds + (n - 1) rest) / n of n states, with Satterthwaite's degrees of freedom."""
+    (beds + (n - 1) rest) / n of n states, with Satterthwaite's degrees of freedom. All states of a kind are taken to
+    scatter alike."""
     n, beds = len(values), len(values[0])
     total = sum(map(sum, values)) / (n * beds)
     of_state = [sum(row) / beds for row in values]
@@ -142,7 +159,7 @@ def table(folders, target):
                 bar = half_width(values)
                 digits = max(0, 1 - math.floor(math.log10(bar)))
                 rows += [(wheel, *state, quantity, f"{sum(v) / len(v):.{digits}f}", f"{bar:.{digits}f}", len(SEEDS),
-                          f"states.py run {wheel}") for state, v in zip(kind, values)]
+                          f"states.py run {wheel}", *(f"{x:.{digits + 1}f}" for x in v)) for state, v in zip(kind, values)]
     if len(commits) != 1:
         sys.exit(f"runs of {len(commits)} commits: {', '.join(sorted(commits))}; run them again with one program")
     order = {wheel: k for k, wheel in enumerate(folders)}
@@ -150,13 +167,15 @@ def table(folders, target):
     with open(target, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("wheel", "sideslip [deg]", "rim speed [mm/s]", "quantity", "mean", "half width of 95 %", "seeds",
-                         "command", "commit"))
-        writer.writerows((*row, *commits) for row in rows)
+                         "command", "commit", *(f"seed {seed}" for seed in SEEDS)))
+        writer.writerows((*row[:-len(SEEDS)], *commits, *row[-len(SEEDS):]) for row in rows)
 
 
 def main(words):
     if len(words) >= 3 and words[0] == "run" and words[1] in SECTION:
         return run(words[1], words[2], words[3:])
+    if len(words) >= 2 and words[0] == "check":
+        return check(words[1], words[2:])
     if len(words) == 4 and words[0] == "table":
         table({"smooth": Path(words[1]), "grousers": Path(words[2])}, words[3])
     elif len(words) == 4 and words[0] == "row":

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the trials of trials.csv say: how far each is off under every plate, how much beds scatter, and by which power of
-the diameter measured and simulated pressures grow.
+"""How far the trials of trials.csv are off under every plate, how much beds scatter, and by which power of the diameter
+measured and simulated pressures grow.
 
     trials.py
 """

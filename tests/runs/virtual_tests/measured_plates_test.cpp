@@ -55,19 +55,20 @@ TEST_F(MeasuredPlatesTest, InterpolatesEveryTestAndPoolsTheScatterOfSingleOnes) 
 
 TEST_F(MeasuredPlatesTest, FindsWhereEachPlateFirstBearsTheContactPressure) {
   std::ofstream(folder_ / "plates.csv") << kHead << "1,60,0,0\n1,60,10,10\n2,60,0,-1\n2,60,6,2\n2,60,10,9\n"
-                                        << "3,100,0.4,3\n3,100,10,30\n";
+                                        << "3,100,0.2,0.3\n3,100,0.6,0.7\n3,100,10,30\n";
   const auto plates = readMeasuredPlates(folder_ / "plates.csv", {0.005}, 500);
   EXPECT_NEAR(plates[0].contact, 0.5 * (0.0005 + 0.003), 1e-12) << "0.5 and 3 mm";
-  EXPECT_NEAR(plates[1].contact, 0.0004, 1e-12) << "it begins with more";
+  EXPECT_NEAR(plates[1].contact, 0.0004, 1e-12);
   EXPECT_EQ(readMeasuredPlates(folder_ / "plates.csv", {0.005})[0].contact, 0) << "without a contact pressure";
-  try {
-    readMeasuredPlates(folder_ / "plates.csv", {0.005}, 2e4);
-    FAIL() << "the plate of 60 mm bears less";
-  } catch (const base::InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("no test of the plate of 60 mm bears plates.contact_pressure = 20000 Pa"),
-              std::string::npos)
-        << e.what();
-  }
+  const std::pair<double, const char*> cases[] = {
+      {2e4, "trial 1 never bears plates.contact_pressure = 20000 Pa; choose one between 0 and 10000 Pa"},
+      {200, "trial 3 begins above plates.contact_pressure = 200 Pa; choose one between 300 and 30000 Pa"}};
+  for (const auto& [pressure, message] : cases) try {
+      readMeasuredPlates(folder_ / "plates.csv", {0.005}, pressure);
+      FAIL() << message;
+    } catch (const base::InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(message), std::string::npos) << e.what();
+    }
 }
 
 TEST_F(MeasuredPlatesTest, LeavesOutWhatATestDoesNotReach) {
