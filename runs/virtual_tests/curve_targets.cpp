@@ -161,7 +161,7 @@ std::string CurvePoint::name() const {
 }
 
 SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, const MeasuredPlate& plate) {
-  const SinkageCurve curve = curveOf(run);
+  SinkageCurve curve = curveOf(run);
   if (targets.contactPressure <= 0) return curve;
   return fromContactPressure(curve, targets.contactPressure, plate.contact);
 }
