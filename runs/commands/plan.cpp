@@ -208,7 +208,11 @@ std::string switchesText(const scene::Scene& scene) {
       text += fmt::format("       {:<26} {}\n", "kernel of walls and floor",
                           terrain::boundaryKernelText(traits.features, traits.model));
   }
-  text += onOff(t != nullptr, t && !bed ? "rigid ground" : "floor below the bed", t ? t->heightmap : "no [terrain]");
+  text += onOff(t != nullptr,
+                !t || bed         ? "floor below the bed"
+                : t->deformable() ? "soil that deforms"
+                                  : "rigid ground",
+                t ? t->heightmap : "no [terrain]");
   text += bedLines(bed ? t : nullptr, scene.run.gravity);
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");

@@ -3,6 +3,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/meeting_pairs.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/scm_setup.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
@@ -13,8 +14,10 @@ namespace grouser::commands {
 
 namespace {
 
-/// Returns true if bodies of that material, or surfaces and ground that bodies touch, make contact by a foundation.
+/// Returns true if bodies of that material, or surfaces and ground that bodies touch, make contact by a foundation, or
+/// if it names the soil that deforms.
 bool onFoundation(const scene::Scene& scene, const std::string& material) {
+  if (scene.terrain && scene.terrain->deformable() && scene.terrain->material == material) return true;
   if (!scene.mechanism.touches()) return false;
   const auto& bodies = scene.mechanism.bodies;
   const std::vector<setup::SceneSurface> surfaces = setup::surfacesOf(scene);
@@ -61,7 +64,14 @@ std::string pairsText(const scene::Scene& scene) {
                           spec.contact.foundationModulus, spec.contact.relaxationTime, friction);
     };
     part("shoe on running gear", spec.contact.frictionInside);
-    if (scene.terrain && !scene.terrain->granular()) part("shoe on rigid ground", spec.contact.frictionGround);
+    if (const std::optional<coupling::ScmSetup> scm = setup::scmSetup(scene))
+      text += fmt::format(
+          "  {:<{}}  n {:.4g}, k_c {:.4g} N/m^(n+1), k_phi {:.4g} N/m^(n+2), c {:.4g} Pa, tan phi {:.4g}, K "
+          "{:.4g} m; nodes {:.4g} m apart\n",
+          "shoe on soil", width, scm->soil.exponent, scm->soil.kc, scm->soil.kphi, scm->soil.cohesion,
+          scm->soil.friction, scm->soil.shearDisplacement, scm->spacing);
+    else if (scene.terrain && !scene.terrain->granular())
+      part("shoe on rigid ground", spec.contact.frictionGround);
   }
   return text + notes;
 }

@@ -21,7 +21,14 @@ namespace grouser::scene {
 enum class FillForm { lattice, random, file };
 
 /// Of [terrain].
-enum class TerrainKind { granular, rigid };
+enum class TerrainKind {
+  granular,
+  rigid,
+  scm ///< deformable by Bekker's and Janosi's relations
+};
+
+/// Of [scm]: where constants come from that are not given.
+enum class SoilConstantsFrom { published, measured };
 
 /// Of a granular [terrain]: how its grains are laid before they settle.
 enum class Arrangement { random, lattice };
@@ -84,7 +91,11 @@ template <> struct EnumWords<scene::FillForm> {
 };
 template <> struct EnumWords<scene::TerrainKind> {
   using E = scene::TerrainKind;
-  static constexpr EnumWord<E> list[] = {{E::granular, "granular"}, {E::rigid, "rigid"}};
+  static constexpr EnumWord<E> list[] = {{E::granular, "granular"}, {E::rigid, "rigid"}, {E::scm, "scm"}};
+};
+template <> struct EnumWords<scene::SoilConstantsFrom> {
+  using E = scene::SoilConstantsFrom;
+  static constexpr EnumWord<E> list[] = {{E::published, "published"}, {E::measured, "measured"}};
 };
 template <> struct EnumWords<scene::Arrangement> {
   using E = scene::Arrangement;

@@ -158,12 +158,25 @@ struct Terrain {
   std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
   bool cache = true;                      ///< keep the settled bed for later runs, and take it from one
   bool granular() const { return kind == TerrainKind::granular; }
+  bool deformable() const { return kind == TerrainKind::scm; }
   bool lattice() const { return arrangement == Arrangement::lattice; }
   bool operator==(const Terrain&) const = default;
 
   static constexpr double kSpacing = 2.1, kJitter = 0.9, kPacking = 0.6; ///< of a lattice, where not given
   static constexpr double kSpread = 0.25;                                ///< of radii, where not given
   static constexpr double kPoured = 0.41; ///< porosity expected where none is prepared [-]
+};
+
+/// [scm]: of a deformable terrain. What is empty is the soil's.
+struct Scm {
+  SoilConstantsFrom constants = SoilConstantsFrom::published;
+  std::optional<double> n, kc, kphi, cohesion, frictionAngle, shearDisplacement; ///< [-], [N/m^(n+1)], ..., [deg], [m]
+  double unloadingStiffness = 0, unloadingGrowth = 0;                            ///< [N/m3], [N/m4]
+  double elasticRatio = 10;                                                      ///< [-]
+  double damping = 3e4;                                                          ///< [Pa s/m]
+  std::optional<double> nodeSpacing; ///< [m]; empty: half the length of a shoe over two
+  double deepest = 0.5;              ///< [m]
+  bool operator==(const Scm&) const = default;
 };
 
 /// [vehicle]
@@ -323,6 +336,7 @@ struct Scene {
   std::vector<CylinderSection> cylinders;
   std::vector<MeshSection> meshes;
   std::optional<Terrain> terrain;
+  std::optional<Scm> scm;
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;
   Driver driver;

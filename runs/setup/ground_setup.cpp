@@ -14,6 +14,7 @@
 #include "runs/setup/periodic_boundaries.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/provenance.hpp"
+#include "runs/setup/scm_setup.hpp"
 #include "runs/setup/size_checks.hpp"
 #include "runs/setup/sources.hpp"
 #include "runs/setup/start_checks.hpp"
@@ -54,6 +55,10 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, coupling:
   ground.surface = readSurface(scene);
   if (!scene.terrain->granular()) {
     ground.rigid = ground.surface;
+    if (const std::optional<coupling::ScmSetup> scm = scmSetup(scene))
+      ground.otherKind = [scm](const coupling::GroundSetup& setup, const base::Exec&) {
+        return std::make_unique<coupling::ScmGround>(*scm, *setup.surface);
+      };
     return {};
   }
   const terrain::BedOptions options = bedOptions(scene);

@@ -14,7 +14,9 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/obstacles.hpp"
+#include "runs/setup/step_modes.hpp"
 #include "runs/setup/time_scales.hpp"
+#include "runs/setup/vehicle_step_limit.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
@@ -31,25 +33,6 @@ namespace {
 
 /// The longest step that run.time_step takes [s].
 constexpr double kLongestOfAll = 0.1;
-
-/// Keeps the smaller limit: of the mode x'' + damping x' + stiffness x = 0 [1/s, 1/s2].
-void consider(StepLimit& limit, double stiffness, double damping, const std::string& what,
-              const std::string& remedy = "lower its stiffness") {
-  if (stiffness <= 0 && damping <= 0) return;
-  const double step = contact::stableStepOfMode(stiffness, damping);
-  limit.vehicle.push_back({step, what});
-  if (step < limit.step) limit.step = step, limit.what = what, limit.remedy = remedy;
-}
-void considerCalm(StepLimit& limit, double stiffness, double damping) {
-  if (stiffness > 0 || damping > 0) limit.calm = std::min(limit.calm, contact::stableStepOfMode(stiffness, damping));
-}
-
-/// Of a mode that counts for both: nothing but forces on springs, unbounded.
-void considerBoth(StepLimit& limit, double stiffness, double damping, const std::string& what,
-                  const std::string& remedy) {
-  consider(limit, stiffness, damping, what, remedy);
-  considerCalm(limit, stiffness, damping);
-}
 
 /// Up to where no contact gives energy.
 ///
@@ -224,72 +207,6 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
   }
 }
 
-/// The idler on the tangential springs of all shoes that half a turn of the track presses to it: they turn it all
-/// alike, half of them shift it either way, and each has a shoe of its own. A strand at the pull T presses a shoe by T
-/// pitch / radius, so deep as in considerPressedShoe(). Where friction holds, the mode trembles beyond its limit by as
-/// much as Coulomb's limit allows.
-void considerIdler(StepLimit& limit, const vehicle::VehicleSpec& s) {
-  const vehicle::ContactSpec& c = s.contact;
-  if (c.frictionInside <= 0) return;
-  const double around = s.idlerPinRadius(), radius = s.idler.radius;
-  const double shoes = std::ceil(base::kPi * around / s.shoe.pitch);
-  const double load = 0.5 * s.idler.preload * s.shoe.pitch / around;
-  const double strip = c.foundationModulus * 2 * s.shoe.padHalfWidth * std::sqrt(2 * radius);
-  const double spring = c.tangentialRatio * 2 * strip * std::sqrt(base::pow(0.75 * load / strip, 2.0 / 3));
-  const double top = s.shoe.plateTop;
-  const double rate = spring * (shoes * (radius * radius / s.idler.inertia.y + 0.5 / s.idler.mass) + 1 / s.shoe.mass +
-                                top * top / s.shoe.inertia.y);
-  considerBoth(limit, rate, rate * c.relaxationTime, fmt::format("idler that turns on {:g} shoes", shoes),
-               "lower contact.tangential_ratio or idler.preload in vehicle.spec");
-}
-
-/// The foundation between parts: shoes on rigid ground, and wheels on shoes.
-void considerVehicle(StepLimit& limit, const vehicle::VehicleSpec& s) {
-  const vehicle::ContactSpec& c = s.contact;
-  // A shoe that lies on its whole pad: the stiffest that the foundation can be.
-  const double pad = c.foundationModulus * 4 * s.shoe.halfLength * s.shoe.padHalfWidth / s.shoe.mass;
-  considerBoth(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
-               "lower contact.foundation_modulus in vehicle.spec");
-  // A wheel that lies in the plate by a millimetre, far more than the weight presses it in.
-  constexpr double kDeep = 1e-3; // [m]
-  const auto wheel = [&](const char* name, double mass, double radius) {
-    const double area = 4 * s.shoe.padHalfWidth * std::sqrt(2 * radius * kDeep);
-    const double stiffness = c.foundationModulus * area * (1 / mass + 1 / s.shoe.mass);
-    considerBoth(limit, stiffness, stiffness * c.relaxationTime, fmt::format("{} of {:g} kg on shoes", name, mass),
-                 "raise its mass or lower contact.foundation_modulus in vehicle.spec");
-  };
-  wheel("road wheel", s.roadWheel.mass, s.roadWheel.radius);
-  wheel("idler", s.idler.mass, s.idler.radius);
-  if (!s.roller.x.empty()) wheel("roller", s.roller.mass, s.roller.radius);
-  considerIdler(limit, s);
-}
-
-/// Whether shoes can come to lie on what is rigid.
-bool hasRigidGround(const scene::Scene& scene) {
-  return (scene.terrain && !scene.terrain->granular()) || !obstaclesOf(scene).empty();
-}
-
-/// A shoe between rigid ground and the wheel that it bears. The highest mode of both springs together is no higher than
-/// that of the ground's, its whole pad against shift and turn, and that of the wheel's on the shoe's end added up
-/// (Weyl). The wheel lies as deep as its share of the weight presses it, F = 4/3 modulus width sqrt(2 R) depth^(3/2).
-/// Where `grouser study stability --scene vehicle` finds vehicles unsound is docs/vehicle_stability.md.
-void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
-  if (!hasRigidGround(scene)) return;
-  const vehicle::ContactSpec& c = s.contact;
-  const double length = s.shoe.halfLength, width = s.shoe.padHalfWidth, mass = s.shoe.mass;
-  const double pad = c.foundationModulus * 4 * length * width;
-  const double onGround =
-      pad * std::max({1 / mass, length * length / (3 * s.shoe.inertia.y), width * width / (3 * s.shoe.inertia.x)});
-  const double load = s.totalMass() * norm(scene.run.gravity) / (2 * s.roadWheel.count);
-  const double strip = c.foundationModulus * 2 * width * std::sqrt(2 * s.roadWheel.radius);
-  const double depth = load > 0 ? base::pow(0.75 * load / strip, 2.0 / 3) : 0;
-  const double underWheel =
-      2 * strip * std::sqrt(depth) * (1 / s.roadWheel.mass + 1 / mass + length * length / s.shoe.inertia.y);
-  const double both = onGround + underWheel;
-  consider(limit, both, both * c.relaxationTime, "shoe on rigid ground under a road wheel",
-           "lower contact.foundation_modulus in vehicle.spec");
-}
-
 StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const std::vector<GrainContact>& contacts) {
   StepLimit limit;
   const bool alone = !scene.terrain && plannedGrains(scene) == 1;
@@ -305,7 +222,7 @@ StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const 
   limit.vehicle.clear();
   if (!scene.vehicle) return limit;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
-  considerVehicle(limit, spec), considerPressedShoe(limit, scene, spec);
+  considerVehicle(limit, scene, spec);
   return limit;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/setup/contact_pairs.hpp"
+#include "runs/setup/step_modes.hpp"
 
 #include <limits>
 #include <string>
@@ -18,24 +19,6 @@ inline constexpr double kCalmShare = 0.5;
 
 /// The largest automatic step of hertz grains, as a share of the time a Rayleigh wave takes along the smallest [-].
 inline constexpr double kRayleighShare = 0.2;
-
-/// Steps [s] that a scene bears; infinite where nothing limits them.
-struct StepLimit {
-  /// The limit that one kind of contact sets.
-  struct Bound {
-    double step;      ///< [s]
-    std::string what; ///< "shoe on rigid ground under a road wheel"
-  };
-  double step = std::numeric_limits<double>::infinity(); ///< up to which no contact gives energy; a run takes no longer
-  std::string what;                                      ///< gives energy beyond it: "grain on the floor"
-  std::string remedy;                                    ///< "lower its stiffness"
-  /// Up to which every motion decays that sticking contacts make together. Between the two, strong dashpots let grains
-  /// at rest tremble, by as much as Coulomb's limit and forces that only push allow.
-  double calm = std::numeric_limits<double>::infinity();
-  /// Duration of the shortest bounce of a body on a rigid surface or body [s].
-  double bounce = std::numeric_limits<double>::infinity();
-  std::vector<Bound> vehicle; ///< limits that contacts of the vehicle with itself and with rigid ground set
-};
 
 /// Both limits from the contacts that grains and vehicle can have, a function of the scene alone:
 /// - energy: a grain among twelve others alike, whose springs are 8 k / m together, its dashpots 4.5 c / m where they

@@ -4,6 +4,7 @@
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/simulation.hpp"
+#include "tests/coupling/cut_once.hpp"
 #include "tests/message_of.hpp"
 #include "tests/terrain/grain_fixture.hpp"
 #include "vehicle/spec_file.hpp"
@@ -11,9 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <string>
-#include <utility>
 
 namespace grouser::coupling {
 namespace {
@@ -99,25 +98,6 @@ SimulationSetup onSprings() {
   setup.vehicle->driver.tensionRamp = 0.05, setup.vehicle->driver.weightRamp = 0.1;
   setup.vehicle->driver.driveStart = 0.16;
   return setup;
-}
-
-/// All tests have the same vehicle: its parts are cut once.
-class CutOnce : public SphereSets {
-public:
-  base::SphereSet cut(const PartCut& part, spheredecomp::Protrusion* protrusion) override {
-    const auto [at, fresh] = cuts_.try_emplace(part.name);
-    if (fresh) at->second.first = cutPart(part, at->second.second);
-    if (protrusion) *protrusion = at->second.second;
-    return at->second.first;
-  }
-
-private:
-  std::map<std::string, std::pair<base::SphereSet, spheredecomp::Protrusion>> cuts_;
-};
-
-SphereSets* cutOnce() {
-  static CutOnce kept;
-  return &kept;
 }
 
 void advanceTo(Simulation& simulation, double time) {

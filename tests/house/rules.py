@@ -16,7 +16,8 @@ LIBRARIES = {
     'multibody': {'base'},
     'terrain': {'base', 'contact'},
     'vehicle': {'base', 'contact', 'spheredecomp', 'multibody'},
-    'coupling': {'base', 'contact', 'spheredecomp', 'multibody', 'terrain', 'vehicle'},
+    'scm': {'base', 'contact', 'terrain'},
+    'coupling': {'base', 'contact', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle'},
     'assets': {'base'},
 }
 # The rooms of the program stand on the libraries and on the rooms before them, but not on those of the same line.

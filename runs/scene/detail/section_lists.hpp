@@ -13,6 +13,7 @@ SectionList materialSections();
 SectionList grainSections();
 SectionList surfaceSections();
 SectionList terrainSections();
+SectionEntry scmSection();
 SectionList mechanismSections();
 SectionList vehicleSections();
 SectionList hitchSections();

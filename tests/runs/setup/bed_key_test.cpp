@@ -417,7 +417,8 @@ TEST(BedKey, WasDecidedForEveryKeyOfAScene) {
     }
     const bool ofMechanism = section == "body" || section == "joint" || section == "spring" || section == "bushing" ||
                              section == "drive" || section == "coupling";
-    if (section.empty() || ofMechanism || line.rfind("| `", 0) != 0) continue;
+    const bool withoutBed = section == "scm";
+    if (section.empty() || ofMechanism || withoutBed || line.rfind("| `", 0) != 0) continue;
     const std::string key = section + "." + line.substr(3, line.find('`', 3) - 3);
     if (!decided.contains(key)) missing += key + " ";
   }

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace grouser::scm {
+
+/// g(z) = z^n as a piecewise linear function with its exact integral: no powers while simulating, and the energy of a
+/// path follows from the pressures on it to rounding. Knots at deepest (i / kIntervals)^2, so that the relative error,
+/// n (n - 1) / (2 i^2), falls with depth: 1e-4 from a thousandth of the depth on, at n = 0.8. Beyond the deepest knot the
+/// last line goes on.
+class PressureCurve {
+public:
+  static constexpr int kIntervals = 1024;
+
+  /// n > 0; `deepest` [m] > 0.
+  PressureCurve(double exponent, double deepest);
+
+  /// g(z) [m^n], and its integral from 0 [m^(n+1)]; z >= 0 [m].
+  double at(double z) const {
+    const Knot& k = knots_[interval(z)];
+    return k.value + k.slope * (z - k.place);
+  }
+  double integralTo(double z) const {
+    const Knot& k = knots_[interval(z)];
+    const double beyond = z - k.place;
+    return k.integral + beyond * (k.value + 0.5 * k.slope * beyond);
+  }
+  /// Slope of g to the right of z [m^(n-1)].
+  double slopeAt(double z) const { return knots_[interval(z)].slope; }
+  double exponent() const { return exponent_; } ///< n [-]
+  double deepest() const { return deepest_; }   ///< [m]
+
+private:
+  struct Knot {
+    double place, value, slope, integral;
+  };
+  std::size_t interval(double z) const {
+    const double i = kIntervals * std::sqrt(z / deepest_);
+    return i < kIntervals - 1 ? static_cast<std::size_t>(i) : kIntervals - 1;
+  }
+
+  double exponent_, deepest_;
+  std::vector<Knot> knots_; ///< one an interval: its left end
+};
+
+} // namespace grouser::scm

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Soil that deforms: constants by the soil's name, as published or measured, or given; and errors.
+#include "runs/setup/scm_setup.hpp"
+
+#include "base/math.hpp"
+#include "runs/scene/scene_file.hpp"
+#include "tests/message_of.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace grouser::setup::scm {
+namespace {
+
+const std::string kScene = "version = 1\n[run]\nduration = 1\ntime_step = 1e-4\n[terrain]\nkind = \"scm\"\nmaterial = "
+                           "\"lete_sand\"\nheightmap = \"heightmaps/flat.png\"\nsize = [8, 4]\nheight_range = [0, "
+                           "0]\n[vehicle]\nspec = \"vehicles/light_tracked.toml\"\n";
+
+coupling::ScmSetup read(const std::string& text) {
+  return *scmSetup(scene::readSceneText(text, GROUSER_SOURCE_DIR "/runs/scenes/scm.toml"));
+}
+
+TEST(ScmSetup, TakesConstantsFromTheSoilOrTheScene) {
+  const coupling::ScmSetup published = read(kScene);
+  EXPECT_EQ(published.soil.exponent, 0.793);
+  EXPECT_EQ(published.soil.kc, 102e3);
+  EXPECT_EQ(published.soil.kphi, 5301e3);
+  EXPECT_EQ(published.soil.cohesion, 1300);
+  EXPECT_NEAR(published.soil.friction, std::tan(31.1 * base::kPi / 180), 1e-12);
+  EXPECT_EQ(published.soil.shearDisplacement, 0.012);
+  EXPECT_NEAR(published.spacing, 0.034, 1e-12) << "a quarter of a shoe's length";
+  const coupling::ScmSetup measured = read(kScene + "[scm]\nconstants = \"measured\"\nc = 500\nnode_spacing = 0.02\n");
+  EXPECT_NE(measured.soil.exponent, published.soil.exponent);
+  EXPECT_EQ(measured.soil.cohesion, 500) << "what is given goes before";
+  EXPECT_EQ(measured.spacing, 0.02);
+  EXPECT_FALSE(scmSetup(scene::readSceneText("version = 1\n[run]\nduration = 1\n[material.m]\nstiffness = 1e5\n"
+                                             "[[grain]]\nmaterial = \"m\"\nradius = 0.1\nposition = [0, 0, 0]\n",
+                                             "one.toml")));
+}
+
+TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
+  std::string other = kScene;
+  other.replace(other.find("lete_sand"), 9, "gravel");
+  std::string noSoil = kScene;
+  noSoil.replace(noSoil.find("lete_sand"), 9, "m");
+  noSoil += "[material.m]\nstiffness = 1e6\n";
+  std::string noVehicle = kScene.substr(0, kScene.find("[vehicle]"));
+  const std::pair<std::string, const char*> cases[] = {
+      {other, "needs scm.n [-]: the soil gravel has no published n; give it in [scm]"},
+      {noSoil, "m is no soil, which would have one; give it in [scm]"},
+      {noVehicle, "carries track shoes only"},
+      {kScene + "[scm]\nk_c = -5e6\n", "bears nothing"},
+      {kScene + "[scm]\nnode_spacing = 0.2\n", "is more than the length of a shoe, 0.136 m"},
+      {kScene + "[scm]\nn = 0\n", "n = 0"},
+      {kScene + "[scm]\nelastic_ratio = 0.5\n", "elastic_ratio = 0.5"},
+      {kScene + "[scm]\nphi = 90\n", "phi = 90"},
+      {kScene + "[scm]\nconstants = \"guessed\"\n", "published"},
+      {kScene + "[scm]\nkc = 1\n", "k_c"}};
+  for (const auto& [text, message] : cases) {
+    const std::string found = test::messageOf([&, scene = text] { read(scene); });
+    EXPECT_NE(found.find(message), std::string::npos) << message << "\n" << found;
+  }
+  std::string rigid = kScene;
+  rigid.replace(rigid.find("\"scm\""), 5, "\"rigid\"");
+  EXPECT_NE(
+      test::messageOf([&] { scene::readSceneText(rigid + "[scm]\nn = 1\n", "s.toml"); }).find("terrain.kind = \"scm\""),
+      std::string::npos);
+}
+
+} // namespace
+} // namespace grouser::setup::scm

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pads on soil: areas on the grid, a track's traction and resistance, holding on a slope, and energies of a path.
+#include "scm/pad_contacts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace grouser::scm {
+namespace {
+
+constexpr double kHalfLength = 0.068, kHalfWidth = 0.14; // [m] of the paper's shoes
+
+SoilConstants lete() {
+  SoilConstants s;
+  s.exponent = 0.793, s.kc = 102e3, s.kphi = 5301e3, s.cohesion = 1300, s.friction = std::tan(31.1 * base::kPi / 180);
+  s.shearDisplacement = 0.012;
+  return s;
+}
+
+terrain::SurfaceJet level(double, double) { return {}; }
+
+Pad shoe(int part) { return {part, {}, {1, 0, 0}, {0, 1, 0}, kHalfLength, kHalfWidth, 2 * kHalfWidth}; }
+
+/// A pad at a place, turned by a heading about z and then pitched about its own y axis.
+contact::PartMotion at(Vec3d centre, double heading = 0, double pitch = 0) {
+  contact::PartMotion m{};
+  const double c = std::cos(heading), s = std::sin(heading), cp = std::cos(pitch), sp = std::sin(pitch);
+  m.rotation = base::Mat3d{{{c * cp, -s, c * sp}, {s * cp, c, s * sp}, {-sp, 0, cp}}};
+  m.origin = m.centre = centre;
+  return m;
+}
+
+double pressure(double z) { return lete().modulusAt(2 * kHalfWidth) * std::pow(z, 0.793); }
+
+TEST(PadContacts, AreaOfAPadDoesNotDependOnHowItLiesOnTheGrid) {
+  const double expected = pressure(0.01) * 4 * kHalfLength * kHalfWidth;
+  for (const double spacing : {0.034, 0.02, 0.01}) {
+    double most = 0, sum = 0;
+    for (int k = 0; k < 64; ++k) {
+      SoilMap map(spacing, level);
+      PadContacts pads(lete(), 0.5, map, {shoe(0)});
+      const contact::PartMotion m = at({0.0137 * k, 0.0071 * k, -0.01}, base::kPi * k / 64);
+      pads.step(&m, 1e-4);
+      const double off = pads.loads()[0].force.z / expected - 1;
+      most = std::max(most, std::fabs(off)), sum += off / 64;
+    }
+    EXPECT_LT(most, 0.15 * spacing) << spacing;
+    EXPECT_LT(std::fabs(sum), 3e-4) << spacing;
+    SoilMap map(spacing, level);
+    PadContacts pads(lete(), 0.5, map, {shoe(0)});
+    for (int k = 0; k < 50; ++k) {
+      const contact::PartMotion m = at({0.0013 * k, 0, -0.01});
+      pads.step(&m, 1e-4);
+      EXPECT_NEAR(pads.loads()[0].force.z, expected, 1e-4 * expected) << "no ripple along the grid";
+    }
+  }
+}
+
+/// A rigid track of thirteen shoes under uniform sinkage that slips: the shoe that has passed over x has slipped i x.
+TEST(PadContacts, ShoesThatSlipPullAsJanosiHasIt) {
+  const double z = 0.00240673, K = lete().shearDisplacement;
+  SoilMap map(0.034, level);
+  PadContacts pads(lete(), 0.5, map, {shoe(0)});
+  const double strength = lete().cohesion + 47.5e3 * lete().friction, area = 4 * kHalfLength * kHalfWidth;
+  for (int i = 0; i <= 600; ++i) {
+    const double slip = 1e-4 * i;
+    const contact::PartMotion m = at({-slip, 0, -z});
+    pads.step(&m, 1e-4);
+    const double expected = strength * area * (1 - std::exp(-slip / K));
+    EXPECT_NEAR(pads.loads()[0].force.x, expected, 1e-3 * strength * area) << slip;
+  }
+  // Reversed, the force changes its sign after K ln 2.
+  for (int i = 0; i <= 83; ++i) {
+    const contact::PartMotion m = at({-0.06 + 1e-4 * i, 0, -z});
+    pads.step(&m, 1e-4);
+  }
+  EXPECT_NEAR(pads.loads()[0].force.x, 0, 0.01 * strength * area);
+}
+
+TEST(PadContacts, LeavesARutWhoseDepthIsTheSinkageLessTheRebound) {
+  SoilMap map(0.02, level);
+  PadContacts pads(lete(), 0.5, map, {shoe(0)});
+  for (const double z : {-0.02, 0.1}) {
+    const contact::PartMotion m = at({0, 0, z});
+    pads.step(&m, 1e-4);
+  }
+  EXPECT_NEAR(map.rutAt(0.013, 0.05), 0.02 * (1 - 1 / lete().elasticRatio), 1e-9) << "k_u = f p / z";
+  EXPECT_EQ(map.rutAt(0.5, 0), 0);
+  EXPECT_EQ(pads.loads()[0].pressed, 0);
+}
+
+TEST(PadContacts, NodesBetweenTwoPadsRememberTheDeeperWhateverTheirOrder) {
+  const double pitch = 2 * kHalfLength + 0.018;
+  std::vector<PadLoad> loads[2];
+  for (const int first : {0, 1}) {
+    SoilMap map(0.034, level);
+    PadContacts pads(lete(), 0.5, map, {shoe(first), shoe(1 - first)});
+    const contact::PartMotion lower[] = {at({0, 0, -0.012}), at({pitch, 0, -0.008})};
+    const contact::PartMotion after[] = {at({0, 0, 0.1}), at({pitch, 0, -0.008})};
+    pads.step(lower, 1e-4);
+    const double together = pads.loads()[static_cast<std::size_t>(1 - first)].pressed;
+    EXPECT_LT(together, pressure(0.008) * 4 * kHalfLength * kHalfWidth) << "the deeper pad has compacted its edge";
+    pads.step(after, 1e-4);
+    EXPECT_EQ(pads.loads()[static_cast<std::size_t>(1 - first)].pressed, together) << "which stays so";
+    loads[first] = {pads.loads()[static_cast<std::size_t>(first)], pads.loads()[static_cast<std::size_t>(1 - first)]};
+  }
+  for (const int k : {0, 1})
+    EXPECT_EQ(loads[0][static_cast<std::size_t>(k)].pressed, loads[1][static_cast<std::size_t>(k)].pressed);
+}
+
+/// Energies of a path: press, slide and turn, lift. What forces do on the pad is what the soil holds and has lost, up
+/// to the error of the steps, which is of first order.
+double unexplained(int steps, double& turnover) {
+  SoilMap map(0.034, level);
+  SoilConstants soil = lete();
+  soil.damping = 2e4;
+  PadContacts pads(soil, 0.5, map, {shoe(0)});
+  double work = 0;
+  const double dt = 1.0 / steps;
+  const auto pose = [](double t) {
+    return at({0.03 * t * t, 0.01 * t, 0.001 - 0.012 * std::sin(base::kPi * t)}, 0.3 * t, 0.02 * std::sin(5 * t));
+  };
+  for (int i = 0; i <= steps; ++i) {
+    const double t = i * dt;
+    contact::PartMotion m = pose(t);
+    const contact::PartMotion ahead = pose(t + 1e-6), behind = pose(t - 1e-6);
+    m.velocity = (ahead.centre - behind.centre) * 5e5;
+    // Spin from the difference of the rotations: R' R^T.
+    const base::Mat3d &a = ahead.rotation, &b = behind.rotation;
+    Vec3d spin;
+    for (const Vec3d e : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}})
+      spin += cross(m.rotation * e, (a * e - b * e) * 5e5) * 0.5;
+    m.spin = spin;
+    pads.step(&m, dt);
+    const PadLoad& load = pads.loads()[0];
+    const double weight = i == 0 || i == steps ? 0.5 : 1;
+    work -= weight * dt * (dot(load.force, m.velocity) + dot(load.torque, m.spin));
+  }
+  const SoilEnergy& e = pads.energy();
+  turnover = e.compaction + e.shear;
+  return work - (e.elastic + e.elasticShear + e.lost());
+}
+
+TEST(PadContacts, EnergyOfAPathIsHeldOrLost) {
+  double turnover = 0;
+  const double coarse = unexplained(1000, turnover), fine = unexplained(2000, turnover),
+               finest = unexplained(4000, turnover);
+  EXPECT_GT(turnover, 1);
+  EXPECT_LT(std::fabs(finest), 0.01 * turnover) << coarse << " " << fine << " " << finest << " of " << turnover;
+  EXPECT_NEAR(fine / finest, 2, 0.5) << coarse << " " << fine << " " << finest;
+}
+
+} // namespace
+} // namespace grouser::scm
