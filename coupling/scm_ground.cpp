@@ -48,7 +48,7 @@ LoadQuanta ScmGround::meet(const PartsOnGround& on) {
   }
   contacts_ = std::make_unique<scm::PadContacts>(setup_.soil, setup_.deepest, map_, std::move(pads));
   if (!saved_.empty() && !contacts_->restore(saved_))
-    throw base::InputError("the saved state is of another vehicle on this soil; resume it with its own scene");
+    throw base::InputError("the saved state belongs to another vehicle; resume it with its own scene");
   saved_.clear();
   timeStep_ = on.timeStep;
   return quanta_ = {on.quanta.force, on.quanta.torque};
@@ -80,7 +80,8 @@ std::vector<double> ScmGround::surfaceNow() const {
 }
 
 void ScmGround::restore(const SimulationState& state) {
-  if (!state.ground) throw base::InputError("the saved state has no soil; resume it with its own scene");
+  if (!state.ground)
+    throw base::InputError("the saved state contains no deformable soil; resume it with its own scene");
   saved_ = *state.ground;
 }
 

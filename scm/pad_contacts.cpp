@@ -8,10 +8,10 @@ namespace grouser::scm {
 
 namespace {
 
-constexpr double kNear = 5e-3;    // [m] above the ground up to which the height of a pad over a node is kept
-constexpr double kSteepest = 0.2; // least cosine between a pad's normal and the vertical: steeper pads press on nothing
+constexpr double kNear = 5e-3;    // [m] nodes are listed up to this height of a pad above them
+constexpr double kSteepest = 0.2; // minimum cosine between the pad normal and the vertical for contact
 
-/// Share of a node's square along one side of a pad; `width`: of the square across that side [m].
+/// Share of a node's square within a pad along one axis; `width`: of the square along that axis [m].
 double shareOf(double place, double half, double width) {
   return std::clamp((half - std::fabs(place)) / width + 0.5, 0.0, 1.0);
 }
@@ -25,7 +25,7 @@ PadContacts::PadContacts(const SoilConstants& soil, double deepest, SoilMap& map
 void PadContacts::step(const contact::PartMotion* motion, double timeStep) {
   touched_.clear();
   for (std::size_t k = 0; k < pads_.size(); ++k) gather(k, motion[pads_[k].part]);
-  advanceMemory();
+  advanceNodes();
   energy_.elastic = energy_.elasticShear = 0;
   for (std::size_t k = 0; k < pads_.size(); ++k) press(k, motion[pads_[k].part], timeStep);
   for (const Touched& t : touched_) t.node->touched = -1;
@@ -44,7 +44,7 @@ void PadContacts::gather(std::size_t pad, const contact::PartMotion& motion) {
   const double halfU = p.halfLength + 0.5 * widthU, halfV = p.halfWidth + 0.5 * widthV;
   const double reachX = std::fabs(u.x) * halfU + std::fabs(v.x) * halfV;
   const double reachY = std::fabs(u.y) * halfU + std::fabs(v.y) * halfV;
-  const double area = h * h / up.z, slopeX = -up.x / up.z, slopeY = -up.y / up.z;
+  const double k = soil_.modulusAt(p.breadth), area = h * h / up.z, slopeX = -up.x / up.z, slopeY = -up.y / up.z;
   const auto firstI = static_cast<std::int32_t>(std::ceil((centre.x - reachX) / h));
   const auto lastI = static_cast<std::int32_t>(std::floor((centre.x + reachX) / h));
   const auto firstJ = static_cast<std::int32_t>(std::ceil((centre.y - reachY) / h));
@@ -58,11 +58,10 @@ void PadContacts::gather(std::size_t pad, const contact::PartMotion& motion) {
       Node& node = map_.at(i, j);
       const double gap = node.height - (centre.z + plate);
       if (gap < -kNear) continue;
-      const double depth = gap / std::sqrt(1 + node.slopeX * node.slopeX + node.slopeY * node.slopeY);
-      const double k = soil_.modulusAt(p.breadth);
+      const double depth = gap * node.cosine;
       if (node.touched < 0) {
         node.touched = static_cast<int>(touched_.size());
-        touched_.push_back({&node, node.memory, depth, k});
+        touched_.push_back({&node, node.state, depth, k});
       } else {
         Touched& t = touched_[static_cast<std::size_t>(node.touched)];
         t.deepest = std::max(t.deepest, depth), t.modulus = std::max(t.modulus, k);
@@ -73,9 +72,9 @@ void PadContacts::gather(std::size_t pad, const contact::PartMotion& motion) {
     }
 }
 
-void PadContacts::advanceMemory() {
-  for (Touched& t : touched_)
-    if (t.deepest > 0) compress(t.node->memory, soil_, curve_, t.modulus, t.before.rebound(), t.deepest);
+void PadContacts::advanceNodes() {
+  for (const Touched& t : touched_)
+    if (t.yields()) compress(t.node->state, soil_, curve_, t.modulus, t.before.rebound(), t.deepest);
 }
 
 void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, double timeStep) {
@@ -86,32 +85,31 @@ void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, doub
   const Vec3d u = motion.rotation * p.along, v = motion.rotation * p.across, up = cross(u, v);
   const Vec3d centre = motion.toWorld(p.centre);
   std::array<double, kAlong * kAcross> pressed{}, touching{};
-  std::array<Vec3d, kAlong * kAcross> moment{}; // of the normal forces about the pad's centre, in its plane
+  std::array<Vec3d, kAlong * kAcross> moment{}; // first moments of the normal forces, in the plane of the pad [N m]
   auto former = last.pairs.begin();
-  const auto left = [&](const Pair& f) { // soil that the pad has left sideways, or lifted from
+  const auto leave = [&](const Pair& f) { // the node is no longer under the pad
     const int touched = f.node->touched;
-    const Compaction& memory =
-        touched < 0 ? f.node->memory : touched_[static_cast<std::size_t>(touched)].before;
-    energy_.edges += f.share * f.area * memory.elastic(memory.pressureAt(f.depth));
+    const Compaction& state = touched < 0 ? f.node->state : touched_[static_cast<std::size_t>(touched)].before;
+    energy_.edges += f.share * f.area * state.elastic(state.pressureAt(f.depth));
   };
   for (const Pair& pair : now_[pad]) {
-    while (former != last.pairs.end() && std::pair(former->j, former->i) < std::pair(pair.j, pair.i)) left(*former++);
+    while (former != last.pairs.end() && std::pair(former->j, former->i) < std::pair(pair.j, pair.i)) leave(*former++);
     const bool isKnown = former != last.pairs.end() && former->j == pair.j && former->i == pair.i;
     const Touched& t = touched_[static_cast<std::size_t>(pair.touched)];
-    const Compaction& memory = pair.node->memory;
-    const double pressure = pair.depth > 0 ? memory.pressureAt(pair.depth) : 0;
-    const double held = memory.elastic(pressure);
+    const Compaction& state = pair.node->state;
+    const double pressure = pair.depth > 0 ? state.pressureAt(pair.depth) : 0;
+    const double elastic = state.elastic(pressure);
     const double shareBefore = isKnown ? former->share * former->area : 0;
-    if (isKnown && shareBefore > 0) {
+    if (t.yields() && shareBefore > 0) {
       Compaction path = t.before;
       const Compression c = compress(path, soil_, curve_, t.modulus, former->depth, std::max(0.0, pair.depth));
-      energy_.compaction += shareBefore * (c.work - (held - t.before.elastic(t.before.pressureAt(former->depth))));
+      energy_.compaction += shareBefore * (c.work - (elastic - t.before.elastic(t.before.pressureAt(former->depth))));
     }
-    energy_.edges -= (pair.share * pair.area - shareBefore) * held;
-    energy_.elastic += pair.share * pair.area * held;
+    energy_.edges -= (pair.share * pair.area - shareBefore) * elastic;
+    energy_.elastic += pair.share * pair.area * elastic;
     if (isKnown) ++former;
     if (!(pressure > 0)) continue;
-    // Soil that is being compressed resists the more the faster it is.
+    // Damping acts during compression only.
     const Vec3d place = centre + u * pair.u + v * pair.v;
     const double sinking = std::max(0.0, -dot(motion.velocityAt(place), up));
     const double weight = pair.share * pair.area, force = weight * (pressure + soil_.damping * sinking);
@@ -122,7 +120,7 @@ void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, doub
     load.force += up * force, load.torque += cross(place - motion.centre, up * force);
     load.pressed += force, load.area += weight, load.sinkage = std::max(load.sinkage, pair.depth);
   }
-  while (former != last.pairs.end()) left(*former++);
+  while (former != last.pairs.end()) leave(*former++);
 
   const double K = soil_.shearDisplacement;
   for (std::size_t k = 0; k < pressed.size(); ++k) {
@@ -130,7 +128,7 @@ void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, doub
     const double before = last.strength[k], strength = soil_.cohesion * touching[k] + soil_.friction * pressed[k];
     const Vec3d place = pressed[k] > 0 ? moment[k] * (1 / pressed[k]) : Vec3d{};
     if (last.isThere && before > 0 && strength > 0) {
-      // The soil's stress in the plane of the pad as it is now, then the slip of this step.
+      // Rotate the stress into the present plane of the pad, then add the shear displacement of this step.
       const Vec3d stress = last.u * s.x + last.v * s.y;
       const double size = ::sqrt(s.square()), x = dot(stress, u), y = dot(stress, v), now = ::sqrt(x * x + y * y);
       s = now > 0 ? Shear{x * size / now, y * size / now} : Shear{};
@@ -140,7 +138,7 @@ void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, doub
       energy_.shear += before * w.loss;
       energy_.coupling -= 0.5 * K * s.square() * (strength - before);
     } else {
-      energy_.edges += 0.5 * K * s.square() * before; // lifted: what it held is lost
+      energy_.edges += 0.5 * K * s.square() * before; // contact lost
       s = {};
     }
     last.strength[k] = strength;
@@ -156,7 +154,7 @@ namespace {
 
 constexpr std::size_t kPieces = PadContacts::kAlong * PadContacts::kAcross;
 
-/// Numbers one after another, written or read by the same code.
+/// Writes or reads a sequence of numbers with the same code.
 class Stream {
 public:
   explicit Stream(std::vector<double>& numbers) : numbers_(numbers), writes_(true) {}
@@ -195,12 +193,12 @@ std::vector<double> PadContacts::save() const {
   Stream stream(numbers);
   SoilEnergy energy = energy_;
   double pads = static_cast<double>(pads_.size()), nodes = 0;
-  map_.forEach([&](std::int32_t, std::int32_t, const Node& node) { nodes += node.memory.stiffness > 0; });
+  map_.forEach([&](std::int32_t, std::int32_t, const Node& node) { nodes += node.state.stiffness > 0; });
   stream(energy), stream(pads), stream(nodes);
   map_.forEach([&](std::int32_t i, std::int32_t j, const Node& node) {
-    if (!(node.memory.stiffness > 0)) return;
-    Compaction memory = node.memory;
-    stream(i), stream(j), stream(memory);
+    if (!(node.state.stiffness > 0)) return;
+    Compaction state = node.state;
+    stream(i), stream(j), stream(state);
   });
   for (Last last : last_) {
     stream(last.isThere), stream(last.u), stream(last.v), stream(last.centre);
@@ -219,9 +217,9 @@ bool PadContacts::restore(const std::vector<double>& saved) {
   if (pads != static_cast<double>(pads_.size())) return false;
   for (double n = 0; n < nodes && !stream.isShort(); ++n) {
     std::int32_t i = 0, j = 0;
-    Compaction memory;
-    stream(i), stream(j), stream(memory);
-    map_.at(i, j).memory = memory;
+    Compaction state;
+    stream(i), stream(j), stream(state);
+    map_.at(i, j).state = state;
   }
   for (Last& last : last_) {
     stream(last.isThere), stream(last.u), stream(last.v), stream(last.centre);

@@ -12,57 +12,58 @@ namespace grouser::scm {
 
 using base::Vec3d;
 
-/// A flat rectangle of a part that presses on the soil: the plate of a track shoe.
+/// A flat rectangle on a part that contacts the soil: the plate of a track shoe.
 struct Pad {
-  int part{};                    ///< that it belongs to
+  int part{};                       ///< index of its part
   Vec3d centre;                  ///< in the part's frame [m]
-  Vec3d along, across;           ///< unit vectors of its sides in that frame; `along` x `across` points out of the soil
+  Vec3d along, across;              ///< unit vectors of its sides; along x across points away from the soil
   double halfLength{}, halfWidth{}; ///< along, across [m]
-  double breadth{};              ///< b of Bekker's relation while it touches alone [m]
+  double breadth{};                 ///< b of Bekker's relation [m]
 };
 
-/// Energies since the start, and those that the soil holds now [J].
+/// Elastic energies now, and energies dissipated since the start [J].
 struct SoilEnergy {
-  double elastic{};      ///< held by pressure
-  double elasticShear{}; ///< held by shear
-  double compaction{};   ///< lost in plastic sinkage
-  double shear{};        ///< lost in plastic shear
+  double elastic{};      ///< of pressure
+  double elasticShear{}; ///< of shear
+  double compaction{};   ///< plastic sinkage
+  double shear{};        ///< plastic shear
   double damping{};
-  double edges{};        ///< of soil that came under a pad, or from under it, sideways: less than nothing where it brought
-  double coupling{};     ///< of shear that the soil holds while the pressure on it changes
+  double edges{};    ///< elastic energy of soil that leaves a pad sideways or loses contact; negative where soil enters
+  double coupling{}; ///< change of elastic shear energy with the pressure
 
   double lost() const { return compaction + shear + damping + edges + coupling; }
 };
 
-/// Loads of one pad on its part.
+/// Load of one pad on its part.
 struct PadLoad {
   Vec3d force, torque; ///< [N], [N m] about the part's centre of mass
   double pressed{};    ///< normal force [N]
-  double area{};       ///< that bears [m2]
-  double sinkage{};    ///< greatest [m]
+  double area{};       ///< in contact [m2]
+  double sinkage{};    ///< maximum [m]
 };
 
-/// Pads on deformable soil: pressure of each node under a pad by its memory, along the pad's normal, and shear of eight
-/// pieces of each pad. Loads of a step follow from poses; memory advances once a step, from one pose to the next.
+/// Contacts of pads with deformable soil. Each node under a pad has a pressure along the normal of the pad; each of eight
+/// pieces of a pad has a shear stress. Loads depend on the poses of the step; node states and shear advance once a step,
+/// from the previous poses.
 ///
-/// A node counts with the share of its square that the pad covers, clamp((half - |u|) / spacing + 1/2) along each side: the
-/// area of a pad does not depend on how it lies on the grid, and forces are continuous.
+/// A node is weighted by the share of its square that the pad covers, clamp((half - |u|) / width + 1/2) along each side, so
+/// that area and forces vary continuously with the position on the grid.
 class PadContacts {
 public:
   static constexpr int kAlong = 2, kAcross = 4; ///< pieces of a pad
 
   PadContacts(const SoilConstants& soil, double deepest, SoilMap& map, std::vector<Pad> pads);
 
-  /// Moves all pads to these poses ([part] of the pads), advances the soil's memory, and computes the loads.
+  /// Advances soil and shear to the poses `motion`, indexed by part, and computes the loads.
   void step(const contact::PartMotion* motion, double timeStep);
 
   const std::vector<PadLoad>& loads() const { return loads_; } ///< one a pad
   const SoilEnergy& energy() const { return energy_; }
   const std::vector<Pad>& pads() const { return pads_; }
 
-  /// All that later steps depend on, as numbers: energies, soil that has been loaded, pads.
+  /// State as numbers: energies, loaded nodes, pads.
   std::vector<double> save() const;
-  /// Puts back what save() returned of the same pads. False where it is of others.
+  /// Restores a state that save() returned. Returns false if it belongs to other pads.
   bool restore(const std::vector<double>& saved);
 
 private:
@@ -76,7 +77,7 @@ private:
     double share;    ///< of its square under the pad
     double area;     ///< of its square, on the pad [m2]
   };
-  /// A pad at rest between two steps.
+  /// State of a pad after a step.
   struct Last {
     Vec3d u, v;             ///< its sides [-]
     Vec3d centre;           ///< [m]
@@ -85,16 +86,17 @@ private:
     std::vector<Pair> pairs;
     bool isThere = false;
   };
-  /// A node in this step: its memory before, and how deep the deepest pad on it goes.
+  /// A node under pads in this step.
   struct Touched {
     Node* node;
-    Compaction before;
-    double deepest;
-    double modulus;
+    Compaction before; ///< its state before the step
+    double deepest;    ///< maximum sinkage under the pads [m]
+    double modulus;    ///< maximum k of the pads [N/m^(n+2)]
+    bool yields() const { return deepest > before.sinkage; }
   };
 
   void gather(std::size_t pad, const contact::PartMotion& motion);
-  void advanceMemory();
+  void advanceNodes();
   void press(std::size_t pad, const contact::PartMotion& motion, double timeStep);
 
   SoilConstants soil_;

@@ -5,7 +5,7 @@
 
 namespace grouser::scm {
 
-PressureCurve::PressureCurve(double exponent, double deepest) : exponent_(exponent), deepest_(deepest) {
+PressureCurve::PressureCurve(double exponent, double deepest) : deepest_(deepest) {
   const auto place = [&](int i) { return deepest * (static_cast<double>(i) / kIntervals) * i / kIntervals; };
   const auto value = [&](int i) { return i == 0 ? 0 : base::pow(place(i), exponent); };
   double integral = 0;

@@ -8,10 +8,9 @@
 
 namespace grouser::scm {
 
-/// g(z) = z^n as a piecewise linear function with its exact integral: no powers while simulating, and the energy of a
-/// path follows from the pressures on it to rounding. Knots at deepest (i / kIntervals)^2, so that the relative error,
-/// n (n - 1) / (2 i^2), falls with depth: 1e-4 from a thousandth of the depth on, at n = 0.8. Beyond the deepest knot the
-/// last line goes on.
+/// z^n tabulated as a piecewise linear function g(z) with its exact integral: the step needs no powers, and energies match
+/// pressures to rounding. Knots lie at deepest (i / kIntervals)^2, so the relative error n (n - 1) / (2 i^2) decreases with
+/// depth: 1e-4 beyond a thousandth of the depth at n = 0.8. The last line continues beyond the deepest knot.
 class PressureCurve {
 public:
   static constexpr int kIntervals = 1024;
@@ -31,8 +30,6 @@ public:
   }
   /// Slope of g to the right of z [m^(n-1)].
   double slopeAt(double z) const { return knots_[interval(z)].slope; }
-  double exponent() const { return exponent_; } ///< n [-]
-  double deepest() const { return deepest_; }   ///< [m]
 
 private:
   struct Knot {
@@ -43,7 +40,7 @@ private:
     return i < kIntervals - 1 ? static_cast<std::size_t>(i) : kIntervals - 1;
   }
 
-  double exponent_, deepest_;
+  double deepest_;
   std::vector<Knot> knots_; ///< one an interval: its left end
 };
 

@@ -6,29 +6,29 @@
 
 namespace grouser::scm {
 
-/// Shear of the soil under a piece of a pad, as a share of the stress that it can carry: tau = tau_m s, |s| <= 1, in the
-/// plane of the pad. K ds = dj - s |dj|: in straight shear Janosi's 1 - exp(-j / K) (Janosi, Hanamoto 1961), and right in
-/// turns and reversals, where a stress by path length against the present velocity is not.
+/// Direction and mobilised share of the shear stress under a piece of a pad, tau = tau_m s, |s| <= 1, in the plane of the
+/// pad. K ds = dj - s |dj| for a shear displacement dj: straight motion gives Janosi's 1 - exp(-j / K) (Janosi, Hanamoto
+/// 1961). After a turn or a reversal s follows with delay, whereas a scalar path length would turn the stress at once.
 struct Shear {
   double x{}, y{}; ///< [-]
 
   double square() const { return x * x + y * y; }
 };
 
-/// Work of a piece over a slip at constant tau_m [m]: times tau_m and area it is an energy.
+/// Work and dissipation over a shear displacement at constant tau_m, divided by tau_m and area [m].
 struct ShearWork {
   double work{}, loss{};
 };
 
-/// Advances by the slip (dx, dy) of the pad over the ground [m] along a straight line: exact for any length. With the
-/// slip's unit vector d and length l, s' = d + (s - d) exp(-l / K).
+/// Advances s by a straight shear displacement (dx, dy) [m], exactly for any length: s' = d + (s - d) exp(-l / K), with
+/// its unit vector d and length l.
 inline ShearWork advance(Shear& s, double dx, double dy, double K) {
   const double l = ::sqrt(dx * dx + dy * dy);
   if (!(l > 0)) return {};
   const double ux = dx / l, uy = dy / l, along = s.x * ux + s.y * uy, before = s.square();
   const double kept = base::exp(-l / K);
   s.x = ux + (s.x - ux) * kept, s.y = uy + (s.y - uy) * kept;
-  // The integral of s . d over the slip, and what of it the soil does not hold as K s^2 / 2.
+  // Work: the integral of s . d over the displacement. Loss: work less the change of the elastic energy K s^2 / 2.
   const double work = l - (1 - along) * K * (1 - kept);
   return {work, work - 0.5 * K * (s.square() - before)};
 }

@@ -5,8 +5,8 @@
 
 namespace grouser::scm {
 
-/// Constants of a soil under pads: Bekker's pressure-sinkage relation p = (k_c / b + k_phi) z^n, Wong's linear unloading,
-/// and Janosi's shear stress tau = (c + p tan phi) (1 - exp(-j / K)) (Wong, Theory of Ground Vehicles, chapter 2).
+/// Soil constants: Bekker's pressure-sinkage relation p = (k_c / b + k_phi) z^n, Wong's linear unloading, and Janosi's shear
+/// stress tau = (c + p tan phi) (1 - exp(-j / K)) (Wong, Theory of Ground Vehicles, chapter 2).
 struct SoilConstants {
   double exponent = 1;       ///< n [-], > 0
   double kc{};               ///< [N/m^(n+1)], may be negative

@@ -12,7 +12,7 @@ SoilMap::Tile& SoilMap::make(std::int32_t tileX, std::int32_t tileY) {
     for (int i = 0; i < kTile; ++i) {
       const terrain::SurfaceJet jet = surface_(spacing_ * (tileX * kTile + i), spacing_ * (tileY * kTile + j));
       Node& node = tile->nodes[placeInTile(i, j)];
-      node.height = jet.h, node.slopeX = jet.hx, node.slopeY = jet.hy;
+      node.height = jet.h, node.cosine = 1 / std::sqrt(1 + jet.hx * jet.hx + jet.hy * jet.hy);
     }
   return *(tiles_[key(tileX, tileY)] = std::move(tile));
 }
@@ -27,10 +27,7 @@ double SoilMap::rutAt(double x, double y) const {
   const double u = x / spacing_ - i, v = y / spacing_ - j;
   const auto depth = [&](std::int32_t column, std::int32_t row) {
     const Node* node = find(column, row);
-    // Along the normal, as sinkage is: as a height it is more on a slope.
-    return node ? node->memory.rebound() *
-                      std::sqrt(1 + node->slopeX * node->slopeX + node->slopeY * node->slopeY)
-                : 0;
+    return node ? node->state.rebound() / node->cosine : 0; // vertical, whereas sinkage is along the normal
   };
   return (1 - v) * ((1 - u) * depth(i, j) + u * depth(i + 1, j)) +
          v * ((1 - u) * depth(i, j + 1) + u * depth(i + 1, j + 1));

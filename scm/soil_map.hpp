@@ -13,16 +13,16 @@
 
 namespace grouser::scm {
 
-/// A node of the grid: a square of soil about it.
+/// A node of the grid, which stands for a square of soil around it.
 struct Node {
-  double height{};         ///< of the undisturbed surface [m]
-  double slopeX{}, slopeY{}; ///< of that [-]
-  Compaction memory;       ///< sinkage counts along the normal of the undisturbed surface
-  int touched = -1;        ///< in a step: its place among the nodes under pads; not part of the state
+  double height{};   ///< of the undisturbed surface [m]
+  double cosine = 1; ///< between the normal of that surface and the vertical [-]
+  Compaction state;  ///< sinkage is measured along the normal of the undisturbed surface
+  int touched = -1;  ///< index among the nodes under pads within a step; not saved
 };
 
-/// The soil as nodes at whole multiples of a spacing, in tiles that are made when a pad first comes near: memory grows with
-/// the ground that is touched, not with the terrain.
+/// A grid of soil nodes in square tiles, allocated when a pad first approaches: memory grows with the touched ground, not
+/// with the terrain.
 class SoilMap {
 public:
   static constexpr int kTile = 16; ///< nodes along a side of a tile
@@ -32,15 +32,14 @@ public:
       : spacing_(spacing), surface_(std::move(surface)) {}
 
   double spacing() const { return spacing_; }
-  /// Node (i, j), at x = i spacing, y = j spacing; stays where it is in memory.
+  /// Node at x = i spacing, y = j spacing; the reference stays valid.
   Node& at(std::int32_t i, std::int32_t j) {
     Tile& tile = tileOf(i >> kShift, j >> kShift);
     return tile.nodes[placeInTile(i, j)];
   }
-  std::size_t tiles() const { return tiles_.size(); }
-  /// How far the unloaded surface lies below the undisturbed one at (x, y) [m], linear between nodes.
+  /// Depth of the unloaded surface below the undisturbed one at (x, y) [m], linear between nodes.
   double rutAt(double x, double y) const;
-  /// Calls with i, j and node, tile by tile in the order of their places.
+  /// Calls look(i, j, node) for all nodes, in an order that depends on their positions only.
   void forEach(const std::function<void(std::int32_t, std::int32_t, const Node&)>& look) const;
 
 private:

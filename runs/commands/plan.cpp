@@ -180,6 +180,11 @@ std::string bedLines(const scene::Terrain* t, const base::Vec3d& gravity) {
   return text;
 }
 
+const char* groundWord(const scene::Terrain* terrain) {
+  if (!terrain || terrain->granular()) return "floor below the bed";
+  return terrain->deformable() ? "deformable soil" : "rigid ground";
+}
+
 } // namespace
 
 std::string switchesText(const scene::Scene& scene) {
@@ -208,11 +213,7 @@ std::string switchesText(const scene::Scene& scene) {
       text += fmt::format("       {:<26} {}\n", "kernel of walls and floor",
                           terrain::boundaryKernelText(traits.features, traits.model));
   }
-  text += onOff(t != nullptr,
-                !t || bed         ? "floor below the bed"
-                : t->deformable() ? "soil that deforms"
-                                  : "rigid ground",
-                t ? t->heightmap : "no [terrain]");
+  text += onOff(t != nullptr, groundWord(t), t ? t->heightmap : "no [terrain]");
   text += bedLines(bed ? t : nullptr, scene.run.gravity);
   text += onOff(bed && t->settleTimeLimit > 0, "settling",
                 bed ? fmt::format("at most {} s", t->settleTimeLimit) : "no bed");

@@ -14,9 +14,9 @@ namespace grouser::commands {
 
 namespace {
 
-/// Returns true if bodies of that material, or surfaces and ground that bodies touch, make contact by a foundation, or
-/// if it names the soil that deforms.
-bool onFoundation(const scene::Scene& scene, const std::string& material) {
+/// Returns true if contacts without grains depend on the material: foundations of bodies, surfaces and ground, or
+/// deformable soil.
+bool actsWithoutGrains(const scene::Scene& scene, const std::string& material) {
   if (scene.terrain && scene.terrain->deformable() && scene.terrain->material == material) return true;
   if (!scene.mechanism.touches()) return false;
   const auto& bodies = scene.mechanism.bodies;
@@ -49,7 +49,7 @@ std::string pairsText(const scene::Scene& scene) {
     for (const std::string& off : p.off) notes += fmt::format("  note: {}: {}\n", p.what, off);
   }
   for (const scene::Material& m : scene.materials)
-    if (!onFoundation(scene, m.name) && std::none_of(pairs.begin(), pairs.end(), [&](const setup::MeetingPair& p) {
+    if (!actsWithoutGrains(scene, m.name) && std::none_of(pairs.begin(), pairs.end(), [&](const setup::MeetingPair& p) {
           return p.grain == m.name || p.partner == m.name;
         }))
       notes += fmt::format("  note: material.{} acts on nothing here{}\n", m.name,

@@ -24,10 +24,10 @@ enum class FillForm { lattice, random, file };
 enum class TerrainKind {
   granular,
   rigid,
-  scm ///< deformable by Bekker's and Janosi's relations
+  scm ///< deformable soil, the soil contact model
 };
 
-/// Of [scm]: where constants come from that are not given.
+/// [scm]: source of the constants that the section omits.
 enum class SoilConstantsFrom { published, measured };
 
 /// Of a granular [terrain]: how its grains are laid before they settle.

@@ -167,14 +167,14 @@ struct Terrain {
   static constexpr double kPoured = 0.41; ///< porosity expected where none is prepared [-]
 };
 
-/// [scm]: of a deformable terrain. What is empty is the soil's.
+/// [scm]: constants of a deformable soil. Empty ones come from the soil file.
 struct Scm {
   SoilConstantsFrom constants = SoilConstantsFrom::published;
   std::optional<double> n, kc, kphi, cohesion, frictionAngle, shearDisplacement; ///< [-], [N/m^(n+1)], ..., [deg], [m]
   double unloadingStiffness = 0, unloadingGrowth = 0;                            ///< [N/m3], [N/m4]
   double elasticRatio = 10;                                                      ///< [-]
   double damping = 3e4;                                                          ///< [Pa s/m]
-  std::optional<double> nodeSpacing; ///< [m]; empty: half the length of a shoe over two
+  std::optional<double> nodeSpacing; ///< [m]; empty: a quarter of the length of a shoe
   double deepest = 0.5;              ///< [m]
   bool operator==(const Scm&) const = default;
 };

@@ -9,11 +9,11 @@ namespace {
 base::Table<Scm> scmTable() {
   using S = Scm;
   base::Table<S> t(
-      "scm", "Soil that deforms (terrain.kind = \"scm\"): p = (k_c / b + k_phi) z^n under a loaded area whose smaller "
-             "side is b, tau = (c + p tan phi) (1 - exp(-j / K)). Constants that are not given are those of the soil "
-             "that terrain.material names");
+      "scm", "Deformable soil (terrain.kind = \"scm\"): p = (k_c / b + k_phi) z^n under a loaded area whose smaller "
+             "side is b, tau = (c + p tan phi) (1 - exp(-j / K)). Constants that the section omits come from the soil "
+             "file that terrain.material names");
   t.add("constants", &S::constants, "",
-        "of the soil's file: as published, or as virtual tests of its grains have measured");
+        "source of omitted constants: published values, or virtual tests of the soil's grains");
   t.add("n", &S::n, "-", "exponent of sinkage").above(0).atMost(3);
   t.add("k_c", &S::kc, "N/m^(n+1)", "cohesive modulus; k_c / b + k_phi must be above 0 under a shoe");
   t.add("k_phi", &S::kphi, "N/m^(n+2)", "frictional modulus");
@@ -21,24 +21,22 @@ base::Table<Scm> scmTable() {
   t.add("phi", &S::frictionAngle, "deg", "angle of friction").atLeast(0).atMost(60);
   t.add("K", &S::shearDisplacement, "m", "shear displacement modulus").above(0).atMost(1);
   t.add("unloading_stiffness", &S::unloadingStiffness, "N/m3",
-        "k_0 of the slope of unloading, k_0 + A_u z, which is at least elastic_ratio max(1, n) p / z")
+        "k_0 of the unloading slope k_0 + A_u z; that slope is at least elastic_ratio max(1, n) p / z")
       .atLeast(-1e12)
       .atMost(1e12);
   t.add("unloading_growth", &S::unloadingGrowth, "N/m4", "A_u").atLeast(0).atMost(1e13);
-  t.add("elastic_ratio", &S::elasticRatio, "-", "least slope of unloading over the mean slope of loading")
+  t.add("elastic_ratio", &S::elasticRatio, "-", "minimum unloading slope over the secant slope p / z of loading")
       .atLeast(1)
       .atMost(1e3);
-  t.add("damping", &S::damping, "Pa s/m", "pressure for each speed at which soil is compressed").atLeast(0).atMost(1e7);
-  t.add("node_spacing", &S::nodeSpacing, "m", "of the grid; where not given a quarter of a shoe's length")
-      .above(0)
-      .atMost(1);
-  t.add("largest_sinkage", &S::deepest, "m", "up to which z^n is tabulated").above(0).atMost(10);
+  t.add("damping", &S::damping, "Pa s/m", "additional pressure per speed of compression").atLeast(0).atMost(1e7);
+  t.add("node_spacing", &S::nodeSpacing, "m", "grid spacing; default: a quarter of a shoe's length").above(0).atMost(1);
+  t.add("largest_sinkage", &S::deepest, "m", "end of the table of z^n").above(0).atMost(10);
   return t;
 }
 
 void checkScm(const base::Section& section, Scm&, const Scene& scene) {
   if (!scene.terrain || !scene.terrain->deformable())
-    section.fail("", "stands without soil that deforms; set terrain.kind = \"scm\", or remove it");
+    section.fail("", "has no effect without terrain.kind = \"scm\"; set that, or remove the section");
 }
 
 } // namespace

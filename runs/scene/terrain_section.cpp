@@ -88,9 +88,9 @@ Table<Terrain> terrainTable() {
         "surface between the pixels: monotone never rises above or falls below the pixels around it, smooth swings "
         "beyond steps by up to 7 % of them, bilinear has edges along the lines of pixels");
   t.add("kind", &S::kind, "",
-        "a bed of grains, rigid ground, or soil that deforms by the relations of Bekker and Janosi ([scm])");
+        "a bed of grains, rigid ground, or deformable soil by the relations of Bekker and Janosi ([scm])");
   t.add("material", &S::material, "",
-        "of the grains, or of the ground; soil that deforms takes its constants by that name")
+        "of the grains or the ground; deformable soil reads its constants from the soil file of this name")
       .required();
   t.add("ground_material", &S::groundMaterial, "", "of floor and walls; the bed's own where not given");
   addArrangement(t);
@@ -255,9 +255,8 @@ void checkTerrain(const Section& section, Terrain& t, const Scene& scene) {
     for (const char* key : {"grain_radius", "layers", "depth", "tile", "radius_distribution", "radius_spread",
                             "porosity", "fine_depth", "coarsening", "coarsest_radius", "spacing", "jitter", "packing"})
       if (section.has(key))
-        section.fail(key, t.deformable()
-                              ? "has no meaning on soil without grains; remove it, or set kind = \"granular\""
-                              : "has no meaning on rigid ground; remove it, or set kind = \"granular\"");
+        section.fail(key, t.deformable() ? "has no effect on deformable soil; remove it, or set kind = \"granular\""
+                                         : "has no meaning on rigid ground; remove it, or set kind = \"granular\"");
   }
   resolveFile(scene, section, "heightmap", t.heightmap);
 }

@@ -14,7 +14,7 @@ namespace {
 
 using scene::SoilQuantity;
 
-/// A constant as the scene has it, else as its soil has it.
+/// Constants of [scm], or of the soil file.
 class Constants {
 public:
   explicit Constants(const scene::Scene& scene) : scene_(scene), scm_(scene.scm.value_or(scene::Scm{})) {
@@ -35,7 +35,7 @@ public:
     const std::string word(base::wordOf(quantity));
     const std::string why =
         soil_ ? fmt::format("the soil {} has no {} {}", soil_->name, base::wordOf(scm_.constants), word)
-              : fmt::format("{} is no soil, which would have one", scene_.terrain->material);
+              : fmt::format("there is no soil file {}", scene_.terrain->material);
     scene_.fail("terrain", "kind", fmt::format("needs scm.{} [{}]: {}; give it in [scm]", word, unitOf(quantity), why));
   }
 
@@ -64,10 +64,10 @@ std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
   setup.deepest = s.deepest;
   if (!scene.vehicle)
     scene.fail("terrain", "kind",
-               "carries track shoes only, and the scene has no [vehicle]; add it, or set kind = \"rigid\"");
+               "supports track shoes only, but the scene has no [vehicle]; add it, or set kind = \"rigid\"");
   if (scene.mechanism.touches())
     scene.fail("terrain", "kind",
-               "carries track shoes only, and the scene has a [[body]] that touches ground; remove its "
+               "supports track shoes only, but a [[body]] of the scene touches the ground; remove its "
                "shapes, or set kind = \"rigid\"");
   const vehicle::ShoeSpec shoe = vehicle::readVehicleSpec(scene.vehicle->source()).shoe;
   setup.spacing = s.nodeSpacing.value_or(0.5 * shoe.halfLength);
@@ -75,9 +75,10 @@ std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
   if (!(soil.modulusAt(b) > 0))
     scene.fail(
         "terrain", "kind",
-        fmt::format("bears nothing: k_c / b + k_phi is {:.4g} N/m^(n+2) under shoes that are b = {:g} m wide; correct "
-                    "scm.k_c or scm.k_phi",
-                    soil.modulusAt(b), b));
+        fmt::format(
+            "has no bearing capacity: k_c / b + k_phi is {:.4g} N/m^(n+2) for shoes of width b = {:g} m; correct "
+            "scm.k_c or scm.k_phi",
+            soil.modulusAt(b), b));
   if (setup.spacing > 2 * shoe.halfLength)
     scene.fail(
         "scm", "node_spacing",

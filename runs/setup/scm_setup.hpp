@@ -11,8 +11,8 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Soil that deforms; empty where the scene has none. Constants as given, else those of its soil. Throws
-/// base::InputError where a constant is missing, or where the soil would bear nothing under a shoe.
+/// Deformable soil of a scene; empty for other terrain. Throws base::InputError if a constant is missing, if the soil
+/// has no bearing capacity under a shoe, or if the scene has parts that it does not support.
 std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -8,28 +8,28 @@
 #include <string>
 #include <vector>
 
-/// Limits of the step, and what a mode of the system does to them.
+/// Time step limits, and the modes of vibration that set them.
 namespace grouser::setup {
 
-/// Steps [s] that a scene bears; infinite where nothing limits them.
+/// Time step limits of a scene [s]; infinite without a limit.
 struct StepLimit {
-  /// The limit that one kind of contact sets.
+  /// Limit of one kind of contact.
   struct Bound {
     double step;      ///< [s]
     std::string what; ///< "shoe on rigid ground under a road wheel"
   };
-  double step = std::numeric_limits<double>::infinity(); ///< up to which no contact gives energy; a run takes no longer
-  std::string what;                                      ///< gives energy beyond it: "grain on the floor"
+  double step = std::numeric_limits<double>::infinity(); ///< longest step at which no contact creates energy
+  std::string what;                                      ///< contact that sets it: "grain on the floor"
   std::string remedy;                                    ///< "lower its stiffness"
-  /// Up to which every motion decays that sticking contacts make together. Between the two, strong dashpots let grains
-  /// at rest tremble, by as much as Coulomb's limit and forces that only push allow.
+  /// Longest step at which all modes of sticking contacts decay. Between calm and step, strong dashpots make grains at
+  /// rest vibrate within the limits of Coulomb friction and of contacts without tension.
   double calm = std::numeric_limits<double>::infinity();
-  /// Duration of the shortest bounce of a body on a rigid surface or body [s].
+  /// Shortest duration of a body's impact on a rigid surface or body [s].
   double bounce = std::numeric_limits<double>::infinity();
-  std::vector<Bound> vehicle; ///< limits that contacts of the vehicle with itself and with rigid ground set
+  std::vector<Bound> vehicle; ///< limits of the vehicle's contacts within its running gear and with the ground
 };
 
-/// Keeps the smaller limit: of the mode x'' + damping x' + stiffness x = 0 [1/s, 1/s2].
+/// Lowers limit.step to the stable step of the mode x'' + damping x' + stiffness x = 0 (units: 1/s2, 1/s).
 inline void consider(StepLimit& limit, double stiffness, double damping, const std::string& what,
                      const std::string& remedy = "lower its stiffness") {
   if (stiffness <= 0 && damping <= 0) return;
@@ -41,7 +41,7 @@ inline void considerCalm(StepLimit& limit, double stiffness, double damping) {
   if (stiffness > 0 || damping > 0) limit.calm = std::min(limit.calm, contact::stableStepOfMode(stiffness, damping));
 }
 
-/// Of a mode that counts for both: nothing but forces on springs, unbounded.
+/// Lowers both limits, step and calm: for a mode of linear springs, whose forces have no bound.
 inline void considerBoth(StepLimit& limit, double stiffness, double damping, const std::string& what,
                          const std::string& remedy) {
   consider(limit, stiffness, damping, what, remedy);

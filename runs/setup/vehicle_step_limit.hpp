@@ -10,7 +10,7 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Limits of the step by a vehicle's contacts: wheels on shoes, shoes on what is rigid or on soil that deforms.
+/// Adds the step limits of a vehicle's contacts: wheels on shoes, shoes on rigid surfaces or deformable soil.
 void considerVehicle(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& spec);
 
 } // namespace grouser::setup

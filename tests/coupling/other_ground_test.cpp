@@ -4,7 +4,7 @@
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/simulation.hpp"
-#include "tests/coupling/cut_once.hpp"
+#include "tests/coupling/one_track.hpp"
 #include "tests/message_of.hpp"
 #include "tests/terrain/grain_fixture.hpp"
 #include "vehicle/spec_file.hpp"
@@ -87,15 +87,8 @@ private:
 
 /// One track of the light vehicle, set down on springs; with short ramps.
 SimulationSetup onSprings() {
-  SimulationSetup setup;
-  setup.timeStep = kStep, setup.gravity = {0, 0, -kGravity};
+  SimulationSetup setup = oneTrack(kStep);
   setup.ground.otherKind = [](const GroundSetup&, const base::Exec&) { return std::make_unique<SpringGround>(); };
-  setup.vehicle.emplace();
-  setup.vehicle->spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
-  setup.vehicle->clearance = 0.001, setup.vehicle->onTerrain = true;
-  setup.vehicle->single = true, setup.vehicle->guide = vehicle::HullGuide::pitching;
-  setup.vehicle->sphereRadius = 0.01, setup.vehicle->sphereRadiusGiven = true;
-  setup.vehicle->driver.tensionRamp = 0.05, setup.vehicle->driver.weightRamp = 0.1;
   setup.vehicle->driver.driveStart = 0.16;
   return setup;
 }

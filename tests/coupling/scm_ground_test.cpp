@@ -4,8 +4,7 @@
 #include "coupling/ledger_entries.hpp"
 #include "coupling/scm_ground.hpp"
 #include "coupling/simulation.hpp"
-#include "tests/coupling/cut_once.hpp"
-#include "vehicle/spec_file.hpp"
+#include "tests/coupling/one_track.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,19 +23,12 @@ scm::SoilConstants lete() {
 }
 
 SimulationSetup onSoil() {
-  SimulationSetup setup;
-  setup.timeStep = kStep, setup.gravity = {0, 0, -9.81};
+  SimulationSetup setup = oneTrack(kStep);
   setup.ground.area = terrain::Rectangle{-5, 20, -3, 3};
-  setup.ground.surface = terrain::HeightField::flat({-5, 20, -3, 3}, 0);
+  setup.ground.surface = terrain::HeightField::flat(*setup.ground.area, 0);
   setup.ground.otherKind = [](const GroundSetup& ground, const base::Exec&) {
     return std::make_unique<ScmGround>(ScmSetup{lete(), 0.034, 0.5}, *ground.surface);
   };
-  setup.vehicle.emplace();
-  setup.vehicle->spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
-  setup.vehicle->single = true, setup.vehicle->guide = vehicle::HullGuide::pitching;
-  setup.vehicle->clearance = 0.001, setup.vehicle->onTerrain = true;
-  setup.vehicle->sphereRadius = 0.01, setup.vehicle->sphereRadiusGiven = true;
-  setup.vehicle->driver.tensionRamp = 0.05, setup.vehicle->driver.weightRamp = 0.1;
   setup.vehicle->driver.driveStart = 0.3;
   return setup;
 }
@@ -70,8 +62,8 @@ TEST(ScmGround, CarriesTheVehicleWithItsBooksClosed) {
   const double weight = 9.81 * simulation.vehicle()->assembly().mass;
   const double swing = (upward() - before) / (rows * kStep);
   EXPECT_NEAR(pressed / rows, weight + swing, 0.005 * weight) << "weight plus the inertia force of the swinging hull";
-  // Of all that touches some is unloaded: the deepest place has seen more than the mean pressure and less than twice
-  // the load of a wheel on one shoe as the vehicle was set down.
+  // Loads concentrate under the road wheels, and the maximum sinkage is that of the set-down: between the sinkage at
+  // the mean pressure and eight times that.
   const double k = lete().modulusAt(0.28), mean = std::pow(weight / (area / rows) / k, 1 / 0.793);
   EXPECT_GT(deepest, mean);
   EXPECT_LT(deepest, 8 * mean);
@@ -92,7 +84,7 @@ TEST(ScmGround, GoesOnFromASavedStateWithTheSameBits) {
   Simulation resumed(onSoil(), base::cpuExec(1), saved, {}, cutOnce());
   EXPECT_EQ(resumed.stateHash(), straight.stateHash());
   SimulationState firmer = saved;
-  (*firmer.ground)[11] *= 0.5; // what the first node has sunk by
+  (*firmer.ground)[11] *= 0.5; // maximum sinkage of the first node
   Simulation elsewhere(onSoil(), base::cpuExec(1), firmer, {}, cutOnce());
   for (Simulation* s : {&straight, &resumed, &elsewhere}) advanceTo(*s, 0.28);
   EXPECT_EQ(resumed.stateHash(), straight.stateHash());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Soil that deforms: constants by the soil's name, as published or measured, or given; and errors.
+// Deformable soil: constants of the soil file, published or measured, or of the scene; input errors.
 #include "runs/setup/scm_setup.hpp"
 
 #include "base/math.hpp"
@@ -50,9 +50,9 @@ TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
   std::string noVehicle = kScene.substr(0, kScene.find("[vehicle]"));
   const std::pair<std::string, const char*> cases[] = {
       {other, "needs scm.n [-]: the soil gravel has no published n; give it in [scm]"},
-      {noSoil, "m is no soil, which would have one; give it in [scm]"},
-      {noVehicle, "carries track shoes only"},
-      {kScene + "[scm]\nk_c = -5e6\n", "bears nothing"},
+      {noSoil, "there is no soil file m; give it in [scm]"},
+      {noVehicle, "supports track shoes only"},
+      {kScene + "[scm]\nk_c = -5e6\n", "has no bearing capacity"},
       {kScene + "[scm]\nnode_spacing = 0.2\n", "is more than the length of a shoe, 0.136 m"},
       {kScene + "[scm]\nn = 0\n", "n = 0"},
       {kScene + "[scm]\nelastic_ratio = 0.5\n", "elastic_ratio = 0.5"},
