@@ -6,11 +6,13 @@
     states.py table OUT_SMOOTH OUT_GROUSERS FILE.csv
     states.py check OUT [options of `grouser sweep`]
     states.py row OUT SIDESLIP RIM
+    states.py early OUT FROM TO
 
 A state is a sideslip angle and a speed of the rim, both in the experiment's numbers: it is towed at 10 mm/s there, and
 `faster(rim)` times as fast here. Each has three seeds, which are the same three beds in every state. `check` runs one
-state of the smooth wheel at half the speed, in a wider bed, and with grains half as large; `row` prints the figures of the
-runs of one state.
+state of the smooth wheel at half the speed, in a wider bed, and with grains half as large. `row` prints the figures of the
+runs of one state, `early` those of all runs between two times [s], with sinkage measured from where the wheel bears 1 % of
+its load: for runs that have not ended. `table` prints the standard deviation of a run.
 """
 import csv
 import json
@@ -23,6 +25,7 @@ from pathlib import Path
 RADIUS = 0.058  # [m] of the drum
 TOWED = 0.010  # [m/s]
 ZERO = 0.00289  # [m] height over the bed's mean surface from which the calibration counts the sinkage of plates
+LOAD = 24  # [N]
 STARTS = 0.6  # [s] the wheel stands until then
 PITCH = 2 * math.pi * RADIUS / 20  # [m] from grouser to grouser
 RIMS = {0: (0, 3, 5, 8, 10, 12, 20, 40, 100), 15: (5, 10, 20), 30: (5, 10, 20), 45: (5, 10, 20)}  # [mm/s] by [deg]
@@ -115,6 +118,19 @@ def figures(folder, sideslip, rim):
             1e3 * (surface - (mean("position.z [m]") - RADIUS)))
 
 
+def early(folder, first, last):
+    """Means between two times of a run that need not have ended: drawbar pull, torque, sinkage [mm]."""
+    with open(folder / "timeseries.csv", encoding="utf-8") as file:
+        rows = [{key.removeprefix("surfaces.wheel."): float(row[key]) for key in row} for row in csv.DictReader(file)]
+    touched = next(row["position.z [m]"] for row in rows if row["force.z [N]"] > 0.01 * LOAD)
+    window = [row for row in rows if first < row["time [s]"] <= last]
+
+    def mean(column):
+        return sum(row[column] for row in window) / len(window)
+
+    return mean("force.x [N]"), -mean("torque.y [N m]"), 1e3 * (touched - mean("position.z [m]"))
+
+
 def student95(freedom):
     """The 97.5 % quantile of Student's distribution for two degrees of freedom or more, within 4 %: from 3 on by three
     terms of its expansion, below 3 by interpolation."""
@@ -126,7 +142,8 @@ def student95(freedom):
 
 
 def half_width(values):
-    """95 % of the mean of a state, from all states of one kind: rows of `values`, a column for each bed.
+    """Standard deviation of a run and half width of the 95 % interval of a state's mean, from all states of one kind: rows
+    of `values`, a column for each bed.
 
     The beds are the same in all states, so deviations of a bed from the mean may go along with one another. Two-way
     analysis of variance: mean squares of beds and of the rest; a deviation of a single run has the variance
@@ -141,7 +158,8 @@ def half_width(values):
     rest /= (n - 1) * (beds - 1)
     shares = (by_bed / n, (n - 1) * rest / n)
     freedom = sum(shares) ** 2 / (shares[0] ** 2 / (beds - 1) + shares[1] ** 2 / ((n - 1) * (beds - 1)))
-    return student95(freedom) * math.sqrt(sum(shares) / beds)
+    deviation = math.sqrt(sum(shares))
+    return deviation, student95(freedom) * deviation / math.sqrt(beds)
 
 
 def table(folders, target):
@@ -156,7 +174,8 @@ def table(folders, target):
                 if straight and index == 1:
                     continue
                 values = [[found[index] for found in runs[state]] for state in kind]
-                bar = half_width(values)
+                deviation, bar = half_width(values)
+                print(f"{wheel}, {'straight' if straight else 'with sideslip'}, {quantity}: a run scatters by {deviation:.2g}")
                 digits = max(0, 1 - math.floor(math.log10(bar)))
                 rows += [(wheel, *state, quantity, f"{sum(v) / len(v):.{digits}f}", f"{bar:.{digits}f}", len(SEEDS),
                           f"states.py run {wheel}", *(f"{x:.{digits + 1}f}" for x in v)) for state, v in zip(kind, values)]
@@ -182,6 +201,10 @@ def main(words):
         state = int(words[2]), int(words[3])
         for folder in sorted(Path(words[1]).glob(f"sideslip{words[2]}_rim{words[3]}_*")):
             print(folder.name, *(f"{q} {v:.4g}" for q, v in zip(QUANTITIES, figures(folder, *state))), sep="  ")
+    elif len(words) == 4 and words[0] == "early":
+        for folder in sorted(path.parent for path in Path(words[1]).glob("*/timeseries.csv")):
+            print(folder.name, "drawbar pull [N] {:.3g}  torque [N m] {:.3g}  sinkage [mm] {:.1f}".format(
+                *early(folder, float(words[2]), float(words[3]))), sep="  ")
     else:
         print(__doc__, file=sys.stderr)
         return 2
