@@ -4,7 +4,9 @@
 
 #include "base/math.hpp"
 #include "runs/scene/scene_file.hpp"
+#include "runs/setup/vehicle_step_limit.hpp"
 #include "tests/message_of.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,6 +41,18 @@ TEST(ScmSetup, TakesConstantsFromTheSoilOrTheScene) {
   EXPECT_FALSE(scmSetup(scene::readSceneText("version = 1\n[run]\nduration = 1\n[material.m]\nstiffness = 1e5\n"
                                              "[[grain]]\nmaterial = \"m\"\nradius = 0.1\nposition = [0, 0, 0]\n",
                                              "one.toml")));
+}
+
+TEST(ScmSetup, StifferUnloadingLowersTheStepLimitOfAShoe) {
+  const auto limit = [](const char* keys) {
+    const scene::Scene scene = scene::readSceneText(kScene + keys, GROUSER_SOURCE_DIR "/runs/scenes/scm.toml");
+    StepLimit all;
+    considerVehicle(all, scene, vehicle::readVehicleSpec(scene.vehicle->source()));
+    for (const StepLimit::Bound& bound : all.vehicle)
+      if (bound.what == "shoe on soil under a road wheel") return bound.step;
+    return base::kNaN;
+  };
+  EXPECT_LT(limit("[scm]\nelastic_ratio = 1000\n"), 0.7 * limit("[scm]\nelastic_ratio = 10\n"));
 }
 
 TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
