@@ -110,6 +110,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
                          .pose_B = s.pose_B,
                          .surface = surfaces[index],
                          .shape = s.shape,
+                         .mesh = s.mesh ? s.mesh->query : nullptr,
                          .points = static_cast<int>(firstSet + index),
                          .foundation = ground < 0 ? contact::PatchLaw{} : laws.on(ground, s),
                          .material = ofVehicle + s.material,

@@ -11,8 +11,13 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
+
+namespace grouser::spheredecomp {
+class MeshQuery;
+}
 
 namespace grouser::coupling {
 
@@ -23,16 +28,17 @@ struct ContactPart {
   base::Pose pose_B;                ///< pose of the surface's frame P in the body's frame: X_BP
   int surface{};                    ///< index into ContactParts::surfaces; -1: the closed-form `shape`
   contact::SurfaceGeometry shape{}; ///< geometry of a [[body.shape]]; its bounding box if `surface` >= 0
-  int points{-1};                   ///< index of its surface points, by which it touches what is rigid; -1: none
-  contact::PatchLaw foundation{};   ///< on rigid ground
-  int material{};                   ///< index of its material among those of all parts
-  double reach{};                   ///< farthest point of the surface from its body's centre of mass [m]
-  bool meetsGrains = true;          ///< whether it touches grains
-  bool meetsGround{};               ///< whether it touches rigid ground as a foot; a hull does so among the obstacles
-  bool fixed{};                     ///< its body never moves, so it touches nothing that rests
-  bool ofBody{};                    ///< belongs to a [[body]], not to the vehicle
-  bool isHull{};                    ///< whether it touches rigid ground with the obstacles
-  std::size_t shown{};              ///< its place among the parts of the results' frames
+  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< of a [[body.shape]]; null for closed-form shapes
+  int points{-1};                 ///< index of its surface points, by which it touches what is rigid; -1: none
+  contact::PatchLaw foundation{}; ///< on rigid ground
+  int material{};                 ///< index of its material among those of all parts
+  double reach{};                 ///< farthest point of the surface from its body's centre of mass [m]
+  bool meetsGrains = true;        ///< whether it touches grains
+  bool meetsGround{};             ///< whether it touches rigid ground as a foot; a hull does so among the obstacles
+  bool fixed{};                   ///< its body never moves, so it touches nothing that rests
+  bool ofBody{};                  ///< belongs to a [[body]], not to the vehicle
+  bool isHull{};                  ///< whether it touches rigid ground with the obstacles
+  std::size_t shown{};            ///< its place among the parts of the results' frames
 };
 
 /// Acceleration that turns a total mass into the scale of loads, whatever the scene's gravity is [m/s2].

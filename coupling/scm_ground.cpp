@@ -5,7 +5,9 @@
 #include "base/math.hpp"
 #include "coupling/contact_parts.hpp"
 #include "coupling/ledger_entries.hpp"
+#include "coupling/obstacles.hpp"
 #include "coupling/simulation_state.hpp"
+#include "spheredecomp/mesh_query.hpp"
 #include "vehicle/assembly.hpp"
 
 namespace grouser::coupling {
@@ -32,35 +34,77 @@ GroundTraits ScmGround::traits() const {
   return traits;
 }
 
-LoadQuanta ScmGround::meet(const PartsOnGround& on) {
+namespace {
+
+std::vector<scm::Pad> padsOf(const PartsOnGround& on) {
   std::vector<scm::Pad> pads;
-  if (on.vehicle) {
-    const vehicle::ShoeSpec& shoe = on.vehicle->spec.shoe;
-    for (std::size_t c = 0; c < on.parts.count(); ++c)
-      if (const ContactPart& part = on.parts.parts[c]; part.meetsGround && !part.ofBody)
-        pads.push_back({static_cast<int>(c),
-                        {0, 0, shoe.padBottom},
-                        {1, 0, 0},
-                        {0, 1, 0},
-                        shoe.halfLength,
-                        shoe.padHalfWidth,
-                        2 * shoe.padHalfWidth});
+  if (!on.vehicle) return pads;
+  const vehicle::VehicleSpec& spec = on.vehicle->spec;
+  const vehicle::ShoeSpec& shoe = spec.shoe;
+  const int grousers = !(shoe.grouserHeight > 0) ? 0 : spec.shapes && !(spec.shapes->grouserX > 0) ? 1 : 2;
+  scm::Pad pad{.centre = {0, 0, shoe.padBottom},
+               .along = {1, 0, 0},
+               .across = {0, 1, 0},
+               .halfLength = shoe.halfLength,
+               .halfWidth = shoe.padHalfWidth,
+               .breadth = 2 * shoe.padHalfWidth,
+               .pitch = shoe.pitch,
+               .grousers = scm::Grousers{grousers, shoe.grouserHeight}};
+  for (std::size_t t = 0; t < on.vehicle->tracks.size(); ++t)
+    for (const int body : on.vehicle->tracks[t].shoes)
+      for (std::size_t c = 0; c < on.parts.count(); ++c)
+        if (const ContactPart& part = on.parts.parts[c];
+            part.meetsGround && !part.ofBody && part.body == static_cast<std::size_t>(body)) {
+          pad.part = static_cast<int>(c), pad.track = static_cast<int>(t);
+          pads.push_back(pad);
+        }
+  return pads;
+}
+
+std::vector<scm::Solid> solidsOf(const PartsOnGround& on) {
+  using contact::SurfaceShape;
+  std::vector<scm::Solid> solids;
+  for (std::size_t c = 0; c < on.parts.count(); ++c) {
+    const ContactPart& part = on.parts.parts[c];
+    if (!part.meetsGround || !part.ofBody) continue;
+    scm::Solid solid{.part = static_cast<int>(c), .half = halfExtent(part.shape)};
+    if (part.mesh) {
+      solid.gap = [mesh = part.mesh](const base::Vec3d& p) {
+        const spheredecomp::ClosestPoint nearest = mesh->closest(p);
+        return contact::SurfaceGap{mesh->normal(nearest.triangle),
+                                   mesh->inside(p) ? -nearest.distance : nearest.distance};
+      };
+    } else {
+      solid.isRound = part.shape.shape != SurfaceShape::box;
+      solid.gap = [shape = part.shape](const base::Vec3d& p) { return contact::gapTo(shape, p); };
+    }
+    solids.push_back(solid);
   }
-  contacts_ = std::make_unique<scm::PadContacts>(setup_.soil, setup_.deepest, map_, std::move(pads));
+  return solids;
+}
+
+} // namespace
+
+LoadQuanta ScmGround::meet(const PartsOnGround& on) {
+  contacts_ = std::make_unique<scm::SoilContacts>(setup_.soil, setup_.deepest, setup_.displacement, map_, padsOf(on),
+                                                  solidsOf(on), on.timeStep);
   if (!saved_.empty() && !contacts_->restore(saved_))
-    throw base::InputError("the saved state belongs to another vehicle; resume it with its own scene");
+    throw base::InputError("the saved state belongs to another vehicle or other bodies; resume it with its own scene");
   saved_.clear();
-  timeStep_ = on.timeStep;
   return quanta_ = {on.quanta.force, on.quanta.torque};
 }
 
 void ScmGround::computeOnHost(const contact::PartMotion* motion, contact::PartLoad* loads) {
-  contacts_->step(motion, timeStep_);
-  for (std::size_t k = 0; k < contacts_->pads().size(); ++k) {
-    contact::PartLoad& load = loads[contacts_->pads()[k].part];
-    load.force += quanta_.force.quantise(contacts_->loads()[k].force);
-    load.torque += quanta_.torque.quantise(contacts_->loads()[k].torque);
-  }
+  contacts_->step(motion);
+  const auto add = [&](int part, const base::Vec3d& force, const base::Vec3d& torque) {
+    loads[part].force += quanta_.force.quantise(force), loads[part].torque += quanta_.torque.quantise(torque);
+  };
+  const scm::PadContacts& pads = contacts_->pads();
+  for (std::size_t k = 0; k < pads.pads().size(); ++k)
+    if (pads.loads()[k].pressed > 0) add(pads.pads()[k].part, pads.loads()[k].force, pads.loads()[k].torque);
+  const scm::BodyContacts& bodies = contacts_->bodies();
+  for (std::size_t k = 0; k < bodies.solids().size(); ++k)
+    add(bodies.solids()[k].part, bodies.loads()[k].force, bodies.loads()[k].torque);
 }
 
 void ScmGround::addContactsTo(ContactLedger& ledger) const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "coupling/ground.hpp"
-#include "scm/pad_contacts.hpp"
+#include "scm/soil_contacts.hpp"
 #include "terrain/height_field.hpp"
 
 #include <memory>
@@ -12,15 +12,16 @@ namespace grouser::coupling {
 /// Options of the soil contact model (SCM).
 struct ScmSetup {
   scm::SoilConstants soil;
+  scm::Displacement displacement;
   double spacing{}; ///< of the nodes [m]
   double deepest{}; ///< sinkage up to which the pressure is tabulated [m]
 
-  /// Maximum unloading slope under shoes of this width [Pa/m], for sinkages of 0.1 mm to 0.1 m.
+  /// Maximum unloading slope under a loaded area of this width [Pa/m], for sinkages of 0.1 mm to 0.1 m.
   double stiffest(double breadth) const;
 };
 
-/// Deformable soil under the plates of track shoes, with ruts that remain. The undisturbed surface is rigid for the
-/// hull.
+/// Deformable soil under the shoes of tracks and under bodies, with ruts that remain. The undisturbed surface is rigid
+/// for the hull.
 class ScmGround : public Ground {
 public:
   /// `surface`, as laid, outlives it.
@@ -35,16 +36,15 @@ public:
   void restore(const SimulationState& state) override;
   void save(SimulationState& state) const override;
 
-  const scm::PadContacts& contacts() const { return *contacts_; } ///< after meet()
+  const scm::SoilContacts& contacts() const { return *contacts_; } ///< after meet()
 
 private:
   ScmSetup setup_;
   const terrain::HeightField& laid_;
   scm::SoilMap map_;
-  std::unique_ptr<scm::PadContacts> contacts_;
+  std::unique_ptr<scm::SoilContacts> contacts_;
   std::vector<double> saved_; ///< state to restore in meet(); empty in a new simulation
   LoadQuanta quanta_;
-  double timeStep_{};
 };
 
 } // namespace grouser::coupling

@@ -8,47 +8,84 @@ namespace grouser::scm {
 
 namespace {
 
-constexpr double kNear = 5e-3;    // [m] nodes are listed up to this height of a pad above them
-constexpr double kSteepest = 0.2; // minimum cosine between the pad normal and the vertical for contact
-
 /// Share of a node's square within a pad along one axis; `width`: of the square along that axis [m].
 double shareOf(double place, double half, double width) {
   return std::clamp((half - std::fabs(place)) / width + 0.5, 0.0, 1.0);
 }
 
+/// Stress s of the last step in the present plane of the pad, of the same size.
+Shear turned(const Shear& s, const Vec3d& lastU, const Vec3d& lastV, const Vec3d& u, const Vec3d& v) {
+  const Vec3d stress = lastU * s.x + lastV * s.y;
+  const double x = dot(stress, u), y = dot(stress, v), now = ::sqrt(x * x + y * y);
+  if (!(now > 0)) return {};
+  const double size = ::sqrt(s.square()) / now;
+  return {x * size, y * size};
+}
+
 } // namespace
 
-PadContacts::PadContacts(const SoilConstants& soil, double deepest, SoilMap& map, std::vector<Pad> pads)
-    : soil_(soil), curve_(soil.exponent, deepest), map_(map), pads_(std::move(pads)), last_(pads_.size()),
-      now_(pads_.size()), loads_(pads_.size()) {}
+PadContacts::PadContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Pad> pads)
+    : map_(map), loaded_(loaded), sides_(loaded.soil()), pads_(std::move(pads)), moduli_(pads_.size()),
+      last_(pads_.size()), now_(pads_.size()), loads_(pads_.size()) {
+  const SoilConstants& soil = loaded.soil();
+  for (const Pad& p : pads_) {
+    const ShearStrength rough{soil.cohesion, soil.friction};
+    strengths_.push_back(p.grousers ? shoeStrength(soil, *p.grousers, 2 * p.halfLength, 2 * p.halfWidth)
+                                    : ShoeStrength{rough, rough});
+  }
+}
 
-void PadContacts::step(const contact::PartMotion* motion, double timeStep) {
-  touched_.clear();
+/// b of each pad: of a track the smaller of its width and the length of the run of pads in contact that it belongs to or
+/// will lengthen.
+void PadContacts::updateBreadths() {
+  for (std::size_t first = 0, end = 0; first < pads_.size(); first = end) {
+    for (end = first + 1; end < pads_.size() && pads_[first].track >= 0 && pads_[end].track == pads_[first].track;) ++end;
+    const std::size_t count = end - first;
+    const auto touches = [&](std::size_t k) { return last_[first + k % count].touches; };
+    for (std::size_t k = 0; k < count; ++k) {
+      const Pad& p = pads_[first + k];
+      std::size_t run = 1;
+      // No run needs to be longer than the breadth.
+      const double enough = p.track >= 0 && p.pitch > 0 ? std::ceil((p.breadth - 2 * p.halfLength) / p.pitch) + 1 : 1;
+      const auto most = std::min(count, static_cast<std::size_t>(std::max(1.0, enough)));
+      for (std::size_t n = 1; run < most && touches(k + n); ++n) ++run;
+      for (std::size_t n = 1; run < most && touches(k + count - n); ++n) ++run;
+      const double length = 2 * p.halfLength + static_cast<double>(run - 1) * p.pitch;
+      moduli_[first + k] = loaded_.soil().modulusAt(p.track >= 0 ? std::min(p.breadth, length) : p.breadth);
+    }
+  }
+}
+
+void PadContacts::gather(const contact::PartMotion* motion) {
+  updateBreadths();
   for (std::size_t k = 0; k < pads_.size(); ++k) gather(k, motion[pads_[k].part]);
-  advanceNodes();
-  energy_.elastic = energy_.elasticShear = 0;
-  for (std::size_t k = 0; k < pads_.size(); ++k) press(k, motion[pads_[k].part], timeStep);
-  for (const Touched& t : touched_) t.node->touched = -1;
+}
+
+void PadContacts::press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy) {
+  for (std::size_t k = 0; k < pads_.size(); ++k) press(k, motion[pads_[k].part], timeStep, energy);
 }
 
 void PadContacts::gather(std::size_t pad, const contact::PartMotion& motion) {
   const Pad& p = pads_[pad];
-  std::vector<Pair>& pairs = now_[pad];
-  pairs.clear();
-  const Vec3d centre = motion.toWorld(p.centre), u = motion.rotation * p.along, v = motion.rotation * p.across;
+  std::vector<Contact>& contacts = now_[pad];
+  contacts.clear();
+  const Vec3d u = motion.rotation * p.along, v = motion.rotation * p.across;
   const Vec3d up = cross(u, v);
   if (up.z < kSteepest) return;
+  const Vec3d centre = motion.toWorld(p.centre);
   // Widths of a node's square across the pad's sides.
   const double h = map_.spacing();
   const double widthU = h * (std::fabs(u.x) + std::fabs(u.y)), widthV = h * (std::fabs(v.x) + std::fabs(v.y));
   const double halfU = p.halfLength + 0.5 * widthU, halfV = p.halfWidth + 0.5 * widthV;
   const double reachX = std::fabs(u.x) * halfU + std::fabs(v.x) * halfV;
   const double reachY = std::fabs(u.y) * halfU + std::fabs(v.y) * halfV;
-  const double k = soil_.modulusAt(p.breadth), area = h * h / up.z, slopeX = -up.x / up.z, slopeY = -up.y / up.z;
+  const double k = moduli_[pad], area = h * h / up.z, slopeX = -up.x / up.z, slopeY = -up.y / up.z;
   const auto firstI = static_cast<std::int32_t>(std::ceil((centre.x - reachX) / h));
   const auto lastI = static_cast<std::int32_t>(std::floor((centre.x + reachX) / h));
   const auto firstJ = static_cast<std::int32_t>(std::ceil((centre.y - reachY) / h));
   const auto lastJ = static_cast<std::int32_t>(std::floor((centre.y + reachY) / h));
+  const double bottom = centre.z - std::fabs(u.z) * halfU - std::fabs(v.z) * halfV;
+  if (bottom > map_.topOf(firstI, lastI, firstJ, lastJ) + kNear) return;
   for (std::int32_t j = firstJ; j <= lastJ; ++j)
     for (std::int32_t i = firstI; i <= lastI; ++i) {
       const double x = h * i - centre.x, y = h * j - centre.y, plate = slopeX * x + slopeY * y;
@@ -57,184 +94,135 @@ void PadContacts::gather(std::size_t pad, const contact::PartMotion& motion) {
       if (!(share > 0)) continue;
       Node& node = map_.at(i, j);
       const double gap = node.height - (centre.z + plate);
-      if (gap < -kNear) continue;
+      if (gap < -kNear - node.looseThickness()) continue;
       const double depth = gap * node.cosine;
-      if (node.touched < 0) {
-        node.touched = static_cast<int>(touched_.size());
-        touched_.push_back({&node, node.state, depth, k});
-      } else {
-        Touched& t = touched_[static_cast<std::size_t>(node.touched)];
-        t.deepest = std::max(t.deepest, depth), t.modulus = std::max(t.modulus, k);
-      }
       const int a = std::clamp(static_cast<int>((placeU / p.halfLength + 1) * 0.5 * kAlong), 0, kAlong - 1);
       const int b = std::clamp(static_cast<int>((placeV / p.halfWidth + 1) * 0.5 * kAcross), 0, kAcross - 1);
-      pairs.push_back({i, j, &node, node.touched, a * kAcross + b, placeU, placeV, depth, share, area});
+      Contact& c = contacts.emplace_back();
+      c.i = i, c.j = j, c.node = &node, c.loaded = loaded_.add(node, depth, k), c.depth = depth;
+      c.area = share * h * h / node.cosine, c.face = share * area;
+      c.piece = a * kAcross + b, c.u = placeU, c.v = placeV;
     }
 }
 
-void PadContacts::advanceNodes() {
-  for (const Touched& t : touched_)
-    if (t.yields()) compress(t.node->state, soil_, curve_, t.modulus, t.before.rebound(), t.deepest);
-}
-
-void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, double timeStep) {
-  const Pad& p = pads_[pad];
+void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, double timeStep, SoilEnergy& energy) {
   Last& last = last_[pad];
   PadLoad& load = loads_[pad];
   load = {};
+  if (now_[pad].empty() && last.contacts.empty() && !last.touches) {
+    last.isThere = false;
+    return;
+  }
+  const Pad& p = pads_[pad];
+  const SoilConstants& soil = loaded_.soil();
   const Vec3d u = motion.rotation * p.along, v = motion.rotation * p.across, up = cross(u, v);
   const Vec3d centre = motion.toWorld(p.centre);
-  std::array<double, kAlong * kAcross> pressed{}, touching{};
-  std::array<Vec3d, kAlong * kAcross> moment{}; // first moments of the normal forces, in the plane of the pad [N m]
-  auto former = last.pairs.begin();
-  const auto leave = [&](const Pair& f) { // the node is no longer under the pad
-    const int touched = f.node->touched;
-    const Compaction& state = touched < 0 ? f.node->state : touched_[static_cast<std::size_t>(touched)].before;
-    energy_.edges += f.share * f.area * state.elastic(state.pressureAt(f.depth));
-  };
-  for (const Pair& pair : now_[pad]) {
-    while (former != last.pairs.end() && std::pair(former->j, former->i) < std::pair(pair.j, pair.i)) leave(*former++);
-    const bool isKnown = former != last.pairs.end() && former->j == pair.j && former->i == pair.i;
-    const Touched& t = touched_[static_cast<std::size_t>(pair.touched)];
-    const Compaction& state = pair.node->state;
-    const double pressure = pair.depth > 0 ? state.pressureAt(pair.depth) : 0;
-    const double elastic = state.elastic(pressure);
-    const double shareBefore = isKnown ? former->share * former->area : 0;
-    if (t.yields() && shareBefore > 0) {
-      Compaction path = t.before;
-      const Compression c = compress(path, soil_, curve_, t.modulus, former->depth, std::max(0.0, pair.depth));
-      energy_.compaction += shareBefore * (c.work - (elastic - t.before.elastic(t.before.pressureAt(former->depth))));
-    }
-    energy_.edges -= (pair.share * pair.area - shareBefore) * elastic;
-    energy_.elastic += pair.share * pair.area * elastic;
+  std::array<double, kPieces> pressed{}, touching{};
+  std::array<Vec3d, kPieces> moment{}; // first moments of the normal forces, in the plane of the pad [N m]
+  auto former = last.contacts.begin();
+  const auto formerEnd = last.contacts.end();
+  for (Contact& c : now_[pad]) {
+    while (former != formerEnd && std::pair(former->j, former->i) < std::pair(c.j, c.i)) release(*former++, energy);
+    const bool isKnown = former != formerEnd && former->j == c.j && former->i == c.i;
+    c.pressure = scm::press(c, isKnown ? &*former : nullptr, loaded_, energy);
     if (isKnown) ++former;
-    if (!(pressure > 0)) continue;
+    if (!(c.pressure > 0)) continue;
     // Damping acts during compression only.
-    const Vec3d place = centre + u * pair.u + v * pair.v;
+    const Vec3d arm = u * c.u + v * c.v, place = centre + arm;
     const double sinking = std::max(0.0, -dot(motion.velocityAt(place), up));
-    const double weight = pair.share * pair.area, force = weight * (pressure + soil_.damping * sinking);
-    energy_.damping += weight * soil_.damping * sinking * sinking * timeStep;
-    const auto k = static_cast<std::size_t>(pair.piece);
-    pressed[k] += weight * pressure, touching[k] += weight;
-    moment[k] += (u * pair.u + v * pair.v) * (weight * pressure);
+    const double force = c.face * (c.pressure + soil.damping * sinking);
+    energy.damping += c.face * soil.damping * sinking * sinking * timeStep;
+    const auto k = static_cast<std::size_t>(c.piece);
+    pressed[k] += c.face * c.pressure, touching[k] += c.face;
+    moment[k] += arm * (c.face * c.pressure);
     load.force += up * force, load.torque += cross(place - motion.centre, up * force);
-    load.pressed += force, load.area += weight, load.sinkage = std::max(load.sinkage, pair.depth);
+    load.pressed += force, load.area += c.face, load.sinkage = std::max(load.sinkage, c.depth);
   }
-  while (former != last.pairs.end()) leave(*former++);
+  while (former != formerEnd) release(*former++, energy);
 
-  const double K = soil_.shearDisplacement;
+  const double K = soil.shearDisplacement;
+  std::array<double, kPieces> slipped{}; // shear displacement of the step [m]
   for (std::size_t k = 0; k < pressed.size(); ++k) {
     Shear& s = last.shear[k];
-    const double before = last.strength[k], strength = soil_.cohesion * touching[k] + soil_.friction * pressed[k];
+    const double before = last.strength[k], strength = strengths_[pad].of(touching[k], pressed[k]);
     const Vec3d place = pressed[k] > 0 ? moment[k] * (1 / pressed[k]) : Vec3d{};
     if (last.isThere && before > 0 && strength > 0) {
-      // Rotate the stress into the present plane of the pad, then add the shear displacement of this step.
-      const Vec3d stress = last.u * s.x + last.v * s.y;
-      const double size = ::sqrt(s.square()), x = dot(stress, u), y = dot(stress, v), now = ::sqrt(x * x + y * y);
-      s = now > 0 ? Shear{x * size / now, y * size / now} : Shear{};
+      s = turned(s, last.u, last.v, u, v);
       const double pu = dot(place, u), pv = dot(place, v);
       const Vec3d moved = centre + place - (last.centre + last.u * pu + last.v * pv);
-      const ShearWork w = advance(s, dot(moved, u), dot(moved, v), K);
-      energy_.shear += before * w.loss;
-      energy_.coupling -= 0.5 * K * s.square() * (strength - before);
+      const double x = dot(moved, u), y = dot(moved, v);
+      const ShearWork w = advance(s, x, y, K);
+      slipped[k] = ::sqrt(x * x + y * y);
+      energy.shear += before * w.loss;
+      energy.coupling -= 0.5 * K * s.square() * (strength - before);
     } else {
-      energy_.edges += 0.5 * K * s.square() * before; // contact lost
+      energy.edges += 0.5 * K * s.square() * before; // contact lost
       s = {};
     }
-    last.strength[k] = strength;
-    energy_.elasticShear += 0.5 * K * s.square() * strength;
+    last.strength[k] = strength, last.area[k] = touching[k];
+    energy.elasticShear += 0.5 * K * s.square() * strength;
     const Vec3d force = (u * s.x + v * s.y) * -strength;
     load.force += force, load.torque += cross(centre + place - motion.centre, force);
   }
-  last.u = u, last.v = v, last.centre = centre, last.isThere = true;
-  std::swap(last.pairs, now_[pad]);
+  resistAside(pad, motion, energy);
+  last.u = u, last.v = v, last.centre = centre, last.isThere = true, last.touches = load.pressed > 0;
+  std::swap(last.contacts, now_[pad]);
+  for (const Contact& c : last.contacts)
+    if (c.pressure > 0) loaded_.slip(c.loaded, slipped[static_cast<std::size_t>(c.piece)]);
 }
 
-namespace {
-
-constexpr std::size_t kPieces = PadContacts::kAlong * PadContacts::kAcross;
-
-/// Writes or reads a sequence of numbers with the same code.
-class Stream {
-public:
-  explicit Stream(std::vector<double>& numbers) : numbers_(numbers), writes_(true) {}
-  explicit Stream(const std::vector<double>& numbers) : numbers_(copy_), copy_(numbers), writes_(false) {}
-
-  template <class T> void operator()(T& value) {
-    if (writes_)
-      numbers_.push_back(static_cast<double>(value));
-    else if (at_ < numbers_.size())
-      value = static_cast<T>(numbers_[at_++]);
-    else
-      isShort_ = true;
-  }
-  void operator()(Vec3d& v) { (*this)(v.x), (*this)(v.y), (*this)(v.z); }
-  void operator()(Compaction& c) {
-    for (double* number : {&c.sinkage, &c.pressure, &c.stiffness, &c.modulus}) (*this)(*number);
-  }
-  void operator()(SoilEnergy& e) {
-    for (double* number : {&e.elastic, &e.elasticShear, &e.compaction, &e.shear, &e.damping, &e.edges, &e.coupling})
-      (*this)(*number);
-  }
-  bool isShort() const { return isShort_; }
-  bool isAtEnd() const { return at_ == numbers_.size(); }
-
-private:
-  std::vector<double>& numbers_;
-  std::vector<double> copy_;
-  std::size_t at_ = 0;
-  bool writes_, isShort_ = false;
-};
-
-} // namespace
-
-std::vector<double> PadContacts::save() const {
-  std::vector<double> numbers;
-  Stream stream(numbers);
-  SoilEnergy energy = energy_;
-  double pads = static_cast<double>(pads_.size()), nodes = 0;
-  map_.forEach([&](std::int32_t, std::int32_t, const Node& node) { nodes += node.state.stiffness > 0; });
-  stream(energy), stream(pads), stream(nodes);
-  map_.forEach([&](std::int32_t i, std::int32_t j, const Node& node) {
-    if (!(node.state.stiffness > 0)) return;
-    Compaction state = node.state;
-    stream(i), stream(j), stream(state);
-  });
-  for (Last last : last_) {
-    stream(last.isThere), stream(last.u), stream(last.v), stream(last.centre);
-    for (std::size_t k = 0; k < kPieces; ++k) stream(last.shear[k].x), stream(last.shear[k].y), stream(last.strength[k]);
-    auto count = static_cast<double>(last.pairs.size());
-    stream(count);
-    for (Pair& p : last.pairs) stream(p.i), stream(p.j), stream(p.depth), stream(p.share), stream(p.area);
-  }
-  return numbers;
-}
-
-bool PadContacts::restore(const std::vector<double>& saved) {
-  Stream stream(saved);
-  double pads = 0, nodes = 0;
-  stream(energy_), stream(pads), stream(nodes);
-  if (pads != static_cast<double>(pads_.size())) return false;
-  for (double n = 0; n < nodes && !stream.isShort(); ++n) {
-    std::int32_t i = 0, j = 0;
-    Compaction state;
-    stream(i), stream(j), stream(state);
-    map_.at(i, j).state = state;
-  }
-  for (Last& last : last_) {
-    stream(last.isThere), stream(last.u), stream(last.v), stream(last.centre);
-    for (std::size_t k = 0; k < kPieces; ++k) stream(last.shear[k].x), stream(last.shear[k].y), stream(last.strength[k]);
-    double count = 0;
-    stream(count);
-    last.pairs.clear();
-    for (double n = 0; n < count && !stream.isShort(); ++n) {
-      Pair p{};
-      stream(p.i), stream(p.j), stream(p.depth), stream(p.share), stream(p.area);
-      p.node = &map_.at(p.i, p.j);
-      last.pairs.push_back(p);
+/// Sides that push soil: the resistance is mobilised with the lateral displacement as the shear stress is.
+void PadContacts::resistAside(std::size_t pad, const contact::PartMotion& motion, SoilEnergy& energy) {
+  const Pad& p = pads_[pad];
+  Last& last = last_[pad];
+  PadLoad& load = loads_[pad];
+  if (!p.grousers) return;
+  const double K = loaded_.soil().shearDisplacement, beside = p.halfWidth + 2 * map_.spacing();
+  const Vec3d u = motion.rotation * p.along, v = motion.rotation * p.across, centre = motion.toWorld(p.centre);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double side = k == 0 ? 1 : -1, before = last.sideStrength[k];
+    double strength = 0;
+    if (load.pressed > 0)
+      for (const double place : {-0.5, 0.5}) {
+        const Vec3d edge = centre + u * (place * p.halfLength) + v * (side * p.halfWidth);
+        const Vec3d rim = centre + u * (place * p.halfLength) + v * (side * beside);
+        strength += sides_.at(map_.surfaceAt(rim.x, rim.y) - edge.z) * p.halfLength;
+      }
+    Shear s{last.side[k], 0};
+    if (last.isThere && before > 0 && strength > 0) {
+      const Vec3d moved = centre + v * (side * p.halfWidth) - (last.centre + last.v * (side * p.halfWidth));
+      const double held = s.square(), outward = side * dot(moved, v);
+      const ShearWork w = advance(s, outward, 0, K);
+      if (s.x < 0) // a gap opens
+        s.x = 0, energy.shear += before * 0.5 * K * held;
+      else
+        energy.shear += before * w.loss;
+      energy.coupling -= 0.5 * K * s.square() * (strength - before);
+    } else {
+      energy.edges += 0.5 * K * s.square() * before;
+      s = {};
     }
+    last.side[k] = s.x, last.sideStrength[k] = strength;
+    energy.elasticShear += 0.5 * K * s.square() * strength;
+    const Vec3d force = v * (-side * s.x * strength);
+    load.force += force, load.torque += cross(centre + v * (side * p.halfWidth) - motion.centre, force);
   }
-  return !stream.isShort() && stream.isAtEnd();
+}
+
+void PadContacts::save(NumberStream& numbers) const {
+  std::vector<Last> all = last_;
+  stream(numbers, all);
+}
+void PadContacts::restore(NumberStream& numbers) { stream(numbers, last_); }
+
+void PadContacts::stream(NumberStream& numbers, std::vector<Last>& all) const {
+  for (Last& last : all) {
+    numbers(last.isThere, last.touches, last.u, last.v, last.centre);
+    for (std::size_t k = 0; k < kPieces; ++k)
+      numbers(last.shear[k].x, last.shear[k].y, last.strength[k], last.area[k]);
+    for (std::size_t k = 0; k < 2; ++k) numbers(last.side[k], last.sideStrength[k]);
+    streamContacts(numbers, last.contacts, map_, [&](Contact& c) { numbers(c.piece, c.u, c.v, c.pressure); });
+  }
 }
 
 } // namespace grouser::scm

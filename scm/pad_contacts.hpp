@@ -2,10 +2,12 @@
 #pragma once
 
 #include "contact/part_motion.hpp"
+#include "scm/node_contact.hpp"
+#include "scm/passive_pressure.hpp"
 #include "scm/shear.hpp"
-#include "scm/soil_map.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace grouser::scm {
@@ -15,23 +17,14 @@ using base::Vec3d;
 /// A flat rectangle on a part that contacts the soil: the plate of a track shoe.
 struct Pad {
   int part{};                       ///< index of its part
-  Vec3d centre;                  ///< in the part's frame [m]
+  Vec3d centre;                     ///< in the part's frame [m]
   Vec3d along, across;              ///< unit vectors of its sides; along x across points away from the soil
   double halfLength{}, halfWidth{}; ///< along, across [m]
-  double breadth{};                 ///< b of Bekker's relation [m]
-};
-
-/// Elastic energies now, and energies dissipated since the start [J].
-struct SoilEnergy {
-  double elastic{};      ///< of pressure
-  double elasticShear{}; ///< of shear
-  double compaction{};   ///< plastic sinkage
-  double shear{};        ///< plastic shear
-  double damping{};
-  double edges{};    ///< elastic energy of soil that leaves a pad sideways or loses contact; negative where soil enters
-  double coupling{}; ///< change of elastic shear energy with the pressure
-
-  double lost() const { return compaction + shear + damping + edges + coupling; }
+  double breadth{};                 ///< b of Bekker's relation [m]; in a track the largest, of a long run of shoes
+  /// Pads of one track follow each other in the order of the closed loop; b is that of the run of pads in contact.
+  int track = -1;                   ///< -1: no track
+  double pitch{};                   ///< distance of neighbours in the track [m]
+  std::optional<Grousers> grousers{}; ///< none: a rough plate, on which the soil reaches its own strength
 };
 
 /// Load of one pad on its part.
@@ -43,8 +36,8 @@ struct PadLoad {
 };
 
 /// Contacts of pads with deformable soil. Each node under a pad has a pressure along the normal of the pad; each of eight
-/// pieces of a pad has a shear stress. Loads depend on the poses of the step; node states and shear advance once a step,
-/// from the previous poses.
+/// pieces of a pad has a shear stress, and each lateral side a bulldozing resistance. Loads depend on the poses of the
+/// step; node states and shear advance once a step, from the previous poses.
 ///
 /// A node is weighted by the share of its square that the pad covers, clamp((half - |u|) / width + 1/2) along each side, so
 /// that area and forces vary continuously with the position on the grid.
@@ -52,62 +45,84 @@ class PadContacts {
 public:
   static constexpr int kAlong = 2, kAcross = 4; ///< pieces of a pad
 
-  PadContacts(const SoilConstants& soil, double deepest, SoilMap& map, std::vector<Pad> pads);
+  PadContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Pad> pads);
 
-  /// Advances soil and shear to the poses `motion`, indexed by part, and computes the loads.
-  void step(const contact::PartMotion* motion, double timeStep);
+  // One step, in this order; `motion`: indexed by part.
+  void gather(const contact::PartMotion* motion); ///< adds the nodes under the pads to the loaded nodes
+  void press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy); ///< computes the loads
+  /// Calls move(node, x, y, dx, dy) for the nodes under pads: (x, y) outside the side of the pad next to the node, and the
+  /// unit vector away from the pad.
+  template <class Move> void pushAside(const Move& move) const;
 
   const std::vector<PadLoad>& loads() const { return loads_; } ///< one a pad
-  const SoilEnergy& energy() const { return energy_; }
   const std::vector<Pad>& pads() const { return pads_; }
 
-  /// State as numbers: energies, loaded nodes, pads.
-  std::vector<double> save() const;
-  /// Restores a state that save() returned. Returns false if it belongs to other pads.
-  bool restore(const std::vector<double>& saved);
+  /// Calls look(NodeStress) for each node that a pad presses, pad by pad.
+  template <class Look> void forEachLoaded(const Look& look) const;
+
+  void save(NumberStream& numbers) const;
+  void restore(NumberStream& numbers);
 
 private:
-  /// A node near a pad.
-  struct Pair {
-    std::int32_t i, j;
-    Node* node;
-    int touched, piece; ///< indices into touched_ and the pad's pieces
-    double u, v;     ///< on the pad [m]
-    double depth;    ///< along the normal of the undisturbed surface [m]; negative above it
-    double share;    ///< of its square under the pad
-    double area;     ///< of its square, on the pad [m2]
+  static constexpr int kPieces = kAlong * kAcross;
+  struct Contact : NodeContact {
+    int piece{};        ///< of the pad
+    double u{}, v{};    ///< on the pad [m]
+    double pressure{};  ///< [Pa]
   };
   /// State of a pad after a step.
   struct Last {
-    Vec3d u, v;             ///< its sides [-]
-    Vec3d centre;           ///< [m]
-    std::array<Shear, kAlong * kAcross> shear;
-    std::array<double, kAlong * kAcross> strength{}; ///< tau_m times area [N]
-    std::vector<Pair> pairs;
+    Vec3d u, v;                             ///< its sides [-]
+    Vec3d centre;                           ///< [m]
+    std::array<Shear, kPieces> shear;
+    std::array<double, kPieces> strength{}; ///< tau_m times area [N]
+    std::array<double, kPieces> area{};     ///< in contact [m2]
+    std::array<double, 2> side{};           ///< mobilised share of the resistance at +v, -v [-]
+    std::array<double, 2> sideStrength{};   ///< [N]
+    std::vector<Contact> contacts;
     bool isThere = false;
-  };
-  /// A node under pads in this step.
-  struct Touched {
-    Node* node;
-    Compaction before; ///< its state before the step
-    double deepest;    ///< maximum sinkage under the pads [m]
-    double modulus;    ///< maximum k of the pads [N/m^(n+2)]
-    bool yields() const { return deepest > before.sinkage; }
+    bool touches = false;
   };
 
+  void updateBreadths();
   void gather(std::size_t pad, const contact::PartMotion& motion);
-  void advanceNodes();
-  void press(std::size_t pad, const contact::PartMotion& motion, double timeStep);
+  void press(std::size_t pad, const contact::PartMotion& motion, double timeStep, SoilEnergy& energy);
+  void stream(NumberStream& numbers, std::vector<Last>& all) const;
+  void resistAside(std::size_t pad, const contact::PartMotion& motion, SoilEnergy& energy);
 
-  SoilConstants soil_;
-  PressureCurve curve_;
   SoilMap& map_;
+  LoadedNodes& loaded_;
+  SideResistance sides_;
   std::vector<Pad> pads_;
+  std::vector<ShoeStrength> strengths_; ///< one a pad
+  std::vector<double> moduli_;          ///< k of each pad in this step [N/m^(n+2)]
   std::vector<Last> last_;
-  std::vector<std::vector<Pair>> now_;
-  std::vector<Touched> touched_;
+  std::vector<std::vector<Contact>> now_;
   std::vector<PadLoad> loads_;
-  SoilEnergy energy_;
 };
+
+template <class Move> void PadContacts::pushAside(const Move& move) const {
+  for (std::size_t k = 0; k < pads_.size(); ++k) {
+    const Last& last = last_[k];
+    for (const Contact& c : last.contacts) {
+      const double side = c.v < 0 ? -1 : 1;
+      const Vec3d place = last.centre + last.u * c.u + last.v * (side * pads_[k].halfWidth), out = last.v * side;
+      const double size = ::sqrt(out.x * out.x + out.y * out.y);
+      move(*c.node, place.x, place.y, out.x / size, out.y / size);
+    }
+  }
+}
+
+template <class Look> void PadContacts::forEachLoaded(const Look& look) const {
+  const double square = map_.spacing() * map_.spacing();
+  for (const Last& last : last_)
+    for (const Contact& c : last.contacts) {
+      if (!(c.pressure > 0)) continue;
+      const auto k = static_cast<std::size_t>(c.piece);
+      const double share = c.area * c.node->cosine / square, stress = share * last.strength[k] / last.area[k];
+      look(NodeStress{c.i, c.j, c.depth / c.node->cosine, share * c.pressure,
+                      (last.u * last.shear[k].x + last.v * last.shear[k].y) * stress});
+    }
+}
 
 } // namespace grouser::scm

@@ -17,6 +17,9 @@ struct SoilConstants {
   double unloadingStiffness{}, unloadingGrowth{}; ///< k_0 [N/m3] and A_u [N/m4] of k_u = k_0 + A_u z_u, as measured
   double elasticRatio = 10;  ///< f [-], >= 1: k_u is at least f max(1, n) p_u / z_u, so a plate rebounds by z_u / f at most
   double damping{};          ///< [Pa s/m] while soil is being compressed, >= 0
+  double slipSinkage{};      ///< sinkage per shear displacement at constant pressure [-], >= 0
+  double maximumSlipSinkage{}; ///< [m]
+  double unitWeight{};         ///< [N/m3]
 
   /// k = k_c / b + k_phi [N/m^(n+2)] under a loaded area whose smaller side is b [m].
   double modulusAt(double b) const { return kc / b + kphi; }

@@ -13,8 +13,16 @@ SoilMap::Tile& SoilMap::make(std::int32_t tileX, std::int32_t tileY) {
       const terrain::SurfaceJet jet = surface_(spacing_ * (tileX * kTile + i), spacing_ * (tileY * kTile + j));
       Node& node = tile->nodes[placeInTile(i, j)];
       node.height = jet.h, node.cosine = 1 / std::sqrt(1 + jet.hx * jet.hx + jet.hy * jet.hy);
+      tile->top = std::max(tile->top, jet.h);
     }
   return *(tiles_[key(tileX, tileY)] = std::move(tile));
+}
+
+double SoilMap::topOf(std::int32_t i0, std::int32_t i1, std::int32_t j0, std::int32_t j1) {
+  double top = -base::kInfinity;
+  for (std::int32_t j = tileAt(j0); j <= tileAt(j1); ++j)
+    for (std::int32_t i = tileAt(i0); i <= tileAt(i1); ++i) top = std::max(top, tileOf(i, j).top);
+  return top + mostLoose_;
 }
 
 const Node* SoilMap::find(std::int32_t i, std::int32_t j) const {
@@ -22,15 +30,27 @@ const Node* SoilMap::find(std::int32_t i, std::int32_t j) const {
   return found == tiles_.end() ? nullptr : &found->second->nodes[placeInTile(i, j)];
 }
 
+namespace {
+
+/// Value at (x, y) of a grid of this spacing, linear between nodes.
+template <class Value> double interpolate(double x, double y, double spacing, const Value& valueAt) {
+  const auto i = static_cast<std::int32_t>(std::floor(x / spacing)), j = static_cast<std::int32_t>(std::floor(y / spacing));
+  const double u = x / spacing - i, v = y / spacing - j;
+  return (1 - v) * ((1 - u) * valueAt(i, j) + u * valueAt(i + 1, j)) +
+         v * ((1 - u) * valueAt(i, j + 1) + u * valueAt(i + 1, j + 1));
+}
+
+} // namespace
+
 double SoilMap::rutAt(double x, double y) const {
-  const auto i = static_cast<std::int32_t>(std::floor(x / spacing_)), j = static_cast<std::int32_t>(std::floor(y / spacing_));
-  const double u = x / spacing_ - i, v = y / spacing_ - j;
-  const auto depth = [&](std::int32_t column, std::int32_t row) {
-    const Node* node = find(column, row);
-    return node ? node->state.rebound() / node->cosine : 0; // vertical, whereas sinkage is along the normal
-  };
-  return (1 - v) * ((1 - u) * depth(i, j) + u * depth(i + 1, j)) +
-         v * ((1 - u) * depth(i, j + 1) + u * depth(i + 1, j + 1));
+  return interpolate(x, y, spacing_, [&](std::int32_t i, std::int32_t j) {
+    const Node* node = find(i, j);
+    return node ? node->rut() : 0;
+  });
+}
+
+double SoilMap::surfaceAt(double x, double y) {
+  return interpolate(x, y, spacing_, [&](std::int32_t i, std::int32_t j) { return at(i, j).surface(); });
 }
 
 void SoilMap::forEach(const std::function<void(std::int32_t, std::int32_t, const Node&)>& look) const {

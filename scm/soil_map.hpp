@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/math.hpp"
 #include "scm/compaction.hpp"
 #include "terrain/height_field.hpp"
 
@@ -13,16 +14,31 @@
 
 namespace grouser::scm {
 
+/// Unit of the thickness of loose soil [m]: transport between nodes conserves volume exactly.
+inline constexpr double kHeightQuantum = 1.0 / (1 << 30);
+
 /// A node of the grid, which stands for a square of soil around it.
 struct Node {
-  double height{};   ///< of the undisturbed surface [m]
-  double cosine = 1; ///< between the normal of that surface and the vertical [-]
-  Compaction state;  ///< sinkage is measured along the normal of the undisturbed surface
-  int touched = -1;  ///< index among the nodes under pads within a step; not saved
+  double height{};     ///< of the undisturbed surface [m]
+  double cosine = 1;   ///< between the normal of that surface and the vertical [-]
+  Compaction state;    ///< sinkage is measured along the normal, from the undisturbed surface lowered by slipSinkage
+  double slipSinkage{}; ///< additional sinkage by shear [m]
+  Compaction loose;     ///< of the loose soil, below its own surface
+  std::int64_t looseQuanta{}; ///< thickness of loose soil as deposited, vertical [kHeightQuantum]
+  double displaced{};         ///< soil still to be moved aside, as a vertical thickness [m]
+  int touched = -1;           ///< index among the nodes in contact within a step; not saved
+
+  bool isLoaded() const { return state.stiffness > 0 || looseQuanta != 0 || slipSinkage > 0; }
+  /// Depth of the unloaded firm soil below the undisturbed surface, along the normal [m].
+  double firmDepth() const { return slipSinkage + state.rebound(); }
+  double looseThickness() const { return static_cast<double>(looseQuanta) * kHeightQuantum; } ///< as deposited [m]
+  /// Depth of the unloaded surface below the undisturbed one, vertical [m]; negative in a berm.
+  double rut() const { return (firmDepth() + loose.rebound()) / cosine - looseThickness(); }
+  double surface() const { return height - rut(); } ///< height of the unloaded surface [m]
 };
 
-/// A grid of soil nodes in square tiles, allocated when a pad first approaches: memory grows with the touched ground, not
-/// with the terrain.
+/// A grid of soil nodes in square tiles, allocated when a contact first approaches: memory grows with the touched
+/// ground, not with the terrain.
 class SoilMap {
 public:
   static constexpr int kTile = 16; ///< nodes along a side of a tile
@@ -37,8 +53,17 @@ public:
     Tile& tile = tileOf(i >> kShift, j >> kShift);
     return tile.nodes[placeInTile(i, j)];
   }
-  /// Depth of the unloaded surface below the undisturbed one at (x, y) [m], linear between nodes.
+  /// Adds loose soil to a node, or removes it [kHeightQuantum]; the only way to change it.
+  void addLoose(Node& node, std::int64_t quanta) {
+    node.looseQuanta += quanta, mostLoose_ = std::max(mostLoose_, node.looseThickness());
+  }
+  /// Upper bound of the surface at the nodes i0 ... i1, j0 ... j1 [m].
+  double topOf(std::int32_t i0, std::int32_t i1, std::int32_t j0, std::int32_t j1);
+  /// Depth of the unloaded surface below the undisturbed one at (x, y) [m], linear between nodes; negative in a berm.
   double rutAt(double x, double y) const;
+  /// Height of the unloaded surface at (x, y) [m], linear between nodes.
+  double surfaceAt(double x, double y);
+  static std::int32_t tileAt(std::int32_t index) { return index >> kShift; } ///< row or column of the tile of a node
   /// Calls look(i, j, node) for all nodes, in an order that depends on their positions only.
   void forEach(const std::function<void(std::int32_t, std::int32_t, const Node&)>& look) const;
 
@@ -46,6 +71,7 @@ private:
   static constexpr int kShift = 4, kMask = kTile - 1;
   struct Tile {
     std::array<Node, static_cast<std::size_t>(kTile) * kTile> nodes;
+    double top = -base::kInfinity; ///< maximum height of the undisturbed surface [m]
   };
   static std::size_t placeInTile(std::int32_t i, std::int32_t j) {
     return static_cast<std::size_t>(j & kMask) * kTile + static_cast<std::size_t>(i & kMask);
@@ -67,6 +93,7 @@ private:
   double spacing_;
   std::function<terrain::SurfaceJet(double, double)> surface_;
   std::unordered_map<std::uint64_t, std::unique_ptr<Tile>> tiles_;
+  double mostLoose_{}; ///< upper bound of the thickness of loose soil [m]
   Tile* last_{};
   std::uint64_t lastKey_{};
 };

@@ -28,6 +28,21 @@ bool actsWithoutGrains(const scene::Scene& scene, const std::string& material) {
                      [&](const setup::SceneSurface& s) { return s.section.material == material; });
 }
 
+/// Constants of deformable soil.
+std::string soilText(const coupling::ScmSetup& setup, std::size_t width) {
+  const scm::SoilConstants& soil = setup.soil;
+  std::string text =
+      fmt::format("  {:<{}}  n {:.4g}, k_c {:.4g} N/m^(n+1), k_phi {:.4g} N/m^(n+2), c {:.4g} Pa, tan phi {:.4g}, K "
+                  "{:.4g} m; nodes {:.4g} m apart\n",
+                  "deformable soil", width, soil.exponent, soil.kc, soil.kphi, soil.cohesion, soil.friction,
+                  soil.shearDisplacement, setup.spacing);
+  text += fmt::format("  {:<{}}  slip sinkage {:.3g} up to {:.3g} m, {:.3g} of a rut's volume displaced, tan(angle of "
+                      "repose) {:.3g}, unit weight {:.4g} N/m3\n",
+                      "", width, soil.slipSinkage, soil.maximumSlipSinkage, setup.displacement.share,
+                      setup.displacement.repose, soil.unitWeight);
+  return text;
+}
+
 } // namespace
 
 std::string pairsText(const scene::Scene& scene) {
@@ -64,15 +79,10 @@ std::string pairsText(const scene::Scene& scene) {
                           spec.contact.foundationModulus, spec.contact.relaxationTime, friction);
     };
     part("shoe on running gear", spec.contact.frictionInside);
-    if (const std::optional<coupling::ScmSetup> scm = setup::scmSetup(scene))
-      text += fmt::format(
-          "  {:<{}}  n {:.4g}, k_c {:.4g} N/m^(n+1), k_phi {:.4g} N/m^(n+2), c {:.4g} Pa, tan phi {:.4g}, K "
-          "{:.4g} m; nodes {:.4g} m apart\n",
-          "shoe on soil", width, scm->soil.exponent, scm->soil.kc, scm->soil.kphi, scm->soil.cohesion,
-          scm->soil.friction, scm->soil.shearDisplacement, scm->spacing);
-    else if (scene.terrain && !scene.terrain->granular())
+    if (scene.terrain && !scene.terrain->granular() && !scene.terrain->deformable())
       part("shoe on rigid ground", spec.contact.frictionGround);
   }
+  if (const std::optional<coupling::ScmSetup> soil = setup::scmSetup(scene)) text += soilText(*soil, width);
   return text + notes;
 }
 

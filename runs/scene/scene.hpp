@@ -174,8 +174,13 @@ struct Scm {
   double unloadingStiffness = 0, unloadingGrowth = 0;                            ///< [N/m3], [N/m4]
   double elasticRatio = 10;                                                      ///< [-]
   double damping = 3e4;                                                          ///< [Pa s/m]
-  std::optional<double> nodeSpacing; ///< [m]; empty: a quarter of the length of a shoe
-  double deepest = 0.5;              ///< [m]
+  std::optional<double> slipSinkage;        ///< [-]; empty: Lyasko's rule for the vehicle
+  std::optional<double> maximumSlipSinkage; ///< [m]; empty: the height of the grousers
+  double displacedShare = 0.5;              ///< [-]
+  std::optional<double> reposeAngle;        ///< [deg]; empty: published, or phi
+  std::optional<double> bulkDensity;        ///< [kg/m3]; empty: published, or of the soil's grains
+  std::optional<double> nodeSpacing;        ///< [m]; empty: a quarter of the length of a shoe
+  double deepest = 0.5;                     ///< [m]
   bool operator==(const Scm&) const = default;
 };
 

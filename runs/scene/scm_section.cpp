@@ -29,7 +29,32 @@ base::Table<Scm> scmTable() {
       .atLeast(1)
       .atMost(1e3);
   t.add("damping", &S::damping, "Pa s/m", "additional pressure per speed of compression").atLeast(0).atMost(1e7);
-  t.add("node_spacing", &S::nodeSpacing, "m", "grid spacing; default: a quarter of a shoe's length").above(0).atMost(1);
+  t.add("slip_sinkage", &S::slipSinkage, "-",
+        "sinkage per shear displacement at constant pressure; default: 3 z / L with the sinkage z at the mean pressure "
+        "of "
+        "the vehicle and its track-ground contact length L (Lyasko's rule at small slip), 0 without a vehicle")
+      .atLeast(0)
+      .atMost(1);
+  t.add("maximum_slip_sinkage", &S::maximumSlipSinkage, "m",
+        "limit of slip sinkage; default: the height of the grousers")
+      .atLeast(0)
+      .atMost(1);
+  t.add("displaced_share", &S::displacedShare, "-",
+        "share of the volume of a rut that becomes loose soil beside it; the rest is compaction")
+      .atLeast(0)
+      .atMost(1);
+  t.add("repose_angle", &S::reposeAngle, "deg", "of loose soil; default: published for the soil, or phi")
+      .above(0)
+      .atMost(60);
+  t.add("bulk_density", &S::bulkDensity, "kg/m3",
+        "for the passive pressure on grousers and sides; default: published for the soil, or that of its grains and "
+        "porosity, or 1600")
+      .above(0)
+      .atMost(1e4);
+  t.add("node_spacing", &S::nodeSpacing, "m",
+        "grid spacing; default: a quarter of a shoe's length, or an eighth of the smallest body")
+      .above(0)
+      .atMost(1);
   t.add("largest_sinkage", &S::deepest, "m", "end of the table of z^n").above(0).atMost(10);
   return t;
 }

@@ -4,8 +4,11 @@
 #include "base/math.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/soil.hpp"
+#include "runs/setup/mechanism_setup.hpp"
 #include "vehicle/spec_file.hpp"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace grouser::setup {
@@ -22,6 +25,15 @@ public:
     if (found != scene.soils.end()) soil_ = found->second.get();
   }
   const scene::Scm& section() const { return scm_; }
+
+  /// A published constant of the soil file; empty without.
+  std::optional<double> published(SoilQuantity quantity) const {
+    if (soil_)
+      for (const scene::PublishedConstant& p : soil_->published)
+        if (p.quantity == quantity) return p.value;
+    return {};
+  }
+  const scene::Soil* soil() const { return soil_; }
 
   double value(const std::optional<double>& given, SoilQuantity quantity) const {
     if (given) return *given;
@@ -45,6 +57,44 @@ private:
   const scene::Soil* soil_{};
 };
 
+/// [scm] bulk_density, or that of the soil [kg/m3].
+double bulkDensity(const Constants& constants) {
+  constexpr double kUsual = 1600, kPorosity = 0.4; // where nothing is known of the soil, or of its porosity
+  if (constants.section().bulkDensity) return *constants.section().bulkDensity;
+  if (const auto published = constants.published(SoilQuantity::bulkDensity)) return *published;
+  const scene::Soil* soil = constants.soil();
+  return soil ? soil->material.density * (1 - soil->grains.porosity.value_or(kPorosity)) : kUsual;
+}
+
+/// Lyasko's rule (1 + i) / (1 - i / 2) at small slip i, as a local sinkage per shear displacement: 3 z / L [-].
+double lyaskoSlipSinkage(const scm::SoilConstants& soil, const vehicle::VehicleSpec& spec, double gravity) {
+  const double length = (spec.roadWheel.count - 1) * spec.roadWheel.spacing, breadth = 2 * spec.shoe.padHalfWidth;
+  if (!(length > 0)) return 0;
+  const double pressure = spec.totalMass() * gravity / (2 * length * breadth);
+  return 3 * base::pow(pressure / soil.modulusAt(breadth), 1 / soil.exponent) / length;
+}
+
+/// Default spacing of nodes under bodies [m]: an eighth of the smallest width in contact.
+double spacingUnder(const std::vector<coupling::BodyShape>& shapes) {
+  double least = base::kInfinity;
+  for (const coupling::BodyShape& s : shapes) {
+    const base::Vec3d half = halfExtent(s.shape);
+    std::array<double, 3> sides = {half.x, half.y, half.z};
+    std::sort(sides.begin(), sides.end());
+    least = std::min(least, std::max(sides[0], sides[1] / 4) / 4);
+  }
+  return least;
+}
+
+/// Throws InputError where the soil has no strength under a width b [m].
+void requireStrength(const scene::Scene& scene, const scm::SoilConstants& soil, double b, const std::string& under) {
+  if (soil.modulusAt(b) > 0) return;
+  scene.fail("terrain", "kind",
+             fmt::format("has no bearing capacity: k_c / b + k_phi is {:.4g} N/m^(n+2) for {} of width b = {:g} m; "
+                         "correct scm.k_c or scm.k_phi",
+                         soil.modulusAt(b), under, b));
+}
+
 } // namespace
 
 std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
@@ -57,33 +107,42 @@ std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
   soil.kc = constants.value(s.kc, SoilQuantity::cohesiveModulus);
   soil.kphi = constants.value(s.kphi, SoilQuantity::frictionalModulus);
   soil.cohesion = constants.value(s.cohesion, SoilQuantity::cohesion);
-  soil.friction = base::tan(constants.value(s.frictionAngle, SoilQuantity::frictionAngle) * base::kPi / 180);
+  const double phi = constants.value(s.frictionAngle, SoilQuantity::frictionAngle);
+  soil.friction = base::tan(phi * base::kPi / 180);
   soil.shearDisplacement = constants.value(s.shearDisplacement, SoilQuantity::shearModulus);
   soil.unloadingStiffness = s.unloadingStiffness, soil.unloadingGrowth = s.unloadingGrowth;
   soil.elasticRatio = s.elasticRatio, soil.damping = s.damping;
+  const double gravity = norm(scene.run.gravity);
+  soil.unitWeight = bulkDensity(constants) * gravity;
+  soil.slipSinkage = s.slipSinkage.value_or(0), soil.maximumSlipSinkage = s.maximumSlipSinkage.value_or(0);
+  const double repose = s.reposeAngle ? *s.reposeAngle : constants.published(SoilQuantity::reposeAngle).value_or(phi);
+  setup.displacement.share = s.displacedShare, setup.displacement.repose = base::tan(repose * base::kPi / 180);
   setup.deepest = s.deepest;
-  if (!scene.vehicle)
+  if (!scene.vehicle && !scene.mechanism.touches())
     scene.fail("terrain", "kind",
-               "supports track shoes only, but the scene has no [vehicle]; add it, or set kind = \"rigid\"");
-  if (scene.mechanism.touches())
-    scene.fail("terrain", "kind",
-               "supports track shoes only, but a [[body]] of the scene touches the ground; remove its "
-               "shapes, or set kind = \"rigid\"");
-  const vehicle::ShoeSpec shoe = vehicle::readVehicleSpec(scene.vehicle->source()).shoe;
-  setup.spacing = s.nodeSpacing.value_or(0.5 * shoe.halfLength);
-  const double b = 2 * shoe.padHalfWidth;
-  if (!(soil.modulusAt(b) > 0))
-    scene.fail(
-        "terrain", "kind",
-        fmt::format(
-            "has no bearing capacity: k_c / b + k_phi is {:.4g} N/m^(n+2) for shoes of width b = {:g} m; correct "
-            "scm.k_c or scm.k_phi",
-            soil.modulusAt(b), b));
-  if (setup.spacing > 2 * shoe.halfLength)
-    scene.fail(
-        "scm", "node_spacing",
-        fmt::format("[m] is more than the length of a shoe, {:g} m; give at most that, and half of it for figures",
-                    2 * shoe.halfLength));
+               "has no effect without a [vehicle] or a [[body]] with shapes; add one, or remove [terrain]");
+  double spacing = base::kInfinity;
+  if (scene.mechanism.touches()) {
+    const coupling::MechanismSetup mechanism = mechanismSetup(scene);
+    spacing = spacingUnder(mechanism.shapes);
+    for (const coupling::BodyShape& shape : mechanism.shapes)
+      requireStrength(scene, soil, 8 * spacingUnder({shape}), "a body");
+  }
+  if (scene.vehicle) {
+    const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+    const vehicle::ShoeSpec& shoe = spec.shoe;
+    spacing = 0.5 * shoe.halfLength;
+    requireStrength(scene, soil, 2 * shoe.padHalfWidth, "shoes");
+    requireStrength(scene, soil, 2 * std::min(shoe.padHalfWidth, shoe.halfLength), "single shoes");
+    soil.slipSinkage = s.slipSinkage.value_or(lyaskoSlipSinkage(soil, spec, gravity));
+    soil.maximumSlipSinkage = s.maximumSlipSinkage.value_or(shoe.grouserHeight);
+    if (s.nodeSpacing && *s.nodeSpacing > 2 * shoe.halfLength)
+      scene.fail(
+          "scm", "node_spacing",
+          fmt::format("[m] is more than the length of a shoe, {:g} m; give at most that, and half of it for figures",
+                      2 * shoe.halfLength));
+  }
+  setup.spacing = s.nodeSpacing.value_or(spacing);
   return setup;
 }
 

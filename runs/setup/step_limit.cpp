@@ -14,6 +14,7 @@
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/obstacles.hpp"
+#include "runs/setup/scm_setup.hpp"
 #include "runs/setup/step_modes.hpp"
 #include "runs/setup/time_scales.hpp"
 #include "runs/setup/vehicle_step_limit.hpp"
@@ -180,6 +181,7 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
   if (!meetsRigid && parts.pairs.empty()) return;
   const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
   const std::vector<double> sides = sidesPressed(mechanism, parts);
+  const std::optional<coupling::ScmSetup> soil = scmSetup(scene);
   std::vector<double> springs(bodies.size()), dampers(bodies.size()); // [1/s2], [1/s]
   for (const coupling::BodyShape& s : mechanism.shapes) {
     const multibody::Body& body = bodies[s.body];
@@ -190,7 +192,10 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
     double rate = 0, decay = 0;
     for (std::size_t other = 0; other < mechanism.foundations.materials.size(); ++other) {
       const contact::Foundation& f = mechanism.foundations.between(s.material, static_cast<int>(other));
-      const contact::PatchLaw law = coupling::patchLaw(f, s.shape, body.mass, norm(scene.run.gravity));
+      contact::PatchLaw law = coupling::patchLaw(f, s.shape, body.mass, norm(scene.run.gravity));
+      if (soil && static_cast<int>(other) == mechanism.foundations.ground)
+        law.modulus = soil->stiffest(2 * std::min({half.x, half.y, half.z})),
+        law.relaxation = soil->soil.damping / law.modulus;
       const double stiffness = law.modulus * area * (1 / body.mass + arm2 / leastInertia(body.inertia_B));
       rate = std::max(rate, stiffness), decay = std::max(decay, stiffness * law.relaxation);
     }

@@ -34,13 +34,19 @@ void considerIdler(StepLimit& limit, const vehicle::VehicleSpec& s) {
                "lower contact.tangential_ratio or idler.preload in vehicle.spec");
 }
 
+/// Returns true if shoes touch deformable soil only.
+bool meetsSoilOnly(const scene::Scene& scene) {
+  return scene.terrain && scene.terrain->deformable() && obstaclesOf(scene).empty() && !scene.mechanism.touches();
+}
+
 /// The foundation between parts: shoes on rigid ground, and wheels on shoes.
-void considerParts(StepLimit& limit, const vehicle::VehicleSpec& s) {
+void considerParts(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
-  // A shoe that lies on its whole pad: the stiffest that the foundation can be.
+  // A shoe that lies on its whole pad: the stiffest that the foundation can be. No wheel presses a whole pad.
   const double pad = c.foundationModulus * 4 * s.shoe.halfLength * s.shoe.padHalfWidth / s.shoe.mass;
-  considerBoth(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
-               "lower contact.foundation_modulus in vehicle.spec");
+  if (!meetsSoilOnly(scene))
+    considerBoth(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
+                 "lower contact.foundation_modulus in vehicle.spec");
   // A wheel that lies in the plate by a millimetre, far more than the weight presses it in.
   constexpr double kDeep = 1e-3; // [m]
   const auto wheel = [&](const char* name, double mass, double radius) {
@@ -88,7 +94,7 @@ void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehi
 } // namespace
 
 void considerVehicle(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
-  considerParts(limit, spec);
+  considerParts(limit, scene, spec);
   considerPressedShoe(limit, scene, spec);
 }
 

@@ -27,7 +27,7 @@ SimulationSetup onSoil() {
   setup.ground.area = terrain::Rectangle{-5, 20, -3, 3};
   setup.ground.surface = terrain::HeightField::flat(*setup.ground.area, 0);
   setup.ground.otherKind = [](const GroundSetup& ground, const base::Exec&) {
-    return std::make_unique<ScmGround>(ScmSetup{lete(), 0.034, 0.5}, *ground.surface);
+    return std::make_unique<ScmGround>(ScmSetup{lete(), {}, 0.034, 0.5}, *ground.surface);
   };
   setup.vehicle->driver.driveStart = 0.3;
   return setup;
@@ -37,7 +37,7 @@ void advanceTo(Simulation& simulation, double time) {
   while (simulation.time() < time - 0.5 * kStep) simulation.step();
 }
 
-const scm::PadContacts& padsOf(const Simulation& simulation) {
+const scm::SoilContacts& padsOf(const Simulation& simulation) {
   return dynamic_cast<const ScmGround&>(*simulation.actingGround()).contacts();
 }
 
@@ -56,7 +56,7 @@ TEST(ScmGround, CarriesTheVehicleWithItsBooksClosed) {
   int rows = 0;
   for (; rows < 1000; ++rows) {
     simulation.step();
-    for (const scm::PadLoad& load : padsOf(simulation).loads())
+    for (const scm::PadLoad& load : padsOf(simulation).pads().loads())
       pressed += load.force.z, area += load.area, deepest = std::max(deepest, load.sinkage);
   }
   const double weight = 9.81 * simulation.vehicle()->assembly().mass;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pads on soil: areas on the grid, a track's traction and resistance, holding on a slope, and energies of a path.
-#include "scm/pad_contacts.hpp"
+#include "scm/soil_contacts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,20 +40,20 @@ TEST(PadContacts, AreaOfAPadDoesNotDependOnHowItLiesOnTheGrid) {
     double most = 0, sum = 0;
     for (int k = 0; k < 64; ++k) {
       SoilMap map(spacing, level);
-      PadContacts pads(lete(), 0.5, map, {shoe(0)});
+      SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0)}, {}, 1e-4);
       const contact::PartMotion m = at({0.0137 * k, 0.0071 * k, -0.01}, base::kPi * k / 64);
-      pads.step(&m, 1e-4);
-      const double off = pads.loads()[0].force.z / expected - 1;
+      contacts.step(&m);
+      const double off = contacts.pads().loads()[0].force.z / expected - 1;
       most = std::max(most, std::fabs(off)), sum += off / 64;
     }
     EXPECT_LT(most, 0.15 * spacing) << spacing;
     EXPECT_LT(std::fabs(sum), 3e-4) << spacing;
     SoilMap map(spacing, level);
-    PadContacts pads(lete(), 0.5, map, {shoe(0)});
+    SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0)}, {}, 1e-4);
     for (int k = 0; k < 50; ++k) {
       const contact::PartMotion m = at({0.0013 * k, 0, -0.01});
-      pads.step(&m, 1e-4);
-      EXPECT_NEAR(pads.loads()[0].force.z, expected, 1e-4 * expected) << "no ripple along the grid";
+      contacts.step(&m);
+      EXPECT_NEAR(contacts.pads().loads()[0].force.z, expected, 1e-4 * expected) << "no ripple along the grid";
     }
   }
 }
@@ -61,9 +61,9 @@ TEST(PadContacts, AreaOfAPadDoesNotDependOnHowItLiesOnTheGrid) {
 TEST(PadContacts, APitchedPadBearsByItsHorizontalArea) {
   constexpr double kPitch = 0.3, kDeep = 0.04;
   SoilMap map(0.004, level);
-  PadContacts pads(lete(), 0.5, map, {shoe(0)});
+  SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0)}, {}, 1e-4);
   const contact::PartMotion m = at({0, 0, -kDeep}, 0, kPitch);
-  pads.step(&m, 1e-4);
+  contacts.step(&m);
   // Its normal leans along x; the vertical force is the integral of p over x and y.
   double expected = 0;
   constexpr int kPieces = 2000;
@@ -71,60 +71,62 @@ TEST(PadContacts, APitchedPadBearsByItsHorizontalArea) {
     const double x = kHalfLength * std::cos(kPitch) * ((2 * i + 1.0) / kPieces - 1);
     expected += pressure(kDeep + x * std::tan(kPitch)) * 4 * kHalfLength * std::cos(kPitch) * kHalfWidth / kPieces;
   }
-  EXPECT_NEAR(pads.loads()[0].force.z, expected, 2e-3 * expected);
-  EXPECT_NEAR(pads.loads()[0].force.x / pads.loads()[0].force.z, std::tan(kPitch), 1e-9) << "along its own normal";
+  EXPECT_NEAR(contacts.pads().loads()[0].force.z, expected, 2e-3 * expected);
+  EXPECT_NEAR(contacts.pads().loads()[0].force.x / contacts.pads().loads()[0].force.z, std::tan(kPitch), 1e-9)
+      << "along its own normal";
 }
 
 TEST(PadContacts, ShoesThatSlipPullAsJanosiHasIt) {
   const double z = 0.00240673, K = lete().shearDisplacement;
   SoilMap map(0.034, level);
-  PadContacts pads(lete(), 0.5, map, {shoe(0)});
+  SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0)}, {}, 1e-4);
   const double strength = lete().cohesion + 47.5e3 * lete().friction, area = 4 * kHalfLength * kHalfWidth;
   for (int i = 0; i <= 600; ++i) {
     const double slip = 1e-4 * i;
     const contact::PartMotion m = at({-slip, 0, -z});
-    pads.step(&m, 1e-4);
+    contacts.step(&m);
     const double expected = strength * area * (1 - std::exp(-slip / K));
-    EXPECT_NEAR(pads.loads()[0].force.x, expected, 1e-3 * strength * area) << slip;
+    EXPECT_NEAR(contacts.pads().loads()[0].force.x, expected, 1e-3 * strength * area) << slip;
   }
   // Reversed, the force changes its sign after K ln 2.
   for (int i = 0; i <= 83; ++i) {
     const contact::PartMotion m = at({-0.06 + 1e-4 * i, 0, -z});
-    pads.step(&m, 1e-4);
+    contacts.step(&m);
   }
-  EXPECT_NEAR(pads.loads()[0].force.x, 0, 0.01 * strength * area);
+  EXPECT_NEAR(contacts.pads().loads()[0].force.x, 0, 0.01 * strength * area);
 }
 
 TEST(PadContacts, LeavesARutWhoseDepthIsTheSinkageLessTheRebound) {
   SoilMap map(0.02, level);
-  PadContacts pads(lete(), 0.5, map, {shoe(0)});
+  SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0)}, {}, 1e-4);
   for (const double z : {-0.02, 0.1}) {
     const contact::PartMotion m = at({0, 0, z});
-    pads.step(&m, 1e-4);
+    contacts.step(&m);
   }
   EXPECT_NEAR(map.rutAt(0.013, 0.05), 0.02 * (1 - 1 / lete().elasticRatio), 1e-9) << "k_u = f p / z";
   EXPECT_EQ(map.rutAt(0.5, 0), 0);
-  EXPECT_EQ(pads.loads()[0].pressed, 0);
+  EXPECT_EQ(contacts.pads().loads()[0].pressed, 0);
 }
 
 TEST(PadContacts, NodesBetweenTwoPadsRememberTheDeeperWhateverTheirOrder) {
-  // A row of nodes lies in the middle of the gap, under both pads by a quarter of its squares.
+  // A row of nodes lies in the middle of the gap, under both contacts by a quarter of its squares.
   const double pitch = 2 * kHalfLength + 0.018, x = -0.009;
   SoilMap other(0.034, level);
-  PadContacts alone(lete(), 0.5, other, {shoe(0)});
+  SoilContacts alone(lete(), 0.5, {}, other, {shoe(0)}, {}, 1e-4);
   const contact::PartMotion there = at({x + pitch, 0, -0.008});
-  alone.step(&there, 1e-4);
+  alone.step(&there);
   std::vector<PadLoad> loads[2];
   for (const int first : {0, 1}) {
     SoilMap map(0.034, level);
-    PadContacts pads(lete(), 0.5, map, {shoe(first), shoe(1 - first)});
+    SoilContacts contacts(lete(), 0.5, {}, map, {shoe(first), shoe(1 - first)}, {}, 1e-4);
     const contact::PartMotion lower[] = {at({x, 0, -0.012}), there}, after[] = {at({x, 0, 0.1}), there};
-    pads.step(lower, 1e-4);
-    const double together = pads.loads()[static_cast<std::size_t>(1 - first)].pressed;
-    EXPECT_LT(together, 0.98 * alone.loads()[0].pressed) << "the deeper pad has compacted its edge";
-    pads.step(after, 1e-4);
-    EXPECT_EQ(pads.loads()[static_cast<std::size_t>(1 - first)].pressed, together) << "which stays so";
-    loads[first] = {pads.loads()[static_cast<std::size_t>(first)], pads.loads()[static_cast<std::size_t>(1 - first)]};
+    contacts.step(lower);
+    const double together = contacts.pads().loads()[static_cast<std::size_t>(1 - first)].pressed;
+    EXPECT_LT(together, 0.98 * alone.pads().loads()[0].pressed) << "the deeper pad has compacted its edge";
+    contacts.step(after);
+    EXPECT_EQ(contacts.pads().loads()[static_cast<std::size_t>(1 - first)].pressed, together) << "which stays so";
+    loads[first] = {contacts.pads().loads()[static_cast<std::size_t>(first)],
+                    contacts.pads().loads()[static_cast<std::size_t>(1 - first)]};
   }
   for (const int k : {0, 1})
     EXPECT_EQ(loads[0][static_cast<std::size_t>(k)].pressed, loads[1][static_cast<std::size_t>(k)].pressed);
@@ -136,7 +138,7 @@ double unexplained(int steps, double& turnover) {
   SoilMap map(0.034, level);
   SoilConstants soil = lete();
   soil.damping = 2e4;
-  PadContacts pads(soil, 0.5, map, {shoe(0)});
+  SoilContacts contacts(soil, 0.5, {}, map, {shoe(0)}, {}, 1.0 / steps);
   double work = 0;
   const double dt = 1.0 / steps;
   const auto pose = [](double t) {
@@ -153,12 +155,12 @@ double unexplained(int steps, double& turnover) {
     for (const Vec3d e : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}})
       spin += cross(m.rotation * e, (a * e - b * e) * 5e5) * 0.5;
     m.spin = spin;
-    pads.step(&m, dt);
-    const PadLoad& load = pads.loads()[0];
+    contacts.step(&m);
+    const PadLoad& load = contacts.pads().loads()[0];
     const double weight = i == 0 || i == steps ? 0.5 : 1;
     work -= weight * dt * (dot(load.force, m.velocity) + dot(load.torque, m.spin));
   }
-  const SoilEnergy& e = pads.energy();
+  const SoilEnergy& e = contacts.energy();
   turnover = e.compaction + e.shear;
   return work - (e.elastic + e.elasticShear + e.lost());
 }

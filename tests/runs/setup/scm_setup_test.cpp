@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -55,6 +56,18 @@ TEST(ScmSetup, StifferUnloadingLowersTheStepLimitOfAShoe) {
   EXPECT_LT(limit("[scm]\nelastic_ratio = 1000\n"), 0.7 * limit("[scm]\nelastic_ratio = 10\n"));
 }
 
+TEST(ScmSetup, SoilAloneHasNoLimitOfAShoeOnRigidGround) {
+  const auto hasLimit = [](const std::string& keys) {
+    const scene::Scene scene = scene::readSceneText(kScene + keys, GROUSER_SOURCE_DIR "/runs/scenes/scm.toml");
+    StepLimit all;
+    considerVehicle(all, scene, vehicle::readVehicleSpec(scene.vehicle->source()));
+    return std::any_of(all.vehicle.begin(), all.vehicle.end(),
+                       [](const StepLimit::Bound& b) { return b.what == "shoe on rigid ground or wheel"; });
+  };
+  EXPECT_FALSE(hasLimit(""));
+  EXPECT_TRUE(hasLimit("[[box]]\nmaterial = \"lete_sand\"\nsize = [1, 1, 1]\nposition = [6, 0, -0.4]\n"));
+}
+
 TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
   std::string other = kScene;
   other.replace(other.find("lete_sand"), 9, "gravel");
@@ -65,7 +78,7 @@ TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
   const std::pair<std::string, const char*> cases[] = {
       {other, "needs scm.n [-]: the soil gravel has no published n; give it in [scm]"},
       {noSoil, "there is no soil file m; give it in [scm]"},
-      {noVehicle, "supports track shoes only"},
+      {noVehicle, "has no effect without a [vehicle] or a [[body]]"},
       {kScene + "[scm]\nk_c = -5e6\n", "has no bearing capacity"},
       {kScene + "[scm]\nnode_spacing = 0.2\n", "is more than the length of a shoe, 0.136 m"},
       {kScene + "[scm]\nn = 0\n", "n = 0"},

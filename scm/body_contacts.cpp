@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scm/body_contacts.hpp"
+
+#include "scm/shear.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::scm {
+
+namespace {
+
+/// Cover of a node's square by the underside of a body.
+struct Cover {
+  double share{}; ///< [-]
+  Underside mean; ///< of the covered points
+};
+
+Cover coverAt(const Undersides& undersides, double x, double y, double h) {
+  constexpr int kSide = 4; // points along a side of the square
+  const auto corner = [&](double u, double v) {
+    return undersides.lowestAt(x + 0.499 * h * u, y + 0.499 * h * v).has_value();
+  };
+  const std::optional<Underside> middle = undersides.lowestAt(x, y);
+  if (middle && corner(-1, -1) && corner(1, -1) && corner(-1, 1) && corner(1, 1)) return {1, *middle};
+  Cover c;
+  int hits = 0;
+  for (int b = 0; b < kSide; ++b)
+    for (int a = 0; a < kSide; ++a) {
+      const auto at = [&](int k) { return h * ((k + 0.5) / kSide - 0.5); };
+      const std::optional<Underside> hit = undersides.lowestAt(x + at(a), y + at(b));
+      if (hit) ++hits, c.mean.z += hit->z, c.mean.normal += hit->normal;
+    }
+  if (hits == 0) return {};
+  c.share = static_cast<double>(hits) / (kSide * kSide);
+  c.mean.z /= hits, c.mean.normal = c.mean.normal * (1 / norm(c.mean.normal));
+  return c;
+}
+
+} // namespace
+
+BodyContacts::BodyContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Solid> solids)
+    : map_(map), loaded_(loaded), solids_(std::move(solids)), last_(solids_.size()), now_(solids_.size()),
+      loads_(solids_.size()) {}
+
+void BodyContacts::gather(const contact::PartMotion* motion) {
+  for (std::size_t k = 0; k < solids_.size(); ++k) gather(k, motion[solids_[k].part]);
+}
+
+void BodyContacts::press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy) {
+  for (std::size_t k = 0; k < solids_.size(); ++k) press(k, motion[solids_[k].part], timeStep, energy);
+}
+
+void BodyContacts::gather(std::size_t body, const contact::PartMotion& motion) {
+  const Solid& solid = solids_[body];
+  std::vector<Contact>& contacts = now_[body];
+  contacts.clear();
+  const double h = map_.spacing(), k = loaded_.soil().modulusAt(breadthOf(solid, motion));
+  const Undersides undersides(solid, motion);
+  const Vec3d half = undersides.half(), centre = motion.origin;
+  const double bottom = centre.z - half.z;
+  const auto firstI = static_cast<std::int32_t>(std::ceil((centre.x - half.x) / h - 0.5));
+  const auto lastI = static_cast<std::int32_t>(std::floor((centre.x + half.x) / h + 0.5));
+  const auto firstJ = static_cast<std::int32_t>(std::ceil((centre.y - half.y) / h - 0.5));
+  const auto lastJ = static_cast<std::int32_t>(std::floor((centre.y + half.y) / h + 0.5));
+  for (std::int32_t j = firstJ; j <= lastJ; ++j)
+    for (std::int32_t i = firstI; i <= lastI; ++i) {
+      Node& node = map_.at(i, j);
+      if (node.height + node.looseThickness() < bottom - kNear) continue;
+      const Cover cover = coverAt(undersides, h * i, h * j, h);
+      if (!(cover.share > 0) || -cover.mean.normal.z < kSteepest) continue;
+      const double gap = node.height - cover.mean.z;
+      if (gap < -kNear - node.looseThickness()) continue;
+      const double depth = gap * node.cosine;
+      Contact& c = contacts.emplace_back();
+      c.i = i, c.j = j, c.node = &node, c.loaded = loaded_.add(node, depth, k), c.depth = depth;
+      c.up = -cover.mean.normal, c.z = cover.mean.z, c.area = cover.share * h * h / node.cosine;
+      c.face = cover.share * h * h / c.up.z;
+    }
+}
+
+void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, double timeStep, SoilEnergy& energy) {
+  Last& last = last_[body];
+  BodyLoad& load = loads_[body];
+  load = {};
+  const SoilConstants& soil = loaded_.soil();
+  const double K = soil.shearDisplacement, h = map_.spacing();
+  auto former = last.contacts.begin();
+  const auto formerEnd = last.contacts.end();
+  const auto end = [&](const Contact& f) {
+    release(f, energy);
+    energy.edges += 0.5 * K * norm2(f.shear) * f.strength * f.face;
+  };
+  for (Contact& c : now_[body]) {
+    while (former != formerEnd && std::pair(former->j, former->i) < std::pair(c.j, c.i)) end(*former++);
+    const Contact* before = former != formerEnd && former->j == c.j && former->i == c.i ? &*former++ : nullptr;
+    c.pressure = scm::press(c, before, loaded_, energy);
+    c.strength = c.pressure > 0 ? soil.cohesion + c.pressure * soil.friction : 0;
+    const Vec3d place{h * c.i, h * c.j, c.z};
+    if (c.pressure > 0) {
+      const double sinking = std::max(0.0, -dot(motion.velocityAt(place), c.up));
+      const Vec3d force = c.up * (c.face * (c.pressure + soil.damping * sinking));
+      energy.damping += c.face * soil.damping * sinking * sinking * timeStep;
+      load.force += force, load.torque += cross(place - motion.centre, force);
+      load.area += c.face, load.sinkage = std::max(load.sinkage, c.depth);
+    }
+    if (!before) continue;
+    const double strengthBefore = before->strength * before->face, strength = c.strength * c.face;
+    if (!(strengthBefore > 0 && strength > 0)) {
+      energy.edges += 0.5 * K * norm2(before->shear) * strengthBefore;
+      continue;
+    }
+    // Rotate the stress into the present tangent plane, then add the shear displacement of the step.
+    const Vec3d flat = before->shear - c.up * dot(before->shear, c.up);
+    const double size = norm(flat);
+    const Vec3d turned = size > 0 ? flat * (norm(before->shear) / size) : Vec3d{};
+    const Vec3d moved = place - last.motion.toWorld(motion.toPart(place));
+    const Vec3d slip = moved - c.up * dot(moved, c.up);
+    const double slipped = norm(slip);
+    c.shear = turned;
+    if (slipped > 0) {
+      // Components along the slip and across it, in the tangent plane.
+      const Vec3d along = slip * (1 / slipped), across = cross(c.up, along);
+      Shear s{dot(turned, along), dot(turned, across)};
+      energy.shear += strengthBefore * advance(s, slipped, 0, K).loss;
+      c.shear = along * s.x + across * s.y;
+      loaded_.slip(c.loaded, slipped);
+    }
+    energy.coupling -= 0.5 * K * norm2(c.shear) * (strength - strengthBefore);
+    energy.elasticShear += 0.5 * K * norm2(c.shear) * strength;
+    const Vec3d force = c.shear * -strength;
+    load.force += force, load.torque += cross(place - motion.centre, force);
+  }
+  while (former != formerEnd) end(*former++);
+  last.motion = motion;
+  std::swap(last.contacts, now_[body]);
+}
+
+void BodyContacts::save(NumberStream& numbers) const {
+  std::vector<Last> all = last_;
+  stream(numbers, all);
+}
+void BodyContacts::restore(NumberStream& numbers) { stream(numbers, last_); }
+
+void BodyContacts::stream(NumberStream& numbers, std::vector<Last>& all) const {
+  for (Last& last : all) {
+    contact::PartMotion& m = last.motion;
+    numbers(m.origin, m.centre, m.velocity, m.spin);
+    for (auto& row : m.rotation.m)
+      for (double& value : row) numbers(value);
+    streamContacts(numbers, last.contacts, map_,
+                   [&](Contact& c) { numbers(c.z, c.up, c.pressure, c.strength, c.shear); });
+  }
+}
+
+} // namespace grouser::scm

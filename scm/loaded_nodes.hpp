@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scm/soil_map.hpp"
+
+#include <vector>
+
+namespace grouser::scm {
+
+/// A node in contact in this step. Loose soil carries alone until the firm soil below it would carry more; then it counts
+/// as compacted into the firm soil. `offset` is the depth at which the sinkage of the carrying layer begins.
+struct LoadedNode {
+  Node* node{};
+  double deepest{};   ///< maximum depth of the bodies below the undisturbed surface, along its normal [m]
+  double modulus{};   ///< maximum k of the bodies [N/m^(n+2)]
+  Compaction before;  ///< state of the carrying layer before the step
+  double offset{};    ///< depth minus sinkage of the layer [m]
+  bool onLoose{};     ///< the loose soil carries
+  bool yields{};      ///< the layer is in virgin loading
+  double slip{};      ///< maximum shear displacement of the step [m]
+
+  const Compaction& state() const { return onLoose ? node->loose : node->state; }
+};
+
+/// The nodes in contact in a step. Bodies add theirs; then advance() updates the soil, once for all bodies.
+class LoadedNodes {
+public:
+  /// `displaced`: share of the sunk volume that moves aside [-].
+  LoadedNodes(const SoilConstants& soil, double deepest, double displaced)
+      : soil_(soil), curve_(soil.exponent, deepest), displaced_(displaced) {}
+
+  const SoilConstants& soil() const { return soil_; }
+  const PressureCurve& curve() const { return curve_; }
+  const LoadedNode& operator[](int index) const { return nodes_[static_cast<std::size_t>(index)]; }
+
+  /// Adds a node, or a body to it, and returns its index. `depth` as LoadedNode::deepest [m].
+  int add(Node& node, double depth, double modulus) {
+    if (node.touched < 0) {
+      node.touched = static_cast<int>(nodes_.size());
+      nodes_.push_back({&node, depth, modulus, {}, 0, false, false, 0});
+    } else {
+      LoadedNode& t = nodes_[static_cast<std::size_t>(node.touched)];
+      t.deepest = std::max(t.deepest, depth), t.modulus = std::max(t.modulus, modulus);
+    }
+    return node.touched;
+  }
+  /// Chooses the carrying layer of each node and compresses it.
+  void advance();
+  /// Reports a shear displacement under a body [m].
+  void slip(int index, double displacement) {
+    LoadedNode& t = nodes_[static_cast<std::size_t>(index)];
+    t.slip = std::max(t.slip, displacement);
+  }
+  /// Lowers the firm soil by the sinkage that the shear displacements cause at constant pressure, and ends the step.
+  void finish();
+
+private:
+  SoilConstants soil_;
+  PressureCurve curve_;
+  double displaced_;
+  std::vector<LoadedNode> nodes_;
+};
+
+} // namespace grouser::scm

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scm/loaded_nodes.hpp"
+#include "scm/number_stream.hpp"
+#include "scm/soil_energy.hpp"
+
+#include <vector>
+
+namespace grouser::scm {
+
+inline constexpr double kNear = 5e-3;    ///< [m] nodes are listed up to this height of a body above them
+inline constexpr double kSteepest = 0.2; ///< minimum cosine between the normal of a body's surface and the vertical
+
+/// Contact of a body with a node from one step to the next.
+struct NodeContact {
+  std::int32_t i{}, j{};
+  Node* node{};
+  int loaded{};     ///< index among the loaded nodes of this step
+  double depth{};   ///< below the undisturbed surface, along its normal [m]; negative above it
+  double area{};    ///< of soil in contact, on the undisturbed surface [m2]; energies refer to it
+  double face{};    ///< of the body in contact [m2]
+  double offset{};  ///< as LoadedNode
+  double elastic{}; ///< elastic energy per area [J/m2]
+  bool onLoose{};   ///< as LoadedNode
+};
+
+/// Stress under a body at a node, as a mean over the square of the node.
+struct NodeStress {
+  std::int32_t i{}, j{};
+  double depth{};    ///< of the body below the undisturbed surface [m], vertical
+  double pressure{}; ///< [Pa] without damping
+  base::Vec3d shear; ///< on the soil [Pa]
+};
+
+/// Pressure of the soil on a contact [Pa]. Completes the contact with its elastic energy and adds the energies of the
+/// step. `former`: the same contact in the last step; null if there was none.
+double press(NodeContact& contact, const NodeContact* former, const LoadedNodes& loaded, SoilEnergy& energy);
+/// Adds the loss of a contact that ended.
+inline void release(const NodeContact& former, SoilEnergy& energy) { energy.edges += former.area * former.elastic; }
+
+/// Writes or reads the contacts of a body. `rest`: of what a contact has in addition.
+template <class Contact, class Rest>
+void streamContacts(NumberStream& numbers, std::vector<Contact>& contacts, SoilMap& map, const Rest& rest) {
+  numbers.size(contacts);
+  for (Contact& c : contacts) {
+    numbers(c.i, c.j, c.depth, c.area, c.face, c.offset, c.elastic, c.onLoose), rest(c);
+    c.node = &map.at(c.i, c.j);
+  }
+}
+
+} // namespace grouser::scm
