@@ -35,7 +35,7 @@ double lastOf(const std::string& csv, const std::string& column) {
 }
 
 TEST_F(OnRanks, PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRank) {
-  for (const char* scene : {"chute", "moving", "rain", "rigs"}) {
+  for (const char* scene : {"chute", "moving", "rain", "rigs", "soil_bodies"}) {
     const std::string words = "run '" GROUSER_SOURCE_DIR "/tests/scenes/" + std::string(scene) +
                               ".toml' --steps 2500 --hash --force --set output.frames=false --set output.picture=false "
                               "--set output.plots=false --out " +
@@ -72,6 +72,15 @@ TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   const std::string series = contents(folder_ / "one/timeseries.csv");
   EXPECT_EQ(series, contents(folder_ / "two/timeseries.csv"));
   EXPECT_NE(lastOf(series, "vehicle.drawbar_pull [N]"), 0) << "the vehicle does not touch the bed";
+}
+
+TEST_F(OnRanks, VehicleOnDeformableSoilHasTheBitsOfOneRankAndThread) {
+  const std::string words = "run '" GROUSER_SOURCE_DIR "/runs/scenes/scm_drive.toml' --steps 700 --hash "
+                            "--set output.frames=false --set output.picture=false --set output.plots=false ";
+  const std::string one = run(1, words + "--threads 1 --out one").hash();
+  EXPECT_EQ(one.find("state-hash"), 0u) << one;
+  EXPECT_EQ(run(1, words + "--threads 2 --out threads").hash(), one);
+  EXPECT_EQ(run(2, words + "--threads 1 --out ranks").hash(), one);
 }
 
 TEST_F(OnRanks, SurfacesAndMeshesMoveAndMeasureAsOnOneRank) {
