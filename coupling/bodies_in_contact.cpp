@@ -67,6 +67,7 @@ void BodiesInContact::enter(Ledger& ledger, multibody::Balance bodies, double po
   enterGrainParts(ledger, contacts.bed);
   ledger.potential += potential, ledger.elastic += elastic + contacts.elastic();
   ledger.dissipated.parts += contacts.rigid.dissipated, ledger.patches += contacts.rigid.patches;
+  ledger.soil = contacts.soil, ledger.dissipated.soil += contacts.soil.lost();
   ledger.impulseResidual += contacts.impulseOnParts + contacts.bed.impulseOnGrains;
 }
 

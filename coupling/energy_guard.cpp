@@ -48,7 +48,7 @@ std::string EnergyGuard::judge(const Ledger& now, double held) const {
 }
 
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
-  if (now.dissipated.parts <= now.dissipated.ofGrains()) return {}; // sliding grains book what their steps make
+  if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding grains book what their steps make
   const Exchange x = since(now, held);
   // A large bed breathes before a vehicle has dissipated much, and its dashpots then seem to give what parts take.
   if (-x.lost > kMostMade * (x.heat + x.lost) + x.neverAlarms)
@@ -57,7 +57,7 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
                        -x.lost, x.heat, kInterval);
   const double all = now.dissipated.total() - std::min(0.0, now.dissipated.ofGrains()), made = -now.integrationError;
   const double bed = std::max(mostInGrains_, std::fabs(now.grainElastic));
-  const double hidden = std::clamp(kMostHidden * now.dissipated.parts, kBreath * bed, kSpringShare * bed);
+  const double hidden = std::clamp(kMostHidden * now.dissipated.ofParts(), kBreath * bed, kSpringShare * bed);
   if (std::max(all, made) <= kAtTheStart * held) return {};
   if (made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
     return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);

@@ -8,9 +8,11 @@
 #include "base/math.hpp"
 #include "contact/part_motion.hpp"
 #include "contact/patch_law.hpp"
+#include "coupling/ground_fields.hpp"
 #include "coupling/replicated_work.hpp"
 
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -36,6 +38,7 @@ struct GroundTraits {
   double smallestGrain = base::kInfinity;          ///< radius [m], which limits how coarsely parts are cut
   const terrain::HeightField* hullMeets = nullptr; ///< an elastic foundation for the hull, computed with the obstacles
   bool onHost = false;                             ///< contacts are computed by computeOnHost() instead of compute()
+  bool deforms = false;                            ///< has fieldsNow(), and energies of its own in the ledger
   bool hasMomentum = false; ///< whether the ledger includes the momentum of the ground; true only for grains
 };
 
@@ -135,6 +138,8 @@ public:
   virtual ListedContacts listed() const { return {}; }
   /// Heights of the surface as it lies now [m] at the nodes of the undisturbed one; empty where it does not change.
   virtual std::vector<double> surfaceNow() const { return {}; }
+  /// Surface and stresses of deformable soil now; empty of other grounds.
+  virtual std::optional<GroundFields> fieldsNow() const { return {}; }
   /// Begins new means and maxima: called after every row of output.
   virtual void restartMeans() {}
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "base/vec.hpp"
+#include "scm/soil_energy.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,9 +20,11 @@ struct Dissipated {
   double crushing{};  ///< grains that crush against parts
   double parts{};     ///< contacts of rigid parts with each other and with rigid ground
   double joints{};    ///< dampers and end stops of joints and springs
+  double soil{};      ///< deformable soil, by all causes of scm::SoilEnergy
 
   double ofGrains() const { return damping + friction + microSlip + rolling + yielding + crushing; }
-  double total() const { return ofGrains() + parts + joints; }
+  double ofParts() const { return parts + soil; } ///< contacts of parts with all but grains
+  double total() const { return ofGrains() + parts + joints + soil; }
 };
 
 /// A cause by its word in the names of results, with what the results say of it.
@@ -39,6 +43,26 @@ inline constexpr DissipationCause kDissipationCauses[] = {
     {"joints", "by dampers and end stops of joints and springs", &Dissipated::joints},
 };
 
+/// An energy of deformable soil, likewise.
+struct SoilEnergyEntry {
+  const char *word, *help;
+  double scm::SoilEnergy::*energy;
+};
+inline constexpr SoilEnergyEntry kSoilEnergies[] = {
+    {"elastic_pressure", "elastic energy of the soil's pressure under the pads, part of elastic",
+     &scm::SoilEnergy::elastic},
+    {"elastic_shear", "elastic energy of the soil's shear under the pads, part of elastic",
+     &scm::SoilEnergy::elasticShear},
+    {"compaction", "plastic sinkage", &scm::SoilEnergy::compaction},
+    {"shear", "plastic shear", &scm::SoilEnergy::shear},
+    {"slip_sinkage", "sinkage by shear", &scm::SoilEnergy::slipSinkage},
+    {"damping", "damping during compression", &scm::SoilEnergy::damping},
+    {"edges", "elastic energy of soil that leaves a pad or loses contact; negative where soil enters",
+     &scm::SoilEnergy::edges},
+    {"coupling", "change of the elastic shear energy with the pressure", &scm::SoilEnergy::coupling},
+};
+inline constexpr std::size_t kElasticSoilEnergies = 2; ///< the first of them; the others are dissipated
+
 /// Energies [J] and momenta of a whole simulation, counted from its first step. With steps of finite length
 ///
 ///   kinetic + potential + elastic + dissipated + integrationError = driveWork + residual
@@ -51,8 +75,9 @@ struct Ledger {
   double driveWork{}, kinetic{}, potential{}, elastic{};
   double grainElastic{}; ///< of elastic: contacts of grains with each other, floor and walls
   Dissipated dissipated;
-  double work{};     ///< of all forces on all bodies
-  double turnover{}; ///< the same without signs, a body and a step each: what the errors are to be held against
+  scm::SoilEnergy soil; ///< elastic energies now, and dissipation since the start; not counted from another start
+  double work{};        ///< of all forces on all bodies
+  double turnover{};    ///< the same without signs, a body and a step each: what the errors are to be held against
   double integrationError{}, residual{};
 
   base::Vec3d momentum, angularMomentum;         ///< now [N s], [N m s] about the origin of the world

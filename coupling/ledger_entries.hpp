@@ -14,9 +14,10 @@ namespace grouser::coupling {
 struct ContactLedger {
   contact::PatchBuffers::Ledger rigid;    ///< of parts with each other and with what is no grain
   contact::GrainPartContacts::Ledger bed; ///< of parts with grains
+  scm::SoilEnergy soil;                   ///< of parts with deformable soil
   base::Vec3d impulseOnParts;             ///< since the start, from a ground that has momentum of its own [N s]
   base::Vec3d angularOnParts;             ///< about the origin of the world, from such a ground since the start [N m s]
-  double elastic() const { return rigid.elastic + bed.elastic; } ///< held now [J]
+  double elastic() const { return rigid.elastic + bed.elastic + soil.held(); } ///< held now [J]
 };
 
 void enterGrains(Ledger& ledger, const terrain::GrainLedger& grains);

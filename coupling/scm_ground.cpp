@@ -10,6 +10,9 @@
 #include "spheredecomp/mesh_query.hpp"
 #include "vehicle/assembly.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace grouser::coupling {
 
 double ScmSetup::stiffest(double breadth) const {
@@ -30,7 +33,7 @@ std::function<double(double, double)> ScmGround::surface() const {
 GroundTraits ScmGround::traits() const {
   GroundTraits traits;
   traits.hullMeets = &laid_;
-  traits.onHost = true;
+  traits.onHost = traits.deforms = true;
   return traits;
 }
 
@@ -107,10 +110,7 @@ void ScmGround::computeOnHost(const contact::PartMotion* motion, contact::PartLo
     add(bodies.solids()[k].part, bodies.loads()[k].force, bodies.loads()[k].torque);
 }
 
-void ScmGround::addContactsTo(ContactLedger& ledger) const {
-  const scm::SoilEnergy& energy = contacts_->energy();
-  ledger.rigid.elastic += energy.elastic + energy.elasticShear, ledger.rigid.dissipated += energy.lost();
-}
+void ScmGround::addContactsTo(ContactLedger& ledger) const { ledger.soil = contacts_->energy(); }
 
 std::vector<double> ScmGround::surfaceNow() const {
   const terrain::HeightFieldView map = laid_.view();
@@ -121,6 +121,25 @@ std::vector<double> ScmGround::surfaceNow() const {
                                     static_cast<std::size_t>(column)] -
                         map_.rutAt(map.xMin + column * map.dx, map.yMin + row * map.dy));
   return heights;
+}
+
+std::optional<GroundFields> ScmGround::fieldsNow() const {
+  GroundFields fields{setup_.soil, map_.spacing(), {}};
+  if (!contacts_) return fields;
+  map_.forEach([&](std::int32_t i, std::int32_t j, const scm::Node& node) {
+    if (const double rut = node.rut(); rut != 0 || node.state.pressure > 0)
+      fields.nodes.push_back({i, j, rut, 0, node.state.pressure, {}});
+  });
+  const auto before = [](const SoilNode& a, const SoilNode& b) { return std::pair(a.j, a.i) < std::pair(b.j, b.i); };
+  std::sort(fields.nodes.begin(), fields.nodes.end(), before);
+  contacts_->forEachLoaded([&](const scm::NodeStress& stress) {
+    SoilNode here;
+    here.i = stress.i, here.j = stress.j;
+    SoilNode& node = *std::lower_bound(fields.nodes.begin(), fields.nodes.end(), here, before);
+    node.sinkage = std::max(node.sinkage, stress.depth);
+    node.pressure += stress.pressure, node.shear += stress.shear;
+  });
+  return fields;
 }
 
 void ScmGround::restore(const SimulationState& state) {

@@ -33,6 +33,7 @@ public:
   void computeOnHost(const contact::PartMotion* motion, contact::PartLoad* loads) override;
   void addContactsTo(ContactLedger& ledger) const override;
   std::vector<double> surfaceNow() const override;
+  std::optional<GroundFields> fieldsNow() const override;
   void restore(const SimulationState& state) override;
   void save(SimulationState& state) const override;
 

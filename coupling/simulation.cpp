@@ -366,7 +366,7 @@ void Simulation::checkEnergy(const Ledger& now) {
   if (alone)
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
-  if (vehicle_ && now.dissipated.parts > now.dissipated.ofGrains())
+  if (vehicle_ && now.dissipated.ofParts() > now.dissipated.ofGrains())
     remedy += "; most has been dissipated where shoes touch " + mostDissipating(vehicle_->assembly(), vehicle_->save());
   throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }

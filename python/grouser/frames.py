@@ -93,6 +93,14 @@ class Frame:
         """A field of the soil in this frame alone, with one row: see Frames.fields()."""
         return field_of([self._group.get("fields")], numpy.array([self.time]), name, self._frames.path)
 
+    def soil(self, name: str) -> numpy.ndarray:
+        """Deformable ground in this frame: "position" [v, 3] [m] and "triangles" [t, 3]; at the vertices "sinkage" [m],
+        "pressure", "max_pressure", "shear" [v] and "shear_vector" [v, 3] [Pa]. KeyError where there is none."""
+        soil = self._group.get("soil", {})
+        if name not in soil:
+            raise KeyError(f"{self._frames.path}: this frame has no {name!r} of deformable soil")
+        return soil[name][:]
+
     @property
     def poses(self) -> numpy.ndarray:
         """[parts, 7]: place [m] and orientation (quaternion, scalar first) of every part's frame in the world, in the

@@ -9,6 +9,25 @@
 
 namespace grouser::commands {
 
+namespace {
+
+/// Energies of deformable soil: those that it holds, then those that it has dissipated.
+std::string soilText(const scm::SoilEnergy& soil) {
+  std::string text = "elastic energy [J]:";
+  std::size_t number = 0;
+  for (const coupling::SoilEnergyEntry& entry : coupling::kSoilEnergies) {
+    if (number == coupling::kElasticSoilEnergies) text += "; dissipated:";
+    const bool begins = number == 0 || number == coupling::kElasticSoilEnergies;
+    std::string word = entry.word;
+    if (word.starts_with("elastic_")) word.erase(0, 8);
+    text += fmt::format("{}{} {:.4g}", begins ? " " : ", ", word, soil.*entry.energy);
+    ++number;
+  }
+  return text;
+}
+
+} // namespace
+
 void describeLedger(coupling::Simulation& simulation) {
   const coupling::Ledger l = simulation.ledger();
   const coupling::VehicleRig* rig = simulation.vehicle();
@@ -22,7 +41,11 @@ void describeLedger(coupling::Simulation& simulation) {
   for (const coupling::DissipationCause& cause : coupling::kDissipationCauses)
     if (const double heat = l.dissipated.*cause.heat; heat != 0)
       causes += fmt::format("{}{} {:.4g}", causes.empty() ? "" : ", ", cause.word, heat);
+  const coupling::Ground* ground = simulation.actingGround();
+  const bool deforms = ground && ground->traits().deforms;
+  if (deforms) causes += fmt::format("{}soil {:.4g}", causes.empty() ? "" : ", ", l.dissipated.soil);
   if (!causes.empty()) fmt::print("          dissipated by {}\n", causes);
+  if (deforms) fmt::print("soil      {}\n", soilText(l.soil));
   const auto shown = [](const base::Vec3d& v) { return fmt::format("({:.2g}, {:.2g}, {:.2g})", v.x, v.y, v.z); };
   fmt::print("momentum  left over {} N s, angular {} N m s\n", shown(l.momentumResidual), shown(l.angularResidual));
   if (simulation.vehicle() && simulation.ground().grains)

@@ -69,10 +69,15 @@ render::PaintOptions paintOptions(const RenderCommand& c, bool hasVehicle) {
   v.lookAt = lookAtOf(c.lookAt, hasVehicle, v.point);
   v.azimuth = c.azimuth, v.elevation = c.elevation, v.distance = c.distance;
   std::tie(v.width, v.height) = pictureSize(c.size);
-  o.quantity = render::grainQuantity(c.color);
+  const std::optional<render::GroundQuantity> ground = render::groundQuantity(c.color);
+  if (ground)
+    o.ground = *ground;
+  else
+    o.quantity = render::grainQuantity(c.color);
   if (!c.range.empty()) {
-    if (o.quantity != render::GrainQuantity::Depth && o.quantity != render::GrainQuantity::Speed)
-      throw base::InputError(fmt::format("--range: is for the colours depth and speed, not for {}", c.color));
+    if (!ground && o.quantity != render::GrainQuantity::Depth && o.quantity != render::GrainQuantity::Speed)
+      throw base::InputError(
+          fmt::format("--range: is for the colours depth, speed, sinkage, pressure and shear, not for {}", c.color));
     if (!(c.range[0] < c.range[1]))
       throw base::InputError(fmt::format("--range {:g} {:g}: give the lower end first", c.range[0], c.range[1]));
     o.range = render::ValueRange{c.range[0], c.range[1]};

@@ -21,7 +21,7 @@ struct RenderCommand {
   std::vector<double> range;        ///< lowest and highest value of the colours; empty: from the file
   std::vector<std::string> borders; ///< bordersOf's words
   std::string lookAt;               ///< vehicle, all or X,Y,Z [m]; empty: the vehicle where there is one
-  double azimuth = -55;             ///< [deg]
+  std::optional<double> azimuth;    ///< [deg]
   std::optional<double> elevation;  ///< [deg]
   std::optional<double> distance;   ///< [m]
   std::string size = "1600x900";    ///< WIDTHxHEIGHT

@@ -15,12 +15,16 @@ void addCamera(CLI::App& render, RenderCommand& c) {
       "--look-at", c.lookAt,
       "vehicle (moves with it), all (whatever there is) or a place X,Y,Z [m]; default: vehicle, or all where "
       "there is none");
-  render.add_option("--azimuth", c.azimuth, "of the camera about the vertical, 0 is +x [deg]")
-      ->check(support::between(-360.0, 360.0))
-      ->capture_default_str();
   render
-      .add_option("--elevation", c.elevation,
-                  "of the camera above the horizon [deg]; default: 14, 30 for a bed, 60 for what lies flat")
+      .add_option(
+          "--azimuth", c.azimuth,
+          "of the camera about the vertical, 0 is +x [deg]; default: -55, or -140 for a vehicle on deformable soil")
+      ->check(support::between(-360.0, 360.0));
+  render
+      .add_option(
+          "--elevation", c.elevation,
+          "of the camera above the horizon [deg]; default: 14, 24 on deformable soil, 30 for a bed, 60 for what lies "
+          "flat")
       ->check(support::between(-90.0, 90.0));
   render.add_option("--distance", c.distance, "of the camera from what it looks at [m]; default: it fills the picture")
       ->check(support::positive("a length in metres"));
@@ -56,9 +60,12 @@ void addRender(CLI::App& app, const Invocation& invocation) {
   render->add_option("--fps", c.framesPerSecond, "pictures a second of the film")
       ->check(support::positive("a number"))
       ->capture_default_str();
-  render->add_option("--color", c.color, "of the grains: depth, speed, subdomain, role or white")
+  render
+      ->add_option(
+          "--color", c.color,
+          "of the grains: depth, speed, subdomain, role or white; of deformable soil: sinkage, pressure or shear")
       ->capture_default_str();
-  render->add_option("--range", c.range, "values at the ends of the colours [m or m/s]; default: from the file")
+  render->add_option("--range", c.range, "values at the ends of the colours [m, m/s or Pa]; default: from the file")
       ->expected(2)
       ->type_name("LOW HIGH");
   render->add_option("--borders", c.borders, "between subdomains [m], e.g. x=0.5 or y=-1,1; default: those in the file")

@@ -86,17 +86,25 @@ Columns<coupling::GearContacts> gearColumns() {
   return c;
 }
 
-Columns<coupling::Ledger> ledgerColumns(bool touching) {
+Columns<coupling::Ledger> ledgerColumns(bool touching, bool deforms) {
   using L = coupling::Ledger;
   Columns<L> c("ledger/");
   c.add("drive_work", "J", "done by drives, moving surfaces and the hitch", &L::driveWork);
   c.add("kinetic", "J", "of grains, vehicle and bodies", &L::kinetic);
   c.add("potential", "J", "in the field of gravity", &L::potential);
   c.add("elastic", "J", "in contacts and springs", &L::elastic);
-  c.add("dissipated", "J", "sum of the eight below", [](const L& l) { return l.dissipated.total(); });
+  c.add("dissipated", "J", deforms ? "sum of the nine causes below" : "sum of the eight below",
+        [](const L& l) { return l.dissipated.total(); });
   for (const coupling::DissipationCause& cause : coupling::kDissipationCauses)
     c.add(std::string("dissipated_") + cause.word, "J", cause.help,
           [heat = cause.heat](const L& l) { return l.dissipated.*heat; });
+  if (deforms) {
+    c.add("dissipated_soil", "J", "by deformable soil: compaction, shear, slip sinkage, damping, edges and coupling",
+          [](const L& l) { return l.dissipated.soil; });
+    for (const coupling::SoilEnergyEntry& entry : coupling::kSoilEnergies)
+      c.add(std::string("soil_") + entry.word, "J", entry.help,
+            [energy = entry.energy](const L& l) { return l.soil.*energy; });
+  }
   c.add("integration_error", "J",
         "lost (or, where negative, made) by steps of finite length: drive work less kinetic, potential, elastic and "
         "dissipated",

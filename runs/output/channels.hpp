@@ -93,7 +93,8 @@ struct HitchReading {
 Columns<HitchReading> hitchColumns();
 /// What grains touch of a vehicle.
 Columns<coupling::GearContacts> gearColumns();
-/// Energy and momentum. `touching`: whether vehicle and bed may exchange impulses.
-Columns<coupling::Ledger> ledgerColumns(bool touching = true);
+/// Energy and momentum. `touching`: whether vehicle and bed may exchange impulses; `deforms`: a ground of deformable
+/// soil, with energies of its own.
+Columns<coupling::Ledger> ledgerColumns(bool touching = true, bool deforms = false);
 
 } // namespace grouser::output

@@ -2,6 +2,7 @@
 #include "runs/output/frames_file.hpp"
 
 #include "runs/output/field_datasets.hpp"
+#include "runs/output/soil_datasets.hpp"
 #include "runs/output/xdmf.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -19,25 +20,7 @@ namespace {
 /// Numbers of vertices that are written at a time.
 constexpr std::size_t kVertexBlock = std::size_t{1} << 20;
 
-using xdmf::grid, xdmf::item;
-
-std::string geometry(std::size_t vertices, const std::string& dataset) {
-  return fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-                     item(fmt::format("{} 3", vertices), "Float", 4, dataset));
-}
-
-/// `width`: 1 of a scalar, 3 of a vector.
-std::string attribute(const char* name, const char* centre, std::size_t count, std::uint64_t width, const char* type,
-                      const std::string& dataset) {
-  const std::string shape = width == 1 ? fmt::format("{}", count) : fmt::format("{} {}", count, width);
-  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", name,
-                     width == 1 ? "Scalar" : "Vector", centre, item(shape, type, 4, dataset));
-}
-
-std::string triangles(std::size_t count, const std::string& dataset) {
-  return fmt::format("        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", count,
-                     item(fmt::format("{} 3", count), "UInt", 4, dataset));
-}
+using xdmf::attribute, xdmf::geometry, xdmf::grid, xdmf::item, xdmf::triangles;
 
 std::vector<float> flat(const std::vector<base::Vec3d>& points) {
   std::vector<float> out;
@@ -204,8 +187,8 @@ std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) cons
   std::uint64_t cuts = 0;
   for (const std::vector<double>& places : frame.borders) cuts += places.size();
   return kOwn + (frame.fields ? output::bytesOfFields(frame.fields->grid.count()) : 0) +
-         kAName * static_cast<std::uint64_t>(count_) + grains * aGrain + partVertices_ * 3 * sizeof(float) +
-         cuts * sizeof(double);
+         (frame.soil ? bytesOfSoil(*frame.soil) : 0) + kAName * static_cast<std::uint64_t>(count_) + grains * aGrain +
+         partVertices_ * 3 * sizeof(float) + cuts * sizeof(double);
 }
 
 void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains) {
@@ -235,6 +218,7 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
     file_->attribute(group + "/parts/pose", "columns", std::vector<std::string>{"x", "y", "z", "qw", "qx", "qy", "qz"});
   }
   if (frame.fields) writeFields(*file_, group, *frame.fields);
+  if (frame.soil) writeSoil(*file_, group, *frame.soil);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::vector<double>& places = frame.borders[axis]; !places.empty())
       file_->write(group + "/partition/" + "xyz" [axis], places, { places.size() });
@@ -285,7 +269,9 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
                                geometry(partVertices_, group + "/parts/position") +
                                attribute("part", "Cell", partTriangles_, 1, "UInt", "/parts/part") +
                                attribute("kind", "Cell", partTriangles_, 1, "UInt", "/parts/kind"));
-  if (groundTriangles_)
+  if (const std::string soil = soilXdmf(*file_, group); !soil.empty())
+    grids += soil; // in place of the undisturbed ground
+  else if (groundTriangles_)
     grids += grid("ground",
                   triangles(groundTriangles_, "/ground/triangles") + geometry(groundVertices_, "/ground/position"));
   grids += fieldsXdmf(*file_, group);
@@ -304,7 +290,8 @@ std::vector<support::FileField> frameFields() {
   for (const GrainDataset& d : kGrainDatasets)
     fields.push_back(
         {grains + d.name, "float32", d.width == 1 ? "[grains]" : fmt::format("[grains, {}]", d.width), d.unit, d.help});
-  for (const support::FileField& field : soilFieldFields(frame)) fields.push_back(field);
+  for (const auto& more : {soilFieldFields(frame), soilSurfaceFields(frame)})
+    fields.insert(fields.end(), more.begin(), more.end());
   const char* corners = "places of the corners of each triangle among the vertices";
   const std::vector<support::FileField> others{
       {frame + "parts/pose", "float64", "[parts, 7]", "m, -",

@@ -19,6 +19,7 @@ namespace grouser::output {
 ///             /vertices/1000 [1000, 1]: 0, 1, 2... for frames of as many grains;
 ///             /000012/grains/{position [n, 3], radius, speed, id}, /000012/parts/position [v, 3],
 ///             /000012/fields/{stress [z, y, x, 6], ...}: where the scene wants fields of the soil,
+///             /000012/soil/{position [v, 3], triangles [t, 3], sinkage [v], ...}: deformable ground,
 ///             /000012/partition/{x, y, z} [b]: where borders of subdomains cross that axis [m]; absent where none does
 /// frames.xdmf: a temporal collection of spatial collections "grains", "parts", "ground", "fields". It is written anew
 /// after each frame and put in place by renaming, so that it always names complete frames only.

@@ -2,6 +2,7 @@
 #include "runs/output/frames_reader.hpp"
 
 #include "base/error.hpp"
+#include "runs/output/soil_datasets.hpp"
 
 #include <fmt/format.h>
 
@@ -118,6 +119,7 @@ StoredFrame FramesReader::read(std::size_t frame) const {
       if (part.first + std::size_t{part.count} > f.partVertices.size())
         damaged(fmt::format("frame {} lacks vertices of {}", frame, part.name));
   }
+  f.soil = readSoil(file_, group);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::string places = group + "/partition/" + "xyz"[axis]; file_.has(places)) {
       f.borders[axis] = file_.read<double>(places);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/sphere_set.hpp"
-#include "base/vec.hpp"
-#include "runs/output/part_kind.hpp"
+#include "runs/output/records.hpp"
 #include "runs/support/hdf5_file.hpp"
 
 #include <array>
@@ -29,6 +27,7 @@ struct StoredFrame {
   std::vector<float> radii;                   ///< [m]
   std::vector<float> speeds;                  ///< [m/s]
   std::vector<base::Vec3f> partVertices;      ///< [m], world
+  std::shared_ptr<const SoilSurface> soil;    ///< deformable ground; may be null
   std::array<std::vector<double>, 3> borders; ///< as in Frame
 };
 

@@ -172,8 +172,12 @@ struct RunWriter::Series {
 
   /// What is no series.
   void array(const ResultConstant& what, const std::vector<double>& numbers, const std::vector<std::uint64_t>& shape) {
+    results.write(std::string("/") + what.path, numbers, shape);
+    describe(what);
+  }
+
+  void describe(const ResultConstant& what) {
     const std::string path = std::string("/") + what.path;
-    results.write(path, numbers, shape);
     results.attribute(path, "unit", std::string(what.unit));
     results.attribute(path, "help", std::string(what.help));
   }
@@ -287,6 +291,22 @@ void RunWriter::surface(const UndisturbedSurface& surface) {
 void RunWriter::finalSurface(const std::vector<double>& height, std::size_t columns) {
   if (!impl_->series) return;
   impl_->series->array(kSurfaceFinal, height, {height.size() / columns, columns});
+}
+
+void RunWriter::soil(const SoilResult& soil) {
+  if (!impl_->series) return;
+  Series& series = *impl_->series;
+  for (const SoilConstantField& c : kSoilConstants) constant(c.constant, soil.constants.*c.member);
+  if (soil.sinkage.empty()) return;
+  requireRoom(series.results, std::size(kSoilMaps) * (kTreeBytes + soil.sinkage.size() * sizeof(float)));
+  for (const SoilLine& l : kSoilLines)
+    if (const std::vector<double>& numbers = soil.*l.member; !numbers.empty())
+      series.array(l.line, numbers, {numbers.size()});
+  for (const SoilMapField& map : kSoilMaps) {
+    const std::string path = std::string("/") + map.field.path;
+    series.results.write(path, soil.*map.member, {soil.rows, soil.columns}, true);
+    series.describe(map.field);
+  }
 }
 
 void RunWriter::bed(const terrain::BedStructure& bed) {

@@ -7,6 +7,7 @@
 #include "runs/output/option_names.hpp"
 #include "runs/output/records.hpp"
 #include "runs/output/result_fields.hpp"
+#include "runs/output/soil_result.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/file_lock.hpp"
 #include "terrain/bed_structure.hpp"
@@ -70,6 +71,9 @@ public:
 
   /// Heights of the bed at the end, at the nodes of surface(); in results.h5: terrain/surface/final_height.
   void finalSurface(const std::vector<double>& height, std::size_t columns);
+
+  /// Deformable soil at the end, in results.h5: terrain/soil/.
+  void soil(const SoilResult& soil);
 
   /// What the bed is made of, in results.h5: terrain/bed/.
   void bed(const terrain::BedStructure& bed);

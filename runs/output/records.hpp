@@ -51,6 +51,14 @@ struct FramePart {
   base::TriangleMesh mesh; ///< body frame
 };
 
+/// Deformable soil as it lies in a frame: triangles, and values at their vertices.
+struct SoilSurface {
+  base::TriangleMesh mesh;                  ///< world
+  std::vector<float> sinkage;               ///< below the undisturbed surface [m]
+  std::vector<float> pressure, maxPressure; ///< now, and the maximum since the start [Pa]
+  std::vector<base::Vec3f> shear;           ///< stress on the soil now [Pa]
+};
+
 /// The grains and parts at one time; on several ranks this rank's block of the grains. All arrays of grains have the
 /// same length.
 struct Frame {
@@ -68,6 +76,7 @@ struct Frame {
   std::vector<std::uint32_t> ids;
   std::vector<base::Pose> partPoses;                 ///< one a part
   std::shared_ptr<const terrain::SoilFields> fields; ///< fields of the soil, the same on all ranks; may be null
+  std::shared_ptr<const SoilSurface> soil;           ///< of deformable ground, the same on all ranks; may be null
   /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
   std::array<std::vector<double>, 3> borders;
 };

@@ -3,6 +3,7 @@
 
 #include "runs/output/channels.hpp"
 #include "runs/output/mechanism_output.hpp"
+#include "runs/output/soil_result.hpp"
 #include "vehicle/observation_table.hpp"
 
 #include <fmt/format.h>
@@ -116,13 +117,17 @@ std::vector<FileField> resultFields() {
   fields.push_back(
       {std::string(kInputs.path) + "@kinds", "texts", "", "", "what can be set, in the order of its numbers"});
   for (const BedConstant& c : kBedConstants) fields.push_back(fieldOf(c.constant, "[1]"));
+  for (const SoilConstantField& c : kSoilConstants) fields.push_back(fieldOf(c.constant, "[1]"));
+  for (const SoilLine& l : kSoilLines) fields.push_back(fieldOf(l.line, l.shape));
+  for (const SoilMapField& m : kSoilMaps)
+    fields.push_back({m.field.path, "float32", "[lines, columns]", m.field.unit, m.field.help});
   for (const BedCurve& c : kBedCurves) fields.push_back(fieldOf(c.curve, "[n]"));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfHull()) add(fields, channelOf(q));
   for (const vehicle::Quantity& q : vehicle::quantitiesOfTrack("SIDE", 2, 0, true)) add(fields, channelOf(q));
   for (const auto& channels :
        {terrainColumns().channels(), surfaceColumns("NAME", true).channels(), obstacleColumns("NAME").channels(),
         hitchColumns().channels(), gearColumns().channels(), ledgerColumns().channels(),
-        probeColumns({"NAME"}).channels(),
+        ledgerColumns(true, true).channels(), probeColumns({"NAME"}).channels(),
         mechanismColumns(modelOfAll(), std::vector<bool>(modelOfAll().bodies().size(), true), {}).channels()})
     for (const Channel& c : channels) add(fields, c);
   return fields;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "runs/output/result_constant.hpp"
 #include "runs/support/file_field.hpp"
 #include "terrain/bed_structure.hpp"
 
@@ -9,10 +10,6 @@
 /// What results.h5 holds beside its series: the tables that write it and that describe it.
 namespace grouser::output {
 
-/// A number of the whole run.
-struct ResultConstant {
-  const char *path, *unit, *help;
-};
 inline constexpr ResultConstant kPitchRadius{"vehicle/pitch_radius", "m", "teeth x pitch / (2 pi)"};
 inline constexpr ResultConstant kVehicleMass{"vehicle/mass", "kg", "of all its bodies"};
 

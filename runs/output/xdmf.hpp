@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 
 /// Pieces of frames.xdmf.
@@ -20,6 +21,24 @@ inline std::string grid(const char* name, const std::string& content) {
   return content.empty()
              ? ""
              : fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n{}      </Grid>\n", name, content);
+}
+
+inline std::string geometry(std::size_t vertices, const std::string& dataset) {
+  return fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+                     item(fmt::format("{} 3", vertices), "Float", 4, dataset));
+}
+
+/// `width`: 1 of a scalar, 3 of a vector.
+inline std::string attribute(const char* name, const char* centre, std::size_t count, std::uint64_t width,
+                             const char* type, const std::string& dataset) {
+  const std::string shape = width == 1 ? fmt::format("{}", count) : fmt::format("{} {}", count, width);
+  return fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", name,
+                     width == 1 ? "Scalar" : "Vector", centre, item(shape, type, 4, dataset));
+}
+
+inline std::string triangles(std::size_t count, const std::string& dataset) {
+  return fmt::format("        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n", count,
+                     item(fmt::format("{} 3", count), "UInt", 4, dataset));
 }
 
 } // namespace grouser::output::xdmf

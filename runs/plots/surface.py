@@ -27,7 +27,33 @@ def layout(wide, high):
     return figure, plan, section, place(LEFT + width + 0.15, bottom, LEFT + width + 0.3, bottom + height)
 
 
+def soil(run):
+    """Deformable soil: a map of its sinkage over the touched area, and a section along its deepest rut."""
+    sinkage, (x0, y0), way = (run.field(name) for name in ("terrain/soil/sinkage", "terrain/soil/origin",
+                                                           "vehicle/position/value"))
+    spacing = float(run.field("terrain/soil/spacing")[0])
+    x, y = (start + spacing * numpy.arange(count) for start, count in zip((x0, y0), sinkage.shape[::-1]))
+    figure, plan, section, bar = layout(float(x[-1] - x[0]), float(y[-1] - y[0]))
+    for axes in (plan, bar):
+        axes.grid(False)
+    mesh = plan.pcolormesh(x, y, 1000 * sinkage, shading="nearest", cmap="YlOrBr", rasterized=True)
+    plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label="middle of the sprockets' axle")
+    plan.tick_params(labelbottom=False)
+    plan.set_ylabel("y [m]")
+    drawing.legend_above(plan)
+    figure.colorbar(mesh, cax=bar, label="sinkage [mm]")
+    row = int(numpy.argmax(sinkage.mean(axis=1)))
+    section.plot(x, -1000 * sinkage[row], color="tab:brown")
+    plan.set_xlim(x[0], x[-1])
+    plan.set_ylim(y[0], y[-1])
+    section.set_xlabel("x [m]")
+    section.set_ylabel(f"height [mm]\nat y = {y[row]:.2f} m")
+    return figure
+
+
 def plot(run):
+    if run.field("terrain/soil/sinkage") is not None:
+        return soil(run)
     field = run.field("terrain/surface/height")
     x, y = run.field("terrain/surface/x"), run.field("terrain/surface/y")
     way = run.get("vehicle/position")

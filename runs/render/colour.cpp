@@ -33,6 +33,8 @@ std::array<std::uint8_t, 3> toSrgb(const Colour& colour) {
   return c;
 }
 
+Colour groundColour() { return srgb(168, 152, 128); }
+
 Colour heightColour(float value) {
   // Ten points of the viridis map (van der Walt and Smith, 2015; public domain).
   static constexpr int kMap[10][3] = {{68, 1, 84},    {72, 40, 120},  {62, 74, 137},  {49, 104, 142}, {38, 130, 142},

@@ -26,12 +26,25 @@ std::vector<output::StoredFrame> samplesOf(const output::FramesReader& reader) {
   return samples;
 }
 
+/// Mixes a picture of the ground alone into one of all.
+void blend(Image& all, const Image& ground) {
+  constexpr int kVehiclePercent = 30;
+  for (std::size_t k = 0; k < all.rgb.size(); ++k)
+    all.rgb[k] =
+        static_cast<std::uint8_t>((kVehiclePercent * all.rgb[k] + (100 - kVehiclePercent) * ground.rgb[k]) / 100);
+}
+
 } // namespace
 
 FramePainter::FramePainter(const output::FramesReader& reader, const PaintOptions& options)
     : reader_(reader), options_(options) {
   if (options.labels) font_ = std::make_unique<Font>();
   const std::vector<output::StoredFrame> samples = samplesOf(reader);
+  ground_ = GroundColours(options.ground, samples, options.range);
+  if (ground_.hasRange() && std::none_of(samples.begin(), samples.end(), [](const auto& f) { return bool(f.soil); }))
+    throw base::InputError(fmt::format("{}: holds no deformable soil (terrain.kind = \"scm\"); give --color depth, "
+                                       "speed, subdomain, role or white",
+                                       reader.path().string()));
   colours_ = std::make_unique<GrainColours>(options.quantity, samples.front(), samples, options.range);
   const bool needsBorders = options.quantity == GrainQuantity::Subdomain || options.quantity == GrainQuantity::Role;
   const auto hasBorders = [](const Borders& b) { return !b[0].empty() || !b[1].empty() || !b[2].empty(); };
@@ -65,18 +78,22 @@ void FramePainter::placeCamera(const std::vector<output::StoredFrame>& samples) 
   }
   for (const Vec3d& v : reader_.ground().vertices) all.push_back({v, 0});
   const bool isMechanism = !samples.front().partVertices.empty() && samples.front().positions.empty();
-  const double usual = isMechanism && liesFlat(samples.front().partVertices) ? kFlatElevation
-                       : isClose || isMechanism                              ? kVehicleElevation
-                                                                             : kBedElevation;
+  const bool hasRuts = isClose && samples.front().soil;
+  const double azimuth = view.azimuth.value_or(hasRuts ? kRutAzimuth : kAzimuth);
+  const double usual = hasRuts                                                 ? kRutElevation
+                       : isMechanism && liesFlat(samples.front().partVertices) ? kFlatElevation
+                       : isClose || isMechanism                                ? kVehicleElevation
+                                                                               : kBedElevation;
   const double elevation = std::clamp(view.elevation.value_or(usual), -kSteepest, kSteepest);
   if (isClose) {
     if (!reader_.hasVehicle())
       throw base::InputError(
           fmt::format("{}: holds no vehicle to look at; give --look-at all", reader_.path().string()));
-    camera_ = cameraOnParts(samples.front().partVertices, view.azimuth, elevation, aspect);
+    camera_ = cameraOnParts(samples.front().partVertices, azimuth, elevation, aspect);
+    if (hasRuts) camera_.eye = camera_.target + (camera_.eye - camera_.target) * kRutDistance;
     hullAtCamera_ = hull(samples.front());
   } else if (!all.empty()) {
-    camera_ = cameraAround(all, view.azimuth, elevation, aspect);
+    camera_ = cameraAround(all, azimuth, elevation, aspect);
   }
   Vec3d towardsEye = camera_.eye - camera_.target;
   if (view.distance) towardsEye = normalized(towardsEye) * *view.distance;
@@ -108,16 +125,30 @@ Image FramePainter::paint(std::size_t index) const {
   for (std::size_t i = 0; i < colours.size(); ++i)
     scene.spheres.push_back({frame.positions[i], frame.radii[i], colours[i]});
   for (const output::StoredPart& part : reader_.parts()) {
-    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), part.kind == output::PartKind::surface};
+    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), part.kind == output::PartKind::surface, {}};
     for (std::uint32_t v = 0; v < part.count; ++v)
       mesh.mesh.vertices.push_back(frame.partVertices[part.first + v].as<double>());
     scene.meshes.push_back(std::move(mesh));
   }
-  if (!reader_.ground().indices.empty()) scene.meshes.push_back({reader_.ground(), {}, groundColour(), true});
+  if (frame.soil)
+    scene.meshes.push_back(ground_.mesh(*frame.soil));
+  else if (!reader_.ground().indices.empty())
+    scene.meshes.push_back({reader_.ground(), {}, groundColour(), true, {}});
 
-  Image image = render(scene, cameraOf(frame), options_.view.width, options_.view.height);
+  const Camera camera = cameraOf(frame);
+  Image image = render(scene, camera, options_.view.width, options_.view.height);
+  if (ground_.hasRange() && frame.soil) {
+    // Stresses act under the vehicle: it is transparent.
+    scene.meshes.erase(scene.meshes.begin(), scene.meshes.end() - 1);
+    blend(image, render(scene, camera, options_.view.width, options_.view.height));
+  }
   if (!font_) return image;
   drawCaption(image, *font_, fmt::format("t = {:.3f} s", frame.time));
+  if (ground_.hasRange()) {
+    std::vector<Colour> scale;
+    for (int i = 0; i < 256; ++i) scale.push_back(ground_.scaleColour(i / 255.0));
+    drawScale(image, *font_, ground_.title(), ground_.shownRange().low, ground_.shownRange().high, scale);
+  }
   if (colours.empty()) return image;
   if (colours_->hasRange()) {
     std::vector<Colour> scale;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runs/output/frames_reader.hpp"
-#include "runs/render/grain_colours.hpp"
+#include "runs/render/ground_colours.hpp"
 #include "runs/render/image.hpp"
 #include "runs/render/labels.hpp"
 #include "runs/render/render.hpp"
@@ -21,8 +21,9 @@ enum class LookAt {
 /// From where, at what, how large.
 struct FrameView {
   LookAt lookAt = LookAt::All;
-  base::Vec3d point;    ///< of LookAt::Point [m]
-  double azimuth = -55; ///< of the camera about z, 0 is +x [deg]
+  base::Vec3d point; ///< of LookAt::Point [m]
+  /// Of the camera about z, 0 is +x [deg]; empty: from the front, from behind on deformable soil.
+  std::optional<double> azimuth;
   /// Of the camera above the horizon [deg]; empty: low for a vehicle or a mechanism, higher for a bed or what lies
   /// flat.
   std::optional<double> elevation;
@@ -33,6 +34,7 @@ struct FrameView {
 struct PaintOptions {
   FrameView view;
   GrainQuantity quantity = GrainQuantity::Depth;
+  GroundQuantity ground = GroundQuantity::Soil; ///< other than Soil: the vehicle is transparent
   std::optional<ValueRange> range;
   Borders borders; ///< where the file has none
   bool labels = true;
@@ -57,6 +59,7 @@ private:
   const output::FramesReader& reader_;
   PaintOptions options_;
   std::unique_ptr<GrainColours> colours_;
+  GroundColours ground_;
   std::unique_ptr<Font> font_;
   Camera camera_;                           ///< at the file's first frame
   std::optional<base::Vec3d> hullAtCamera_; ///< [m] where the camera follows

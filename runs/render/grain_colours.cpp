@@ -53,7 +53,9 @@ GrainQuantity grainQuantity(const std::string& word) {
     if (name == word) return quantity;
     names.push_back(name);
   }
-  throw base::InputError(fmt::format("--color {}: is none of depth, speed, subdomain, role, white; did you mean {}?",
+  names.insert(names.end(), {"sinkage", "pressure", "shear"});
+  throw base::InputError(fmt::format("--color {}: is none of depth, speed, subdomain, role, white, sinkage, pressure, "
+                                     "shear; did you mean {}?",
                                      word, base::nearestWord(word, names)));
 }
 

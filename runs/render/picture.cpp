@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/render/ground_colours.hpp"
 #include "runs/render/labels.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +17,6 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kAzimuth = -55;      ///< [deg] of the camera
 constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
 constexpr double kWholeBed =
     1.5; ///< multiple of the distance to a vehicle beyond which the picture shows the whole bed
@@ -33,8 +33,6 @@ struct Box {
 };
 
 } // namespace
-
-Colour groundColour() { return srgb(168, 152, 128); }
 
 Colour partColour(output::PartKind kind) {
   using Kind = output::PartKind;
@@ -140,7 +138,7 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
   for (std::size_t i = 0; i < parts.size(); ++i) {
     // A rigid surface is drawn from the side of the grains alone.
     const bool surface = parts[i].kind == output::PartKind::surface;
-    scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface});
+    scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface, {}});
     std::vector<Vec3d> corners;
     for (const Vec3d& v : parts[i].mesh.vertices) corners.push_back(frame.partPoses[i].toWorld(v));
     if (surface)
@@ -148,13 +146,17 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
     else
       for (const Vec3d& v : corners) vehicle.push_back(v.as<float>());
   }
-  if (!ground.indices.empty()) scene.meshes.push_back({ground, {}, groundColour()});
+  if (frame.soil)
+    scene.meshes.push_back(GroundColours().mesh(*frame.soil));
+  else if (!ground.indices.empty())
+    scene.meshes.push_back({ground, {}, groundColour(), false, {}});
   Camera camera;
   std::vector<Ball> seen;
   if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
   if (!vehicle.empty()) {
-    const double elevation = liesFlat(vehicle) ? kFlatElevation : kVehicleElevation;
-    camera = cameraOnParts(vehicle, kAzimuth, elevation, kAspect);
+    const double elevation = frame.soil ? kRutElevation : liesFlat(vehicle) ? kFlatElevation : kVehicleElevation;
+    camera = cameraOnParts(vehicle, frame.soil ? kRutAzimuth : kAzimuth, elevation, kAspect);
+    if (frame.soil) camera.eye = camera.target + (camera.eye - camera.target) * kRutDistance;
     // A bed little larger than the vehicle is seen whole; of a larger one no corner comes into view.
     if (!seen.empty()) {
       for (const base::Vec3f& v : vehicle) seen.push_back({v.as<double>(), 0});

@@ -9,9 +9,11 @@ namespace grouser::render {
 
 /// Elevation of the camera above a vehicle, above a bed alone, and above parts that lie flat [deg].
 inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevation = 60;
+inline constexpr double kAzimuth = -55; ///< of the camera about z [deg]
+/// The same above a vehicle on deformable soil, from behind, so that its ruts are seen; and how much farther away.
+inline constexpr double kRutElevation = 24, kRutAzimuth = -140, kRutDistance = 1.3;
 
 Colour partColour(output::PartKind kind);
-Colour groundColour();
 
 /// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
 /// grains, axis by axis, than these are wide; of less than 100 grains none.

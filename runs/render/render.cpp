@@ -224,7 +224,10 @@ Image render(const RenderScene& scene, const Camera& camera, int width, int heig
     const std::size_t i = seen.index(column, row);
     if (seen.object[i] < 0) return background(row, view.height);
     const std::size_t object = static_cast<std::size_t>(seen.object[i]), spheres = scene.spheres.size();
-    const Colour& colour = object < spheres ? scene.spheres[object].colour : scene.meshes[object - spheres].colour;
+    const bool coloured = object >= spheres && !scene.meshes[object - spheres].vertexColours.empty();
+    const Colour& colour = object < spheres ? scene.spheres[object].colour
+                           : coloured       ? seen.colour[i]
+                                            : scene.meshes[object - spheres].colour;
     const Vec3f p = view.toWorld(view.at(column, row, seen.depth[i])), n = seen.normalAt(i);
     return shade(colour, n, normalized(view.eye - p), sunlit(sun, p, n), smoothed(seen, open, column, row, reach));
   };

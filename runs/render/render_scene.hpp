@@ -20,7 +20,8 @@ struct RenderMesh {
   base::TriangleMesh mesh;
   base::Pose pose; ///< X_WB
   Colour colour;
-  bool oneSided = false; ///< not seen from behind: a container's near wall does not hide what is in it
+  bool oneSided = false;                  ///< not seen from behind: a container's near wall does not hide what is in it
+  std::vector<Colour> vertexColours = {}; ///< of each vertex, in place of `colour`; empty: one colour
 };
 
 struct RenderScene {

@@ -14,6 +14,7 @@ import definitions
 import grouser
 import page as pages
 import soil_fields
+import soil_ground
 import space
 from grouser.series import counted
 from page import NOTHING, esc, exact, facts, figure_with_bar, folded, number, run_name, table, term
@@ -38,7 +39,12 @@ CURVES = (
     ("What is lost, by cause", "energy [J]", ["ledger.dissipated_damping", "ledger.dissipated_friction",
                                                "ledger.dissipated_rolling", "ledger.dissipated_parts",
                                                "ledger.dissipated_joints", "ledger.dissipated_yielding",
-                                               "ledger.dissipated_crushing", "ledger.dissipated_micro_slip"]),
+                                               "ledger.dissipated_crushing", "ledger.dissipated_micro_slip",
+                                               "ledger.dissipated_soil"]),
+    ("Energies of deformable soil", "energy [J]", ["ledger.soil_elastic_pressure", "ledger.soil_elastic_shear",
+                                                   "ledger.soil_compaction", "ledger.soil_shear", "ledger.soil_slip_sinkage",
+                                                   "ledger.soil_damping",
+                                                   "ledger.soil_edges", "ledger.soil_coupling"]),
     ("What the length of the steps costs", "energy [J]", ["ledger.integration_error", "ledger.residual"]),
     ("Pairs of grains in touch", "contacts [-]", ["terrain.contacts"]),
     ("Largest overlap", "overlap [grain radii]", ["terrain.max_overlap", "terrain.part_overlap"]),
@@ -82,7 +88,8 @@ def meanings(columns):
     """What the curves are: "speed: of the hull at this track; ..."."""
     told = {}
     for _, _, series in columns:
-        help_ = series.help.replace("sum of the seven below", "all that is lost")  # results list its parts below it
+        # Results list its parts below it.
+        help_ = re.sub("sum of the (eight|nine causes) below", "all that is lost", series.help)
         told.setdefault(re.sub(r"^(left|right) ", "", short(series.name)), help_)
     return "; ".join(f"{what}: {help_}" for what, help_ in told.items())
 
@@ -243,7 +250,7 @@ def figures(run, options):
 def constants(run):
     rows = []
     for name, q in run.constants.items():
-        if q.value.shape == () and q.value.dtype.kind in "fiu":
+        if q.value.shape == () and q.value.dtype.kind in "fiu" and not name.startswith("terrain.soil."):
             rows.append([f"<code>{esc(name)}</code>", number(float(q), "", name), esc(q.unit), esc(q.help)])
     begun = run.manifest.get("resumed_from_step")
     of = "of the run" if begun is None else f"of its last part, resumed from step {begun}"
@@ -381,6 +388,7 @@ def page(folder, options):
         films([run.folder], options), pages.picture(run.folder / "picture.png", "The end of the run"),
         pages.picture(run.folder / "surface.png", "The ground's surface, with the path of the vehicle")]))
     made.section("fields", "Fields of the soil", soil_fields.section(run))
+    made.section("deformable", "Deformable soil", soil_ground.section(made, run))
     made.section("plots", "Plots", curves(made, run))
     made.section("ledger", "Energy ledger", ledger([run]))
     made.section("series", "All series", any_series(made, run))

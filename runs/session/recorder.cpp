@@ -5,6 +5,7 @@
 #include "runs/output/former_output.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/plane_mesh.hpp"
+#include "runs/output/soil_surface.hpp"
 #include "runs/output/surface_mesh.hpp"
 #include "runs/render/image.hpp"
 #include "runs/render/picture.hpp"
@@ -189,6 +190,10 @@ void Recorder::finalSurface() {
   // On several ranks all find the same; radii of what is left must not have changed the nodes.
   if (undisturbed && !heights.empty() && heights.size() == undisturbed->height.size())
     writer_.finalSurface(heights, undisturbed->x.size());
+  if (const auto fields = simulation_.actingGround()->fieldsNow()) {
+    const vehicle::Observation now = simulation_.vehicle()->observe();
+    writer_.soil(output::soilResult(*fields, now.position, {base::cos(now.heading), base::sin(now.heading), 0}));
+  }
 }
 
 void Recorder::frame() {
@@ -219,6 +224,9 @@ output::Frame Recorder::currentFrame() const {
   if (const auto& grains = simulation_.ground().grains)
     addGrains(frame, *grains, record_.output.contactForces,
               simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerMotion());
+  if (const coupling::Ground* ground = simulation_.actingGround())
+    if (const auto fields = ground->fieldsNow())
+      frame.soil = std::make_shared<output::SoilSurface>(output::soilSurface(*fields, *simulation_.ground().surface));
   if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p)
       frame.partPoses.push_back(vehicle::partPose(rig->assembly().parts[p], rig->state()));

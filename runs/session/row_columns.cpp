@@ -63,7 +63,9 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
   if (rig && grains && output.gearContacts)
     add(output::gearColumns(), [&s = simulation](const Now&) { return s.granularGround()->onParts()->gearContacts(); });
   // A mechanism without contacts has no contact impulses to balance.
-  add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches()),
+  const coupling::Ground* ground = simulation.actingGround();
+  add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches(),
+                            ground && ground->traits().deforms),
       [](const Now& now) { return now.ledger; });
   requirePlotted(channels_, output.plots);
 }

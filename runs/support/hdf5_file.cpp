@@ -104,6 +104,9 @@ void quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+constexpr hsize_t kCompressedRows = 65536; // of a chunk, at most
+constexpr unsigned kCompression = 4;       // of zlib's levels 1 to 9
+
 NotWritten failure(const std::filesystem::path& path, const char* what) {
   return notWritten(path, fmt::format("HDF5 could not {}", what));
 }
@@ -251,15 +254,22 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
 }
 
 void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
-                            const std::vector<std::uint64_t>& shape) {
+                            const std::vector<std::uint64_t>& shape, bool compressed) {
   const Turn turn;
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const bool isEmpty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
   const Handle parents(makeParents(), H5Pclose);
-  const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, H5P_DEFAULT, H5P_DEFAULT),
-                  H5Dclose);
+  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (compressed && !isEmpty && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    std::vector<hsize_t> chunk = extent;
+    chunk.front() = std::min<hsize_t>(chunk.front(), kCompressedRows);
+    H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data());
+    H5Pset_shuffle(layout);
+    H5Pset_deflate(layout, kCompression);
+  }
+  const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT), H5Dclose);
   check(id, "make a dataset");
-  const bool isEmpty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
   if (!isEmpty) check(H5Dwrite(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), "write a dataset");
 }
 

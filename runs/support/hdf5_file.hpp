@@ -69,9 +69,10 @@ public:
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values);
 
-  template <class T>
-  void write(const std::string& dataset, const std::vector<T>& numbers, const std::vector<std::uint64_t>& shape) {
-    writeNumbers(dataset, numbers.data(), NumberTypeOf<T>::value, shape);
+  /// `compressed`: without loss, by zlib, which HDF5's readers have.
+  template <class T> void write(const std::string& dataset, const std::vector<T>& numbers,
+                                const std::vector<std::uint64_t>& shape, bool compressed = false) {
+    writeNumbers(dataset, numbers.data(), NumberTypeOf<T>::value, shape, compressed);
   }
   /// A dataset whose rows come later, with room for all of them on the disk.
   template <class T> void reserve(const std::string& dataset, const std::vector<std::uint64_t>& shape) {
@@ -124,7 +125,7 @@ public:
 private:
   Hdf5File(std::int64_t file, std::filesystem::path path) : file_(file), path_(std::move(path)) {}
   void writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
-                    const std::vector<std::uint64_t>& shape);
+                    const std::vector<std::uint64_t>& shape, bool compressed);
   void reserveNumbers(const std::string& dataset, NumberType type, const std::vector<std::uint64_t>& shape);
   void writeRowNumbers(const std::string& dataset, std::uint64_t first, const void* numbers, std::size_t count,
                        NumberType type);

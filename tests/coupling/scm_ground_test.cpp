@@ -74,6 +74,36 @@ TEST(ScmGround, CarriesTheVehicleWithItsBooksClosed) {
   EXPECT_GT(energy.compaction, 0);
   EXPECT_GT(energy.shear, 0);
   EXPECT_GT(energy.elastic, 0);
+  EXPECT_EQ(ledger.soil.compaction, energy.compaction);
+  EXPECT_EQ(ledger.dissipated.soil, energy.lost()) << "apart from the contacts of parts with each other";
+  EXPECT_LT(ledger.dissipated.parts, ledger.dissipated.total() - energy.lost() + 1e-9);
+}
+
+TEST(ScmGround, TellsItsSurfaceAndStressesNow) {
+  Simulation simulation(
+      onSoil(), base::cpuExec(1), [](double, double) {}, {}, nullptr, cutOnce());
+  const auto fieldsNow = [&] { return *simulation.actingGround()->fieldsNow(); };
+  EXPECT_TRUE(fieldsNow().nodes.empty());
+  advanceTo(simulation, 0.35);
+  const GroundFields fields = fieldsNow();
+  EXPECT_EQ(fields.spacing, 0.034);
+  EXPECT_EQ(fields.constants.kc, lete().kc);
+  double carried = 0, pressed = 0, deepest = 0;
+  for (std::size_t n = 0; n < fields.nodes.size(); ++n) {
+    const SoilNode& node = fields.nodes[n];
+    if (n > 0) {
+      EXPECT_LT(std::pair(fields.nodes[n - 1].j, fields.nodes[n - 1].i), std::pair(node.j, node.i));
+    }
+    EXPECT_LE(node.pressure, node.maxPressure * (1 + 1e-12));
+    EXPECT_GT(node.sinkage, 0);
+    if (node.pressure > 0) deepest = std::max(deepest, node.sinkage);
+    carried += node.pressure * fields.spacing * fields.spacing;
+  }
+  double most = 0;
+  for (const scm::PadLoad& load : padsOf(simulation).loads())
+    pressed += load.pressed, most = std::max(most, load.sinkage);
+  EXPECT_NEAR(carried, pressed, 0.05 * pressed) << "but for damping and the pitch of the shoes";
+  EXPECT_NEAR(deepest, most, 1e-12) << "under a shoe the surface lies at the shoe, not where it rebounds to";
 }
 
 TEST(ScmGround, GoesOnFromASavedStateWithTheSameBits) {

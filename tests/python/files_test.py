@@ -11,7 +11,7 @@ import grouser
 
 KINDS = {"results.h5": "results.h5", "frames.h5": "frames.h5", "checkpoint.h5": "checkpoint.h5, and beds that are kept"}
 #: Of what no small scene has: runs of several ranks.
-RARE = {"/ground/state", "/FRAME/partition/AXIS"}
+RARE = {"/FRAME/partition/AXIS"}
 QUIET = {"plots": False, "picture": False}
 
 
@@ -104,6 +104,10 @@ class FilesOfResults(FolderTest):
         obstacles = grouser.Scene.read(ROOT / "tests/scenes/obstacles.toml")
         obstacles["run.duration"] = 0.002
         self.run_and_look(obstacles, "obstacles")
+        soil = grouser.Scene.read(ROOT / "runs/scenes/scm_drive.toml")
+        soil["run.duration"] = 0.1
+        soil["driver"].update(tension_ramp=0.002, weight_ramp=0.002)
+        self.run_and_look(soil, "soil")
         moving = grouser.Scene.read(ROOT / "tests/scenes/moving.toml")
         moving["run.duration"] = 0.01
         moving["output"] = {"fields_cell": 0.03}

@@ -104,6 +104,21 @@ class Readable(FolderTest):
             self.assertAlmostEqual(one.x0, other.x0)
             self.assertAlmostEqual(one.x1, other.x1)
 
+    def test_deformable_soil_has_the_map_of_its_sinkage(self):
+        sinkage = numpy.zeros((21, 51))
+        sinkage[15:18] = 0.012
+        file = written("results.h5", final=False)
+        with h5py.File(file, "r+") as results:
+            results["terrain/soil/sinkage"], results["terrain/soil/origin"] = sinkage, numpy.array([0.0, -1.0])
+            results["terrain/soil/spacing"] = numpy.array([0.1])
+        with h5py.File(file) as results:
+            plan, section, bar, *_ = self.drawn(surface.plot(series.Run(results))).axes
+        self.assertEqual(plan.get_xlim(), section.get_xlim())
+        self.assertAlmostEqual(plan.collections[0].get_array().max(), 12)
+        self.assertEqual(bar.get_ylabel(), "sinkage [mm]")
+        self.assertTrue(numpy.allclose(section.lines[0].get_ydata(), -12), "along the deepest rut")
+        self.assertIn("y = 0.50 m", section.get_ylabel())
+
     def test_a_close_up_is_drawn_where_it_shows_something_else(self):
         self.assertEqual(len(self.figure_of(shoes.heights).axes), 2)
         self.assertEqual(len(self.figure_of(shoes.heights, rise=0.002).axes), 1)

@@ -58,6 +58,37 @@ TEST(PadContacts, AreaOfAPadDoesNotDependOnHowItLiesOnTheGrid) {
   }
 }
 
+TEST(PadContacts, StressesAtNodesAddUpToTheLoads) {
+  constexpr double kSpacing = 0.02, kDeep = 0.01;
+  SoilMap map(kSpacing, level);
+  SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0), shoe(1)}, {}, 1e-4);
+  // Two shoes side by side, which share nodes, slip by 5 mm.
+  contact::PartMotion m[2];
+  for (const double slip : {0.0, -0.005}) {
+    m[0] = at({slip, 0.003, -kDeep}, 0.3);
+    m[1] = at({slip + 2 * kHalfLength * std::cos(0.3), 0.003 + 2 * kHalfLength * std::sin(0.3), -kDeep}, 0.3);
+    contacts.step(m);
+  }
+  double pressed = 0;
+  Vec3d shear, loads;
+  contacts.forEachLoaded([&](const NodeStress& stress) {
+    pressed += stress.pressure * kSpacing * kSpacing, shear += stress.shear * (kSpacing * kSpacing);
+    EXPECT_NEAR(stress.depth, kDeep, 1e-12);
+  });
+  for (const PadLoad& load : contacts.pads().loads()) loads += load.force;
+  EXPECT_NEAR(pressed, loads.z, 1e-9 * loads.z);
+  EXPECT_LT(norm(shear + Vec3d{loads.x, loads.y, 0}), 1e-9 * norm(shear))
+      << "on the soil: opposite to that on the pads";
+  EXPECT_LT(shear.x, 0) << "pads that move backwards pull the soil backwards";
+  // A restored state has the same stresses.
+  SoilMap other(kSpacing, level);
+  SoilContacts restored(lete(), 0.5, {}, other, {shoe(0), shoe(1)}, {}, 1e-4);
+  ASSERT_TRUE(restored.restore(contacts.save()));
+  Vec3d again;
+  restored.forEachLoaded([&](const NodeStress& stress) { again += stress.shear * (kSpacing * kSpacing); });
+  EXPECT_EQ(again.x, shear.x);
+}
+
 TEST(PadContacts, APitchedPadBearsByItsHorizontalArea) {
   constexpr double kPitch = 0.3, kDeep = 0.04;
   SoilMap map(0.004, level);

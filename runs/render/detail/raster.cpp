@@ -86,7 +86,7 @@ void draw(const PlacedSphere& sphere, int top, int bottom, Surfaces& s) {
 }
 
 struct Corner {
-  Vec3f p_C, normal;
+  Vec3f p_C, normal, colour;
 };
 
 struct Polygon {
@@ -99,7 +99,7 @@ struct Polygon {
 Polygon clipped(const Facet& f, const View& view) {
   std::array<Corner, 3> in;
   Polygon out;
-  for (std::size_t k = 0; k < 3; ++k) in[k] = {view.toCamera(f.corner[k]), f.normal[k]};
+  for (std::size_t k = 0; k < 3; ++k) in[k] = {view.toCamera(f.corner[k]), f.normal[k], f.colour[k]};
   if (!view.perspective) return {{in[0], in[1], in[2]}, 3};
   for (std::size_t k = 0; k < 3; ++k) {
     const Corner &a = in[k], &b = in[(k + 1) % 3];
@@ -107,7 +107,8 @@ Polygon clipped(const Facet& f, const View& view) {
     if (aIn) out.add(a);
     if (aIn != bIn) {
       const float t = (view.near - a.p_C.z) / (b.p_C.z - a.p_C.z);
-      out.add({a.p_C + (b.p_C - a.p_C) * t, a.normal + (b.normal - a.normal) * t});
+      out.add(
+          {a.p_C + (b.p_C - a.p_C) * t, a.normal + (b.normal - a.normal) * t, a.colour + (b.colour - a.colour) * t});
     }
   }
   return out;
@@ -116,10 +117,11 @@ Polygon clipped(const Facet& f, const View& view) {
 /// One triangle on the screen; `w` is 1/depth (perspective) or 1 (parallel): what is linear over the screen is value w.
 struct ScreenTriangle {
   std::array<float, 3> x, y, z, w;
-  std::array<Vec3f, 3> normal;
+  std::array<Vec3f, 3> normal, colour;
   float area;
   Rectangle bounds;
   std::int32_t object;
+  bool coloured;
 };
 
 void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& list) {
@@ -133,6 +135,7 @@ void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& li
     const Corner* c[3] = {polygon.corner.data(), &polygon.corner[k - 1], &polygon.corner[k]};
     for (std::size_t i = 0; i < 3; ++i) {
       t.z[i] = c[i]->p_C.z, t.w[i] = view.perspective ? 1 / t.z[i] : 1, t.normal[i] = c[i]->normal;
+      t.colour[i] = c[i]->colour;
       t.x[i] = 0.5f * float(view.width) + c[i]->p_C.x * t.w[i] * view.pixelsPerUnit();
       t.y[i] = 0.5f * float(view.height) - c[i]->p_C.y * t.w[i] * view.pixelsPerUnit();
     }
@@ -144,7 +147,7 @@ void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& li
     // Pixels whose middle may lie inside: most small triangles have none.
     t.bounds = {clampTo(std::ceil(*x0 - 0.5f), view.width), clampTo(std::floor(*x1 + 0.5f), view.width),
                 clampTo(std::ceil(*y0 - 0.5f), view.height), clampTo(std::floor(*y1 + 0.5f), view.height)};
-    t.object = facet.object;
+    t.object = facet.object, t.coloured = facet.coloured;
     if (t.bounds.left < t.bounds.right && t.bounds.top < t.bounds.bottom) list.push_back(t);
   }
 }
@@ -170,6 +173,9 @@ void draw(const ScreenTriangle& t, int top, int bottom, Surfaces& s) {
       n = size > 0 ? n * (1 / size) : Vec3f{0, 0, 1};
       const Vec3f ray = s.view.turn(s.view.perspective ? s.view.at(column, row, 1) : Vec3f{0, 0, 1});
       put(s, at, depth, dot(n, ray) > 0 ? -n : n, t.object);
+      if (t.coloured)
+        s.colour[at] =
+            (t.colour[0] * (b[0] * t.w[0]) + t.colour[1] * (b[1] * t.w[1]) + t.colour[2] * (b[2] * t.w[2])) * (1 / w);
     }
 }
 
@@ -220,7 +226,8 @@ void facetsOf(const RenderMesh& part, std::int32_t object, Facet* facets) {
   std::vector<Vec3f> areaNormal(triangles);
   for (std::size_t t = 0; t < triangles; ++t) {
     Facet& f = facets[t];
-    f.object = object, f.oneSided = part.oneSided;
+    f.object = object, f.oneSided = part.oneSided, f.coloured = !part.vertexColours.empty();
+    for (std::size_t k = 0; k < 3 && f.coloured; ++k) f.colour[k] = part.vertexColours[corners[3 * t + k]];
     for (std::size_t k = 0; k < 3; ++k)
       f.corner[k] = part.pose.toWorld(part.mesh.vertices[corners[3 * t + k]]).as<float>();
     areaNormal[t] = cross(f.corner[1] - f.corner[0], f.corner[2] - f.corner[0]);
@@ -282,6 +289,8 @@ template <class Placed> std::vector<std::vector<std::uint32_t>> byBand(const std
 void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets, Surfaces& surfaces) {
   const std::vector<PlacedSphere> placed = place(surfaces.view, spheres);
   const std::vector<ScreenTriangle> triangles = place(surfaces.view, facets);
+  if (std::any_of(facets.begin(), facets.end(), [](const Facet& f) { return f.coloured; }))
+    surfaces.colour.resize(surfaces.depth.size());
   const int bands = (surfaces.view.height + kBandRows - 1) / kBandRows;
   const auto trianglesIn = byBand(triangles, bands), spheresIn = byBand(placed, bands);
 #pragma omp parallel for schedule(dynamic)

@@ -55,6 +55,7 @@ struct Surfaces {
   std::vector<float> depth;                        ///< along z of the camera; infinite where nothing is
   std::vector<std::array<std::int16_t, 3>> normal; ///< world, times 32767
   std::vector<std::int32_t> object;                ///< sphere i, or spheres + mesh j; -1 where nothing is
+  std::vector<Vec3f> colour;                       ///< of meshes with colours at their vertices; empty: there is none
 
   std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * view.width + column; }
   Vec3f normalAt(std::size_t i) const {
@@ -64,9 +65,9 @@ struct Surfaces {
 
 /// A triangle in the world with the normal at each corner.
 struct Facet {
-  std::array<Vec3f, 3> corner, normal;
+  std::array<Vec3f, 3> corner, normal, colour; ///< colours of a mesh that has them at its vertices
   std::int32_t object{};
-  bool oneSided{};
+  bool oneSided{}, coloured{};
 };
 
 /// All triangles of a scene; corners are smooth where neighbouring faces differ by less than 35 degrees.

@@ -160,6 +160,8 @@ TEST_F(RenderFrames, WrongWordsAreNamedAndNothingIsWritten) {
   };
   const auto says = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.color = "sped"; }), "did you mean speed");
+  EXPECT_PRED2(says, message([](RenderCommand& c) { c.color = "presure"; }), "did you mean pressure");
+  EXPECT_PRED2(says, message([](RenderCommand& c) { c.color = "pressure"; }), "holds no deformable soil");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.size = "100"; }), "WIDTHxHEIGHT");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.size = "100x9999999"; }), "WIDTHxHEIGHT");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.range = {2, 1}; }), "lower end first");

@@ -59,6 +59,22 @@ TEST(Channels, OfTheLedgerReadEachItsOwnField) {
   EXPECT_FALSE(valuesOf(ledgerColumns(false), l).contains("ledger/impulse_residual")) << "of a mechanism";
 }
 
+TEST(Channels, OfDeformableSoilStandBesideThoseOfAllLedgers) {
+  coupling::Ledger l;
+  l.soil = {1, 2, 3, 4, 8, 5, 6, 7};
+  l.dissipated.soil = l.soil.lost();
+  std::map<std::string, Numbers> found = valuesOf(ledgerColumns(true, true), l);
+  const std::map<std::string, Numbers> expected = {
+      {"ledger/soil_elastic_pressure", {1}}, {"ledger/soil_elastic_shear", {2}},
+      {"ledger/soil_compaction", {3}},       {"ledger/soil_shear", {4}},
+      {"ledger/soil_damping", {5}},          {"ledger/soil_edges", {6}},
+      {"ledger/soil_coupling", {7}},         {"ledger/soil_slip_sinkage", {8}},
+      {"ledger/dissipated_soil", {33}}};
+  for (const auto& [path, numbers] : expected) EXPECT_EQ(found[path], numbers) << path;
+  EXPECT_EQ(found["ledger/dissipated"], Numbers{33}) << "part of the sum";
+  EXPECT_EQ(found.size(), valuesOf(ledgerColumns(), l).size() + expected.size());
+}
+
 TEST(Channels, OfTheBedReadLedgerAndWhatHasPressedAGrainMost) {
   TerrainReading bed;
   coupling::Ledger& l = bed.ledger;

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace grouser::output {
+
+/// A number of the whole run.
+struct ResultConstant {
+  const char *path, *unit, *help;
+};
+
+} // namespace grouser::output

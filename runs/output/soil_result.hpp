@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "coupling/ground_fields.hpp"
+#include "runs/output/result_constant.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::output {
+
+/// Deformable soil at the end of a run: maps over the touched area, and a section of the rut.
+struct SoilResult {
+  scm::SoilConstants constants;
+  std::vector<double> origin;  ///< x, y of the first node [m]
+  std::vector<double> spacing; ///< of the maps' nodes: that of the soil, or a multiple for large areas [m]
+  std::uint64_t columns{}, rows{};
+  std::vector<float> sinkage, pressure, shear, maxPressure; ///< [rows, columns] [m], [Pa]
+  std::vector<double> sectionOffset, sectionSinkage;        ///< [m]
+};
+
+/// A map of the soil.
+struct SoilMapField {
+  ResultConstant field;
+  std::vector<float> SoilResult::*member;
+};
+inline constexpr SoilMapField kSoilMaps[] = {
+    {{"terrain/soil/sinkage", "m",
+      "of deformable soil at the end of the run, below the undisturbed surface; row j at y = origin[1] + j spacing, "
+      "column "
+      "i at x = origin[0] + i spacing"},
+     &SoilResult::sinkage},
+    {{"terrain/soil/pressure", "Pa", "on the soil at the end, at the same nodes"}, &SoilResult::pressure},
+    {{"terrain/soil/shear", "Pa", "magnitude of the shear stress on the soil at the end, at the same nodes"},
+     &SoilResult::shear},
+    {{"terrain/soil/max_pressure", "Pa", "maximum of the pressure since the start, at the same nodes"},
+     &SoilResult::maxPressure},
+};
+
+/// Other numbers of the soil.
+struct SoilLine {
+  ResultConstant line;
+  const char* shape; ///< for docs/files.md
+  std::vector<double> SoilResult::*member;
+};
+inline constexpr SoilLine kSoilLines[] = {
+    {{"terrain/soil/origin", "m", "x and y of the first node of the maps of deformable soil"},
+     "[2]",
+     &SoilResult::origin},
+    {{"terrain/soil/spacing", "m", "of the nodes of these maps"}, "[1]", &SoilResult::spacing},
+    {{"terrain/soil/section_offset", "m", "of the rut's section from the middle of the vehicle, left positive"},
+     "[n]",
+     &SoilResult::sectionOffset},
+    {{"terrain/soil/section_sinkage", "m",
+      "mean over the last 0.5 m of the rut behind the tracks, across the heading at the end; without a rut: under the "
+      "tracks"},
+     "[n]",
+     &SoilResult::sectionSinkage},
+};
+
+/// A constant of the soil.
+struct SoilConstantField {
+  ResultConstant constant;
+  double scm::SoilConstants::*member;
+};
+inline constexpr SoilConstantField kSoilConstants[] = {
+    {{"terrain/soil/n", "-", "exponent of Bekker's relation"}, &scm::SoilConstants::exponent},
+    {{"terrain/soil/k_c", "N/m^(n+1)", "cohesive modulus"}, &scm::SoilConstants::kc},
+    {{"terrain/soil/k_phi", "N/m^(n+2)", "frictional modulus"}, &scm::SoilConstants::kphi},
+    {{"terrain/soil/c", "Pa", "cohesion"}, &scm::SoilConstants::cohesion},
+    {{"terrain/soil/tan_phi", "-", "tangent of the angle of internal friction"}, &scm::SoilConstants::friction},
+    {{"terrain/soil/K", "m", "shear displacement modulus"}, &scm::SoilConstants::shearDisplacement},
+    {{"terrain/soil/elastic_ratio", "-",
+      "ratio of the unloading slope to p / z at the end of virgin loading, at least"},
+     &scm::SoilConstants::elasticRatio},
+    {{"terrain/soil/damping", "Pa s/m", "during compression"}, &scm::SoilConstants::damping},
+};
+
+/// `position` and unit vector `heading` of the vehicle. Empty maps where no soil was touched.
+SoilResult soilResult(const coupling::GroundFields& fields, const base::Vec3d& position, const base::Vec3d& heading);
+
+} // namespace grouser::output

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/output/frames_reader.hpp"
+#include "runs/render/grain_colours.hpp"
+#include "runs/render/render_scene.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::render {
+
+/// Meaning of the colour of deformable soil.
+enum class GroundQuantity {
+  Soil,     ///< none: soil, darker where it was pressed
+  Sinkage,  ///< of the surface below the undisturbed one [m]
+  Pressure, ///< [Pa]
+  Shear     ///< magnitude of the shear stress [Pa]
+};
+
+/// Of "sinkage", "pressure" or "shear"; none for any other word.
+std::optional<GroundQuantity> groundQuantity(const std::string& word);
+
+/// Colours of deformable soil; the same for all frames of a film.
+class GroundColours {
+public:
+  explicit GroundColours(GroundQuantity quantity = GroundQuantity::Soil) : quantity_(quantity) {}
+  /// Colours over `range`; without it from 0, or the minimum below that, to the maximum in `samples`.
+  GroundColours(GroundQuantity quantity, const std::vector<output::StoredFrame>& samples,
+                std::optional<ValueRange> range);
+
+  bool hasRange() const { return quantity_ != GroundQuantity::Soil; }
+  /// Values at the ends of the colours, in the unit of title().
+  ValueRange shownRange() const;
+  std::string title() const; ///< "pressure [kPa]"
+  /// The colour at a place of the range, 0 to 1, of soil of this colour.
+  Colour scaleColour(double place, const Colour& soil = groundColour()) const;
+  RenderMesh mesh(const output::SoilSurface& soil) const;
+
+private:
+  GroundQuantity quantity_;
+  ValueRange range_;
+};
+
+} // namespace grouser::render

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The section of deformable soil: constants, map of the ruts, profiles, pressure under the tracks, energies."""
+import base64
+import math
+import struct
+import zlib
+
+import numpy
+
+import soil_fields
+from page import esc, folded, number, pictures, table, term
+
+MOST_PIXELS = 1600  # of a map along x and y
+ENERGIES = ("elastic_pressure", "elastic_shear", "compaction", "shear", "slip_sinkage", "damping", "edges", "coupling")
+
+
+def png(colours):
+    """A picture of [rows, columns, 3] bytes as a data URI."""
+    rows, columns, _ = colours.shape
+    lines = b"".join(b"\0" + row.tobytes() for row in numpy.ascontiguousarray(colours, dtype=numpy.uint8))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    head = struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)
+    data = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b"")
+    return "data:image/png;base64," + base64.b64encode(data).decode()
+
+
+class Soil:
+    """Maps of deformable soil at the end of a run; along and across are those of the vehicle's heading, from the middle
+    of its sprockets' axle."""
+
+    def __init__(self, run):
+        def of(name):
+            return numpy.asarray(run.constants[f"terrain.soil.{name}"].value, dtype=float)
+        self.spacing, self.origin = float(of("spacing")), of("origin")
+        self.maps = {name: of(name) for name in ("sinkage", "pressure", "shear", "max_pressure")}
+        rows, columns = self.maps["sinkage"].shape
+        self.x = self.origin[0] + self.spacing * numpy.arange(columns)
+        self.y = self.origin[1] + self.spacing * numpy.arange(rows)
+        self.section = [of(f"section_{name}") for name in ("offset", "sinkage")] \
+            if "terrain.soil.section_offset" in run.constants else None
+        place, heading = run["vehicle.position"].value[-1], float(run["vehicle.heading"].value[-1])
+        east, north = numpy.meshgrid(self.x - place[0], self.y - place[1])
+        self.along = east * math.cos(heading) + north * math.sin(heading)
+        self.across = north * math.cos(heading) - east * math.sin(heading)
+
+    def track(self, side):
+        """Whether each node lies on this side of the vehicle."""
+        return self.across > 0 if side == "left" else self.across < 0
+
+    def profile(self, name, nodes):
+        """(along, mean): means of a map over the nodes of strips across the heading, one spacing long."""
+        place = numpy.round(self.along[nodes] / self.spacing).astype(int)
+        first = place.min()
+        count = numpy.bincount(place - first)
+        total = numpy.bincount(place - first, self.maps[name][nodes])
+        there = count > 0
+        return (numpy.arange(len(count)) + first)[there] * self.spacing, total[there] / count[there]
+
+    def loaded(self, side):
+        return self.track(side) & (self.maps["pressure"] > 0)
+
+
+def constants(run):
+    rows = [[f"<code>{esc(name.rpartition('.')[2])}</code>", number(float(q.value), "", name), esc(q.unit), esc(q.help)]
+            for name, q in run.constants.items()
+            if name.startswith("terrain.soil.") and q.value.shape == ()]
+    return table(["constant", "value", "unit", "what it is"], rows, "Constants of the soil contact model in this run.",
+                 numeric=(1,))
+
+
+def rut_map(soil):
+    """The sinkage as a picture, true to scale, x to the right."""
+    step = max(1, math.ceil(max(soil.maps["sinkage"].shape) / MOST_PIXELS))
+    sinkage = soil.maps["sinkage"][::-step, ::step]
+    low, high = min(0.0, float(sinkage.min())), max(float(sinkage.max()), 1e-6)
+    share = (sinkage - low) / (high - low) * (len(soil_fields.RAMP) - 1)
+    at = numpy.minimum(share.astype(int), len(soil_fields.RAMP) - 2)
+    colours = soil_fields.RAMP[at] + (share - at)[..., None] * (soil_fields.RAMP[at + 1] - soil_fields.RAMP[at])
+    stops = ",".join(soil_fields.colour(s) for s in numpy.linspace(0, 1, 5))
+    bar = (f'<div>{number(low, "m", "sinkage least")}<span style="display:inline-block;width:12rem;height:.7rem;'
+           f'margin:0 .5rem;background:linear-gradient(to right,{stops})"></span>{number(high, "m", "sinkage largest")}'
+           "</div>")
+    words = (f"Sinkage of the surface at the end, x from {soil.x[0]:.2f} m to {soil.x[-1]:.2f} m to the right, y from "
+             f"{soil.y[0]:.2f} m to {soil.y[-1]:.2f} m upwards; nodes {number(soil.spacing, 'm')} apart.")
+    return (f'<figure><strong>Map of the ruts</strong><br><img src="{png(colours.round())}" alt="Map of the ruts" '
+            f'style="width:100%;image-rendering:pixelated">{bar}<figcaption>{words}</figcaption></figure>')
+
+
+def road_wheels(run, side):
+    """Places of the road wheels of a track in the last frame, along the heading; none without frames."""
+    if run.frames is None or not len(run.frames):
+        return []
+    last = run.frames[-1]
+    place, heading = run["vehicle.position"].value[-1], float(run["vehicle.heading"].value[-1])
+    ahead = numpy.array([math.cos(heading), math.sin(heading)])
+    names = [name for name in run.frames.parts if name.startswith(f"{side} road wheel")]
+    return sorted(float((last.pose(name)[0][:2] - place[:2]) @ ahead) for name in names)
+
+
+def peaks(along, pressure, wheels):
+    """The maximum of the pressure around each road wheel, up to the middle between it and the next."""
+    edges = [-math.inf, *((a + b) / 2 for a, b in zip(wheels, wheels[1:])), math.inf]
+    found = [pressure[(along >= low) & (along < high)] for low, high in zip(edges, edges[1:])]
+    return [float(values.max()) for values in found if len(values)]
+
+
+def pressures(made, run, soil):
+    """Pressure under the tracks at the end as a plot, and as a table with the mean maximum pressure."""
+    curves, rows = [], []
+    for side in ("left", "right"):
+        nodes = soil.loaded(side)
+        if not nodes.any():
+            continue
+        along, mean = soil.profile("pressure", nodes)
+        curves.append((side, along, mean))
+        area, force = soil.spacing**2 * nodes.sum(), soil.spacing**2 * soil.maps["pressure"][nodes].sum()
+        rows.append([esc(side), *(number(float(v), "", f"{side} {what}") for what, v in (
+            ("normal force", force), ("pressed area", area), ("mean pressure", force / area), ("maximum", mean.max())))])
+        wheels = road_wheels(run, side)
+        found = peaks(along, mean, wheels) if len(wheels) > 1 else []
+        rows[-1].append(number(sum(found) / len(found), "", f"{side} mean maximum pressure") if found else "none")
+    if not curves:
+        return "", ""
+    words = ("Pressure on the soil at the end of the run, mean over the width of a track, from the middle of the sprockets' "
+             "axle, forward positive; without damping.")
+    caption = ("Mean maximum pressure: mean over the road wheels of the maximum around each of them"
+               f"{'' if run.frames else '; it needs output.frames = true'}.")
+    return made.plot("Pressure under the tracks", "distance along the vehicle [m]", "pressure [Pa]", curves, words,
+                     about=words), table(
+        ["track", "normal force [N]", "pressed area [m2]", "mean pressure [Pa]", "maximum [Pa]",
+         "mean maximum pressure [Pa]"], rows, caption, numeric=range(1, 6))
+
+
+def profiles(made, soil):
+    figures = []
+    if soil.section is not None:
+        words = "mean over the last 0.5 m of the rut behind the tracks, across the heading; left positive"
+        figures.append(made.plot("Rut across", "offset from the middle of the vehicle [m]", "height [m]",
+                                 [("surface", soil.section[0], -soil.section[1])], f"{words}.", about=words))
+    curves = []
+    for side in ("left", "right"):
+        nodes = soil.track(side) & (soil.maps["max_pressure"] > 0)
+        if nodes.any():
+            along, mean = soil.profile("sinkage", nodes)
+            curves.append((side, along, -mean))
+    if curves:
+        words = "mean over the pressed width of each track, along the heading at the end, from the middle of the sprockets' axle"
+        figures.append(made.plot("Rut along", "distance along the vehicle [m]", "height [m]", curves, f"{words}.", about=words))
+    return "".join(figures)
+
+
+def energies(run):
+    rows = []
+    for name in ("dissipated_soil", *(f"soil_{word}" for word in ENERGIES)):
+        if f"ledger.{name}" in run and len(run.time):
+            series = run[f"ledger.{name}"]
+            rows.append([term(name.replace("_", " "), series.help),
+                         number(float(series.value[-1]), "", f"soil energy {name}"), "J", esc(series.help)])
+    return table(["energy", "at the end", "unit", "what it is"], rows, "Energies of the soil: elastic ones at the end, "
+                 "dissipated ones since the start.", numeric=(1,)) if rows else ""
+
+
+def section(made, run):
+    """HTML of the section; empty for a run without deformable soil."""
+    if "terrain.soil.n" not in run.constants:
+        return ""
+    inner = folded("Constants in use", constants(run), opened=True)
+    if "terrain.soil.sinkage" in run.constants and len(run.time):
+        soil = Soil(run)
+        plot, figures = pressures(made, run, soil)
+        inner += pictures([rut_map(soil)]) + f'<div class="plots">{profiles(made, soil)}{plot}</div>{figures}'
+    return inner + energies(run)
