@@ -127,8 +127,8 @@ std::optional<GroundFields> ScmGround::fieldsNow() const {
   GroundFields fields{setup_.soil, map_.spacing(), {}};
   if (!contacts_) return fields;
   map_.forEach([&](std::int32_t i, std::int32_t j, const scm::Node& node) {
-    if (const double rut = node.rut(); rut != 0 || node.state.pressure > 0)
-      fields.nodes.push_back({i, j, rut, 0, node.state.pressure, {}});
+    if (node.isLoaded())
+      fields.nodes.push_back({i, j, node.rut(), 0, std::max(node.state.pressure, node.loose.pressure), {}});
   });
   const auto before = [](const SoilNode& a, const SoilNode& b) { return std::pair(a.j, a.i) < std::pair(b.j, b.i); };
   std::sort(fields.nodes.begin(), fields.nodes.end(), before);
