@@ -99,7 +99,7 @@ TEST(ScmGround, TellsItsSurfaceAndStressesNow) {
     carried += node.pressure * fields.spacing * fields.spacing;
   }
   double most = 0;
-  for (const scm::PadLoad& load : padsOf(simulation).loads())
+  for (const scm::PadLoad& load : padsOf(simulation).pads().loads())
     pressed += load.pressed, most = std::max(most, load.sinkage);
   EXPECT_NEAR(carried, pressed, 0.05 * pressed) << "but for damping and the pitch of the shoes";
   EXPECT_NEAR(deepest, most, 1e-12) << "under a shoe the surface lies at the shoe, not where it rebounds to";
