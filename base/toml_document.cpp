@@ -113,7 +113,28 @@ Node overrideValue(const std::string& text) {
   return node;
 }
 
+/// The node of this key; null if there is none.
+Node* nodeAt(Node& root, const std::vector<std::string>& parts) {
+  Node* node = &root;
+  for (const std::string& part : parts)
+    if (!node || !(node = node->find(part))) return nullptr;
+  return node;
+}
+
+/// "~a.b.c"
+void removeKey(Node& root, const std::string& text) {
+  std::vector<std::string> parts = splitKey(std::string_view(text).substr(1), text);
+  const std::string last = parts.back();
+  parts.pop_back();
+  Node* section = nodeAt(root, parts);
+  if (!section || !section->find(last))
+    throw InputError(fmt::format("--set {}: the file has no key {} to remove; correct it, or leave this --set out",
+                                 text, text.substr(1)));
+  std::erase_if(std::get<Node::Map>(section->value), [&](const Node::Entry& e) { return e.key == last; });
+}
+
 void applyOverride(Node& root, const std::string& text) {
+  if (text.starts_with('~')) return removeKey(root, text);
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError(fmt::format("--set {}: no value is given; write key=value, e.g. --set run.duration=2", text));

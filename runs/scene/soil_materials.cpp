@@ -60,8 +60,7 @@ std::string millimetres(double radius) { return fmt::format("{:.4g} mm", 1000 * 
 double radiusOfGrains(const Scene& scene, const Material& m) {
   const auto& t = scene.terrain;
   if (t && t->granular() && t->material == m.name) return *t->grainRadius;
-  if (t && t->deformable() && t->material == m.name)
-    return scene.soils.at(m.name)->grains.radius; // there are no grains
+  if (t && !t->granular() && t->material == m.name) return scene.soils.at(m.name)->grains.radius; // there are no grains
   std::vector<double> radii;
   for (const Grain& g : scene.grains)
     if (g.material == m.name) radii.push_back(g.radius);

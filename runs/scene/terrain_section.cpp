@@ -6,6 +6,7 @@
 #include "runs/scene/bed_radii.hpp"
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/scene/soil.hpp"
+#include "runs/scene/terrain_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -252,8 +253,7 @@ void checkTerrain(const Section& section, Terrain& t, const Scene& scene) {
     checkBed(section, t, scene);
   } else {
     refuseSieves(section, t);
-    for (const char* key : {"grain_radius", "layers", "depth", "tile", "radius_distribution", "radius_spread",
-                            "porosity", "fine_depth", "coarsening", "coarsest_radius", "spacing", "jitter", "packing"})
+    for (const char* key : kBedKeys)
       if (section.has(key))
         section.fail(key, t.deformable() ? "has no effect on deformable soil; remove it, or set kind = \"granular\""
                                          : "has no meaning on rigid ground; remove it, or set kind = \"granular\"");

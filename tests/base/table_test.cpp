@@ -209,6 +209,20 @@ TEST(Overrides, ReplaceAndAddValues) {
   EXPECT_EQ(read("", {"wheel.centre=[1, 2, 3]"}).centre, (Vec3d{1, 2, 3}));
 }
 
+TEST(Overrides, RemoveKeysAndSections) {
+  EXPECT_EQ(read("radius = 2\ncount = 3", {"~wheel.count"}).count, read("").count);
+  EXPECT_EQ(read("radius = 2\ncount = 3", {"~wheel.count", "wheel.count=5"}).count, 5) << "in their order";
+  const Document whole = Document::parse("version = 1\n[wheel]\n[track]\nlength = 1\n", "w.toml", {"~track"});
+  EXPECT_EQ(whole.root().node().find("track"), nullptr);
+  EXPECT_NE(whole.root().node().find("wheel"), nullptr);
+  for (const char* none : {"~wheel.radius", "~weel.radius", "~wheel.count.x"})
+    EXPECT_NE(complaint("count = 1", {none}).find(std::string("--set ") + none + ": the file has no key"),
+              std::string::npos)
+        << none;
+  EXPECT_NE(complaint("", {"~"}).find("not of the form"), std::string::npos);
+  EXPECT_NE(complaint("", {"~version"}).find("key version is missing"), std::string::npos);
+}
+
 TEST(Overrides, AreCheckedLikeTheFile) {
   EXPECT_EQ(complaint("", {"wheel.radius=-2"}),
             "--set: wheel.radius = -2 [m] is outside (0, 10]; choose a value in that range (rolling radius)");

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+namespace grouser::scene {
+
+/// Keys of [terrain] that only a bed of grains has, besides those of its sieves.
+inline constexpr std::array kBedKeys = {"grain_radius",  "layers",   "depth",      "tile",       "radius_distribution",
+                                        "radius_spread", "porosity", "fine_depth", "coarsening", "coarsest_radius",
+                                        "spacing",       "jitter",   "packing"};
+inline constexpr std::array kSieveKeys = {"sieve_size", "sieve_passing"};
+
+} // namespace grouser::scene
