@@ -24,6 +24,11 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
       ->capture_default_str();
   events->add_option("--soil", o.soil, "rigid, or a soil by its name (`grouser soils`)")->capture_default_str();
   events
+      ->add_option_function<std::string>(
+          "--ground", [&o](const std::string& word) { o.ground = base::valueOf<scene::TerrainKind>(word); },
+          "rigid, granular, or scm: deformable soil without grains; default: rigid with --soil rigid, else granular")
+      ->check(CLI::IsMember(base::wordsOf<scene::TerrainKind>()));
+  events
       ->add_option("--only", o.only,
                    fmt::format("events, separated by commas, of {}; default: all",
                                fmt::join(base::wordsOf<events::Event>(), ", ")))
@@ -66,7 +71,8 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
   events->add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
       ->check(support::wholeNumber(1, 1024))
       ->capture_default_str();
-  support::addOut(*events, c.folder, "folder of the results; default: out/events_VEHICLE_SOIL");
+  support::addOut(*events, c.folder,
+                  "folder of the results; default: out/events_VEHICLE_SOIL, with scm out/events_VEHICLE_SOIL_scm");
   events->add_flag("--force", c.force, "run again what has been run, and overwrite what is in that folder");
   events->callback([command] { events::eventsCommand(*command); });
 }

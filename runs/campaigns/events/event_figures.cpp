@@ -2,6 +2,7 @@
 #include "runs/campaigns/events/event_figures.hpp"
 
 #include "base/math.hpp"
+#include "runs/campaigns/events/soil_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,7 @@ void addAcceleration(std::vector<Figure>& figures, const Motion& m, const Trial&
     time.push_back(0.5 * (m.time[i] + m.time[j])), speed.push_back((m.way[i] - m.way[j]) / (m.time[i] - m.time[j]));
   }
   figures.push_back({"time to 90 % of the speed [s]", timeAt(time, speed, 0.9 * trial.speed)});
-  if (course.rigid)
+  if (course.rigid())
     figures.push_back({"the same by friction alone [s]", 0.9 * trial.speed / (course.shape.friction * kGravity)});
 }
 
@@ -66,7 +67,7 @@ void addPivot(std::vector<Figure>& figures, const Motion& m, const sweeps::RunSe
   figures.push_back({"rate of turn [rad/s]", rate});
   figures.push_back({"rate over commanded [-]", rate / trial.rate});
   figures.push_back({"moment of the drives [N m]", (right - left) / rp * tread / 2});
-  if (!course.rigid) return;
+  if (!course.rigid()) return;
   const double weight = course.shape.mass * kGravity, mu = course.shape.friction;
   const double slip = trial.rate * tread / 2 - rate * tread / 2;
   figures.push_back({"friction in the direction of slip [N m]", turningMoment(course.shape, mu, weight, rate, slip)});
@@ -134,7 +135,11 @@ std::vector<Figure> figuresOf(Event event, const Motion& m, const sweeps::RunSer
     const double pull = lateMean(series, kPullColumn, driveStart), weight = course.shape.mass * kGravity;
     figures.push_back({kPull, pull});
     figures.push_back({"pull over weight [-]", pull / weight});
-    if (course.rigid) figures.push_back({"mu W [N]", course.shape.friction * weight});
+    if (course.rigid()) figures.push_back({"mu W [N]", course.shape.friction * weight});
+    if (course.deformable())
+      figures.push_back(
+          {"thrust less compaction of rigid tracks [N]", trackThrust(course.shape, course.constants, trial.slip) -
+                                                             compactionResistance(course.shape, course.constants)});
     break;
   }
   case Event::grade:

@@ -28,7 +28,7 @@ scene::Scene probedScene(const EventPlan& plan, const sweeps::SweepRun& run, con
   std::vector<std::string> bed;
   for (const std::string& set : sets)
     if (!set.starts_with("box.") && !set.starts_with("cylinder.")) bed.push_back(set);
-  const bool alone = !plan.course.rigid && bed.size() < sets.size();
+  const bool alone = plan.course.granular() && bed.size() < sets.size();
   return setup::loadScene(alone ? sceneOf(Event::motionResistance) : run.file, alone ? bed : sets);
 }
 
@@ -74,7 +74,7 @@ std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::pat
     const double here = steps * work * duration / step + output + preparation * work;
     time.runs += static_cast<int>(planned.runs.size()), time.grains = std::max(time.grains, grains);
     time.here += runs * here;
-    time.h200 += runs * (plan.course.rigid ? here : h200Time(grains, duration, step));
+    time.h200 += runs * (plan.course.granular() ? h200Time(grains, duration, step) : here);
   }
   progress.finish(base::counted(times.size(), "event"));
   return times;
@@ -90,7 +90,7 @@ std::string timesText(const std::vector<EventTime>& times) {
   }
   text += fmt::format("{:<18}{:>6}{:>12}{:>14}{:>14}\n", "all", sum.runs, "", timeText(sum.here), timeText(sum.h200));
   text += "here: one run after the other on all cores of this machine. H200: by figures of docs/paper.md and "
-          "docs/speed.md\nfor a step; on rigid ground, where the host does the work, as here.\n";
+          "docs/speed.md\nfor a step; without grains, where the host does the work, as here.\n";
   return text;
 }
 

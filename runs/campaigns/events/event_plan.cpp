@@ -8,6 +8,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/scm_setup.hpp"
 #include "runs/support/locations.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -76,19 +77,40 @@ vehicle::VehicleSpec specOf(const std::string& file, const EventOptions& options
   return vehicle::readVehicleSpec(scene.vehicle->source());
 }
 
+void refuseGrainOptions(const EventOptions& options, bool rigid) {
+  for (const auto& [given, name] : {std::pair{options.grainRadius.has_value(), "--grain-radius"},
+                                    {options.depth.has_value(), "--depth"},
+                                    {options.seeds.has_value(), "--seeds"}})
+    if (given)
+      throw InputError(
+          rigid ? fmt::format("{}: rigid ground has no grains; name a --soil, or leave it out", name)
+                : fmt::format("{}: deformable soil has no grains; remove it, or set --ground granular", name));
+}
+
+/// The soil's constants, with those that the user has changed.
+scm::SoilConstants constantsOf(const EventOptions& options, const std::string& file) {
+  std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", file), "terrain.kind=\"scm\"",
+                                   fmt::format("terrain.material=\"{}\"", options.soil)};
+  for (const std::string& set : options.fixed)
+    if (set.starts_with("spec.") || set.starts_with("scm.")) sets.push_back(set);
+  return setup::scmSetup(setup::loadScene(sceneOf(Event::acceleration), sets))->soil;
+}
+
 Course courseOf(const EventOptions& options, const std::string& file, double& grainRadius) {
   Course c;
   c.shape = shapeOf(specOf(file, options));
   c.speed = options.speed.value_or(std::round(100 * kLightSpeed * std::sqrt(c.shape.pitchRadius / kLightRadius)) / 100);
-  c.rigid = options.soil == kRigid, c.soil = options.soil;
-  if (c.rigid) {
-    for (const auto& [given, name] : {std::pair{options.grainRadius.has_value(), "--grain-radius"},
-                                      {options.depth.has_value(), "--depth"},
-                                      {options.seeds.has_value(), "--seeds"}})
-      if (given) throw InputError(fmt::format("{}: rigid ground has no grains; name a --soil, or leave it out", name));
+  c.ground = groundOf(options), c.soil = options.soil;
+  if (!c.granular()) refuseGrainOptions(options, c.rigid());
+  if (c.rigid()) return c;
+  if (options.soil == kRigid)
+    throw InputError(fmt::format("--ground {}: needs a soil; name one with --soil (`grouser soils` lists them)",
+                                 base::wordOf(c.ground)));
+  const scene::Soil soil = soilOf(options.soil);
+  if (c.deformable()) {
+    c.constants = constantsOf(options, file);
     return c;
   }
-  const scene::Soil soil = soilOf(options.soil);
   const double pad = c.shape.padWidth;
   const BedCare& care = options.care();
   grainRadius = options.grainRadius.value_or(pad / (2 * care.grainsOnPad));
@@ -104,14 +126,13 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
                                    fmt::format("vehicle.sphere_radius={:.3g}", kSphere * plan.course.shape.padWidth),
                                    "output.plots=false", "output.picture_width=800",
                                    fmt::format("output.frames={}", options.frames)};
-  if (!plan.course.rigid)
-    for (const std::string& set :
-         {std::string("terrain.kind=\"granular\""), fmt::format("terrain.material=\"{}\"", options.soil),
-          fmt::format("terrain.grain_radius={:.4g}", plan.grainRadius),
-          fmt::format("terrain.depth={:.4g}", plan.course.depth)})
-      sets.push_back(set);
-  if (!plan.course.rigid && plan.course.shape.padWidth < kFewOnPad * 2 * plan.grainRadius)
-    sets.emplace_back("vehicle.soil_meets=\"shoes\"");
+  if (plan.course.rigid()) return sets;
+  sets.push_back(fmt::format("terrain.kind=\"{}\"", base::wordOf(plan.course.ground)));
+  sets.push_back(fmt::format("terrain.material=\"{}\"", options.soil));
+  if (plan.course.deformable()) return sets;
+  sets.push_back(fmt::format("terrain.grain_radius={:.4g}", plan.grainRadius));
+  sets.push_back(fmt::format("terrain.depth={:.4g}", plan.course.depth));
+  if (plan.course.shape.padWidth < kFewOnPad * 2 * plan.grainRadius) sets.emplace_back("vehicle.soil_meets=\"shoes\"");
   return sets;
 }
 
@@ -188,8 +209,21 @@ fs::path sceneOf(Event event) {
   return support::shareFolder() / "runs" / "scenes" / fmt::format("event_{}.toml", base::wordOf(file));
 }
 
+scene::TerrainKind groundOf(const EventOptions& options) {
+  using scene::TerrainKind;
+  return options.ground.value_or(options.soil == kRigid ? TerrainKind::rigid : TerrainKind::granular);
+}
+
+std::string soilWord(const EventOptions& options) {
+  return groundOf(options) == scene::TerrainKind::rigid ? kRigid : options.soil;
+}
+
+std::string EventPlan::groundText() const {
+  return course.rigid() ? kRigid : course.soil + (course.deformable() ? " (deformable soil)" : "");
+}
+
 bool EventPlan::shoesAlone() const {
-  return !course.rigid && sweep.runs.front().scene.vehicle->soilMeets == scene::SoilMeets::shoes;
+  return course.granular() && sweep.runs.front().scene.vehicle->soilMeets == scene::SoilMeets::shoes;
 }
 
 EventPlan planEvents(const EventOptions& options) {
@@ -199,7 +233,7 @@ EventPlan planEvents(const EventOptions& options) {
   EventPlan plan;
   plan.vehicleFile = vehicleFile(options.vehicle);
   plan.course = courseOf(options, plan.vehicleFile, plan.grainRadius);
-  plan.seeds = plan.course.rigid ? 1 : options.seeds.value_or(options.care().seeds);
+  plan.seeds = plan.course.granular() ? options.seeds.value_or(options.care().seeds) : 1;
   const std::vector<std::string> common = commonOf(options, plan);
   plan.sweep.keys = {"event", sweeps::kSeedKey};
   for (const Event event : events) {
@@ -214,10 +248,10 @@ EventPlan planEvents(const EventOptions& options) {
       for (int seed = 1; seed <= plan.seeds; ++seed) {
         sweeps::SweepRun run;
         run.file = sceneOf(event);
-        run.name = runName(event, level, seed, !plan.course.rigid);
+        run.name = runName(event, level, seed, plan.course.granular());
         run.overrides = common;
         for (const std::string& set : planned.trial.overrides) sweeps::putOverride(run.overrides, set);
-        if (!plan.course.rigid) run.overrides.push_back(fmt::format("{}={}", sweeps::kSeedKey, seed));
+        if (plan.course.granular()) run.overrides.push_back(fmt::format("{}={}", sweeps::kSeedKey, seed));
         for (const std::string& set : options.fixed) sweeps::putOverride(run.overrides, set);
         run.values = {fmt::format("{}={:g}", base::wordOf(event), level), fmt::format("{}", seed)};
         load(run, options, planned, seed);

@@ -23,19 +23,25 @@ inline constexpr BedCare kFullCare{10.4, 1.6, 4, 3}, kQuickCare{3, 1.1, 2, 2};
 
 /// What the user asks for.
 struct EventOptions {
-  std::string vehicle = "light_tracked"; ///< a file of assets/vehicles by its name, or a path that ends in .toml
-  std::string soil = "rigid";            ///< rigid, or a soil by its name
-  std::vector<std::string> only;         ///< events; empty: all
-  std::vector<double> levels;            ///< of the one event that is asked for; empty: those of the event
-  std::vector<std::string> fixed;        ///< "key=value", of all runs
-  std::optional<double> speed;           ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
-  std::optional<double> grainRadius;     ///< in the middle of the distribution [m]
-  std::optional<double> depth;           ///< of the bed [m]
-  std::optional<int> seeds;              ///< of a bed; empty: those of the care
+  std::string vehicle = "light_tracked";    ///< a file of assets/vehicles by its name, or a path that ends in .toml
+  std::string soil = "rigid";               ///< rigid, or a soil by its name
+  std::optional<scene::TerrainKind> ground; ///< empty: rigid for the soil "rigid", else granular
+  std::vector<std::string> only;            ///< events; empty: all
+  std::vector<double> levels;               ///< of the one event that is asked for; empty: those of the event
+  std::vector<std::string> fixed;           ///< "key=value", of all runs
+  std::optional<double> speed;              ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
+  std::optional<double> grainRadius;        ///< in the middle of the distribution [m]
+  std::optional<double> depth;              ///< of the bed [m]
+  std::optional<int> seeds;                 ///< of a bed; empty: those of the care
   bool quick = false;
   bool frames = false; ///< for films
   const BedCare& care() const { return quick ? kQuickCare : kFullCare; }
 };
+
+/// The ground of these options.
+scene::TerrainKind groundOf(const EventOptions& options);
+/// "rigid" on rigid ground, which has no soil; else the soil.
+std::string soilWord(const EventOptions& options);
 
 /// A level of an event, and its runs.
 struct PlannedTrial {
@@ -48,12 +54,13 @@ struct PlannedTrial {
 struct EventPlan {
   Course course;
   std::string vehicleFile; ///< as the runs take it
-  double grainRadius = 0;  ///< [m]; 0 on rigid ground
-  int seeds = 1;           ///< one on rigid ground, which has no chance in it
+  double grainRadius = 0;  ///< [m]; 0 without grains
+  int seeds = 1;           ///< one without grains, as nothing is random
   sweeps::SweepPlan sweep; ///< all runs; each names its scene
   std::vector<PlannedTrial> trials;
   std::map<Event, std::string> omitted; ///< of those that were asked for: why
   bool shoesAlone() const;              ///< the soil meets the shoes alone, not the running gear
+  std::string groundText() const;       ///< "rigid", "lete_sand", "lete_sand (deformable soil)"
 };
 
 /// Reads the vehicle and the soil, and loads and checks the scene of every run as `grouser plan` does. Throws

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "runs/campaigns/events/soil_limits.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ constexpr double kEnd = 0.3;             // m, between the vehicle and the end o
 constexpr double kRunUp = 3;             // m, before those on a slope: near the limit it takes long to come up to speed
 constexpr double kCrawl = 0.4;           // of the commanded speed, and m/s at least: over steps, gaps and ditches
 constexpr double kBeyond = 0.3;          // m, driven on behind the course, or drifted to the side in it
-constexpr double kSwerve = 0.2;          // of the way, beside it on rigid ground: obstacles turn vehicles a little
+constexpr double kSwerve = 0.2;          // of the way, beside it without grains: obstacles turn vehicles a little
 constexpr double kReferenceRun = 1.7832; // m, ground run of the light vehicle, whose obstacles are scaled to others
 constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of the ditch of ditch.png, over its length
 constexpr double kSettled = 2;                           // s, in which any vehicle stands and drives
@@ -45,8 +46,10 @@ std::string set(const std::string& key, std::initializer_list<double> values) {
   return fmt::format("{}=[{}]", key, fmt::join(words, ", "));
 }
 
-/// Beside the tracks [m]. Rigid ground costs nothing; a bed reaches as far as the tracks work.
-double sideRoom(const Course& c, double distance) { return c.rigid ? kSwerve * distance : std::max(c.margin, kEnd); }
+/// Beside the tracks [m]. Ground without grains costs nothing; a bed reaches as far as the tracks work.
+double sideRoom(const Course& c, double distance) {
+  return c.granular() ? std::max(c.margin, kEnd) : kSwerve * distance;
+}
 
 /// A course straight on: where the vehicle stands, how long the ground is.
 struct Straight {
@@ -65,7 +68,7 @@ Straight straight(const Course& c, Trial& trial, double behind, double obstacle,
   trial.distance = obstacle > 0 ? std::max(kWay, approach + c.shape.length() + obstacle) : kWay + runUp;
   s.length = s.start + c.shape.front + trial.distance + 2 * kEnd;
   s.width = 2 * (c.shape.halfWidth + sideRoom(c, trial.distance) + drift);
-  const double soft = c.rigid ? 0 : c.margin; // grains before the vehicle are pushed ahead
+  const double soft = c.granular() ? c.margin : 0; // grains before the vehicle are pushed ahead
   s.length += soft;
   trial.overrides.push_back(set("terrain.size", {s.length, s.width}));
   trial.overrides.push_back(set("vehicle.position", {s.start, 0.0}));
@@ -84,25 +87,26 @@ std::string leaning(double slope, bool sideways) {
   return sideways ? set("run.gravity", {0.0, -along, -down}) : set("run.gravity", {-along, 0.0, -down});
 }
 
-/// A solid box of a scene from x to `end`, over the whole width, its top at `top`; it reaches down through a bed.
+/// A solid box of a scene from x to `end`, over the whole width, its top at `top`; it reaches down through a bed,
+/// and a pad's width into deformable soil.
 void box(const Course& c, Trial& trial, int number, double x, double end, double width, double top) {
-  const double foot = c.rigid ? 0.0 : -c.depth;
+  const double foot = c.rigid() ? 0.0 : c.granular() ? -c.depth : -c.shape.padWidth;
   const std::string key = fmt::format("box.{}.", number);
   trial.overrides.push_back(set(key + "position", {0.5 * (x + end), 0.0, 0.5 * (top + foot)}));
   trial.overrides.push_back(set(key + "size", {end - x, width, top - foot}));
   // Grains touch what stands in their bed, by a law that goes with their own.
-  if (!c.rigid) trial.overrides.push_back(key + "material=" + c.soil);
+  if (c.granular()) trial.overrides.push_back(key + "material=" + c.soil);
 }
 
 /// A grain of coarse soil that a track presses on the edge of something rigid carries a good part of the vehicle: it
 /// may be squeezed as far as grains below parts may be.
 void squeezed(const Course& c, Trial& trial) {
-  if (!c.rigid) trial.overrides.push_back(set("run.max_overlap", 1.0));
+  if (c.granular()) trial.overrides.push_back(set("run.max_overlap", 1.0));
 }
 
 /// One cosine wave whose steepest slope is `level`. The height-map is as long as the course behind its ditch asks for.
 void ditch(const Course& c, Trial& trial, double level) {
-  const double approach = 0.4 * scaleOf(c), ends = 2 * kEnd + (c.rigid ? 0 : c.margin);
+  const double approach = 0.4 * scaleOf(c), ends = 2 * kEnd + c.margin;
   const double before = kDitchMiddle - 0.5 * kDitchWidth, behind = 1 - before; // of the length, where the ditch begins
   const double length = std::max({(approach + c.shape.length() + kEnd) / before, (kWay + ends - approach) / behind,
                                   (c.shape.length() + ends) / (behind - kDitchWidth)});
@@ -212,8 +216,8 @@ std::string titleOf(Event event) {
 }
 
 std::string omission(Event event, const Course& course) {
-  if (event == Event::softSoil && course.rigid) return "rigid ground does not become softer";
-  if (event == Event::gap && !course.rigid) return "between slabs the soil has no part in it: --soil rigid";
+  if (event == Event::softSoil && course.rigid()) return "rigid ground does not become softer";
+  if (event == Event::gap && !course.rigid()) return "between slabs the soil has no part in it: --soil rigid";
   return "";
 }
 
@@ -225,28 +229,28 @@ std::vector<double> levelsOf(Event event, const Course& c, bool quick) {
   const auto all = [quick](const Levels& whole, const Levels& few) { return quick ? few : whole; };
   switch (event) {
   case Event::grade:
-    return c.rigid ? Levels{finely(0.5 * mu), finely(0.98 * mu), finely(1.02 * mu)}
-                   : all({0.1, 0.2, 0.3, 0.4, 0.5}, {0.2, 0.4});
+    return c.rigid() ? Levels{finely(0.5 * mu), finely(0.98 * mu), finely(1.02 * mu)}
+                     : all({0.1, 0.2, 0.3, 0.4, 0.5}, {0.2, 0.4});
   case Event::sideSlope: {
     const double limit = std::min(mu, tippingSlope(c.shape));
-    return c.rigid ? Levels{finely(0.5 * limit), finely(0.95 * limit), finely(1.05 * limit)}
-                   : all({0.1, 0.3, 0.5}, {0.3});
+    return c.rigid() ? Levels{finely(0.5 * limit), finely(0.95 * limit), finely(1.05 * limit)}
+                     : all({0.1, 0.3, 0.5}, {0.3});
   }
   case Event::steadyTurn:
     return {rounded(8 * scale)};
   case Event::step:
-    return c.rigid ? Levels{rounded(0.5 * high), rounded(0.8 * high), rounded(1.05 * high)}
-                   : all({rounded(0.3 * high), rounded(0.5 * high), rounded(0.7 * high)}, {rounded(0.5 * high)});
+    return c.rigid() ? Levels{rounded(0.5 * high), rounded(0.8 * high), rounded(1.05 * high)}
+                     : all({rounded(0.3 * high), rounded(0.5 * high), rounded(0.7 * high)}, {rounded(0.5 * high)});
   case Event::gap:
     return {finely(0.95 * gap.sure), finely(0.5 * (gap.sure + gap.level)), finely(1.05 * gap.level),
             finely(1.5 * gap.level)};
   case Event::ditch:
-    return c.rigid ? Levels{0.3, 0.6, 0.9} : all({0.2, 0.3, 0.4}, {0.3});
+    return c.rigid() ? Levels{0.3, 0.6, 0.9} : all({0.2, 0.3, 0.4}, {0.3});
   case Event::halfRound:
-    return c.rigid ? Levels{rounded(0.1 * scale), rounded(0.2 * scale), rounded(0.3 * scale)}
-                   : all({rounded(0.1 * scale), rounded(0.2 * scale)}, {rounded(0.15 * scale)});
+    return c.rigid() ? Levels{rounded(0.1 * scale), rounded(0.2 * scale), rounded(0.3 * scale)}
+                     : all({rounded(0.1 * scale), rounded(0.2 * scale)}, {rounded(0.15 * scale)});
   case Event::drawbar:
-    return c.rigid ? Levels{0.05, 0.2, 0.5} : all({0.05, 0.1, 0.2, 0.3, 0.5, 0.7}, {0.1, 0.2, 0.4});
+    return c.rigid() ? Levels{0.05, 0.2, 0.5} : all({0.05, 0.1, 0.2, 0.3, 0.5, 0.7}, {0.1, 0.2, 0.4});
   case Event::softSoil:
     return all({0.2, 0.4, 0.6, 0.8, 1.0}, {0.4, 1.0});
   case Event::acceleration:
@@ -301,7 +305,7 @@ Trial trialOf(Event event, double level, const Course& c) {
     trial.overrides.push_back(set("cylinder.0.position", {s.obstacle + level, 0.0, 0.0}));
     trial.overrides.push_back(set("cylinder.0.radius", level));
     trial.overrides.push_back(set("cylinder.0.length", s.width));
-    if (!c.rigid) trial.overrides.push_back("cylinder.0.material=" + c.soil);
+    if (c.granular()) trial.overrides.push_back("cylinder.0.material=" + c.soil);
     squeezed(c, trial);
     break;
   }
@@ -309,6 +313,7 @@ Trial trialOf(Event event, double level, const Course& c) {
     straight(c, trial, 0, 0, 0);
     trial.distance = 2 * c.shape.groundRun(); // the means are of the second half of it
     sweeps::putOverride(trial.overrides, set("stop.distance", trial.distance));
+    trial.slip = level;
     trial.overrides.push_back(set("hitch.slip", level));
     break;
   case Event::motionResistance:
@@ -316,6 +321,10 @@ Trial trialOf(Event event, double level, const Course& c) {
     break;
   case Event::softSoil:
     straight(c, trial, 0, 0, 0);
+    if (c.deformable()) {
+      trial.overrides.push_back(set("scm.phi", std::atan(level * c.constants.friction) * 180 / base::kPi));
+      break;
+    }
     trial.overrides.push_back(set("material." + c.soil + ".friction", level * c.soilFriction));
     trial.overrides.push_back(set("material." + c.soil + ".rolling_friction", level * c.rollingFriction));
     break;
@@ -325,8 +334,22 @@ Trial trialOf(Event event, double level, const Course& c) {
   return trial;
 }
 
+namespace {
+
+std::optional<Reference> soilReference(Event event, const Course& c) {
+  if (event != Event::grade && event != Event::sideSlope) return {};
+  const double holds = holdingSlope(c.shape, c.constants), tipping = tippingSlope(c.shape);
+  if (event == Event::sideSlope && tipping < holds)
+    return Reference{fmt::format("none above {:.3g}: tips over", tipping), {}, tipping};
+  if (!std::isfinite(holds)) return {};
+  return Reference{fmt::format("none above {:.3g}: W sin a = c A + W cos a tan phi", holds), {}, holds};
+}
+
+} // namespace
+
 std::optional<Reference> referenceOf(Event event, const Course& c) {
-  if (!c.rigid) return {};
+  if (c.deformable()) return soilReference(event, c);
+  if (!c.rigid()) return {};
   const double mu = c.shape.friction, tipping = tippingSlope(c.shape);
   switch (event) {
   case Event::grade:

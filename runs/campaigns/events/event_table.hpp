@@ -3,6 +3,8 @@
 
 #include "base/enum_words.hpp"
 #include "runs/campaigns/events/vehicle_shape.hpp"
+#include "runs/scene/choices.hpp"
+#include "scm/soil_constants.hpp"
 
 #include <optional>
 #include <string>
@@ -39,13 +41,18 @@ std::string titleOf(Event event);
 /// What the courses are made for.
 struct Course {
   VehicleShape shape;
-  double speed = 0;           ///< commanded [m/s]
-  bool rigid = true;          ///< ground, else a bed
-  double depth = 0;           ///< of the bed [m]
-  double margin = 0;          ///< of a bed beside the tracks [m]
-  double soilFriction = 0;    ///< of the soil's grains [-]
-  double rollingFriction = 0; ///< of the soil's grains [-]
-  std::string soil;           ///< material of the bed and of what stands in it
+  double speed = 0; ///< commanded [m/s]
+  scene::TerrainKind ground = scene::TerrainKind::rigid;
+  double depth = 0;             ///< of the bed [m]
+  double margin = 0;            ///< of a bed beside the tracks [m]
+  double soilFriction = 0;      ///< of the soil's grains [-]
+  double rollingFriction = 0;   ///< of the soil's grains [-]
+  std::string soil;             ///< material of the bed and of what stands in it
+  scm::SoilConstants constants; ///< of deformable soil
+
+  bool rigid() const { return ground == scene::TerrainKind::rigid; }
+  bool granular() const { return ground == scene::TerrainKind::granular; }
+  bool deformable() const { return ground == scene::TerrainKind::scm; }
 };
 
 /// Levels that are run where none are given: three to five, or with `quick` those that tell most. Of events with one
@@ -61,6 +68,7 @@ struct Trial {
   double angle = 0;                   ///< to be turned [rad]
   double rate = 0;                    ///< commanded, of the turn [rad/s]
   double speed = 0;                   ///< commanded [m/s]
+  double slip = 0;                    ///< imposed [-]
 };
 Trial trialOf(Event event, double level, const Course& course);
 

@@ -35,18 +35,20 @@ constexpr const char *kTable = "events.csv", *kJson = "events.json", *kText = "e
 fs::path folderOf(const EventsCommand& command) {
   if (!command.folder.empty()) return command.folder;
   const auto stem = [](const std::string& word) { return fs::path(word).stem().string(); };
-  return fs::path("out") / fmt::format("events_{}_{}{}", stem(command.options.vehicle), stem(command.options.soil),
-                                       command.options.quick ? "_quick" : "");
+  const EventOptions& o = command.options;
+  const bool scm = groundOf(o) == scene::TerrainKind::scm;
+  return fs::path("out") / fmt::format("events_{}_{}{}{}", stem(o.vehicle), stem(soilWord(o)), scm ? "_scm" : "",
+                                       o.quick ? "_quick" : "");
 }
 
 void printHead(const EventsCommand& command, const EventPlan& plan) {
   const VehicleShape& s = plan.course.shape;
-  fmt::print("events    {} on {}: commit {}, {}\n", command.options.vehicle, command.options.soil,
+  fmt::print("events    {} on {}: commit {}, {}\n", command.options.vehicle, plan.groundText(),
              support::buildInfo().commit, support::machineText());
   fmt::print("          {:.0f} kg, centre of mass {:.3f} m high and {:.3f} m before the rearmost of its wheels, ground "
              "run {:.3f} m, {:g} m/s\n",
              s.mass, s.massCentre.z, s.massCentre.x - s.firstWheel, s.groundRun(), plan.course.speed);
-  if (!plan.course.rigid)
+  if (plan.course.granular())
     fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {}{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
                base::counted(plan.seeds, "seed"), command.options.quick ? "; coarse" : "");
@@ -61,17 +63,19 @@ std::string callText(const EventOptions& o) {
   const auto given = [](const auto& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   };
-  const nlohmann::ordered_json call = {{"vehicle", o.vehicle},
-                                       {"soil", o.soil},
-                                       {"only", o.only},
-                                       {"levels", o.levels},
-                                       {"set", o.fixed},
-                                       {"speed_m_s", given(o.speed)},
-                                       {"grain_radius_m", given(o.grainRadius)},
-                                       {"depth_m", given(o.depth)},
-                                       {"seeds", given(o.seeds)},
-                                       {"quick", o.quick},
-                                       {"frames", o.frames}};
+  nlohmann::ordered_json call = {{"vehicle", o.vehicle},
+                                 {"soil", soilWord(o)},
+                                 {"only", o.only},
+                                 {"levels", o.levels},
+                                 {"set", o.fixed},
+                                 {"speed_m_s", given(o.speed)},
+                                 {"grain_radius_m", given(o.grainRadius)},
+                                 {"depth_m", given(o.depth)},
+                                 {"seeds", given(o.seeds)},
+                                 {"quick", o.quick},
+                                 {"frames", o.frames}};
+  // Without this key: the ground that the soil implies.
+  if (groundOf(o) == scene::TerrainKind::scm) call["ground"] = base::wordOf(scene::TerrainKind::scm);
   return support::jsonText(call, 2) + "\n";
 }
 
@@ -110,7 +114,8 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
                                  {"machine", support::machineText()},
                                  {"commit", support::buildInfo().commit},
                                  {"vehicle", command.options.vehicle},
-                                 {"soil", command.options.soil},
+                                 {"soil", soilWord(command.options)},
+                                 {"ground", base::wordOf(plan.course.ground)},
                                  {"quick", command.options.quick},
                                  {"seeds", plan.seeds},
                                  {"speed_m_s", plan.course.speed},

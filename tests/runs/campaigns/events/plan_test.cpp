@@ -2,6 +2,7 @@
 // What the events ask of a vehicle, by its shape, and whether every scene takes every ready vehicle.
 #include "runs/campaigns/events/event_plan.hpp"
 #include "runs/campaigns/events/event_report.hpp"
+#include "runs/campaigns/events/soil_limits.hpp"
 
 #include "base/error.hpp"
 #include "base/math.hpp"
@@ -9,6 +10,8 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,6 +115,45 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   EXPECT_TRUE(weak.terrain->granular());
 }
 
+TEST(EventPlan, OnDeformableSoilHasOneRunALevelAndNoGrains) {
+  EventOptions options;
+  options.soil = "lete_sand", options.ground = scene::TerrainKind::scm;
+  options.only = {"grade", "soft_soil", "gap"}, options.quick = true;
+  const EventPlan plan = planEvents(options);
+  EXPECT_EQ(plan.seeds, 1);
+  EXPECT_EQ(plan.sweep.runs.size(), 2u + 2) << "levels of soils";
+  EXPECT_TRUE(plan.omitted.contains(Event::gap));
+  EXPECT_FALSE(plan.shoesAlone());
+  EXPECT_EQ(plan.groundText(), "lete_sand (deformable soil)");
+  for (const sweeps::SweepRun& run : plan.sweep.runs) {
+    EXPECT_TRUE(run.scene.terrain->deformable()) << run.name;
+    EXPECT_EQ(run.scene.terrain->material, "lete_sand") << run.name;
+    EXPECT_FALSE(run.scene.terrain->depth) << run.name;
+  }
+  EXPECT_EQ(plan.sweep.runs[0].name, "grade=0.2");
+  // 0.4 of the tangent of 31.1 degrees (the soil file), in six digits.
+  const sweeps::SweepRun& weakest = plan.sweep.runs[2];
+  EXPECT_EQ(weakest.name, "soft_soil=0.4");
+  EXPECT_NEAR(*weakest.scene.scm->frictionAngle, std::atan(0.4 * std::tan(31.1 * base::kPi / 180)) * 180 / base::kPi,
+              1e-4);
+  options.fixed = {"scm.c=500"}, options.only = {"grade"}, options.levels = {0.2};
+  EXPECT_DOUBLE_EQ(planEvents(options).course.constants.cohesion, 500);
+}
+
+TEST(EventPlan, ObstaclesReachIntoDeformableSoil) {
+  Course course;
+  course.shape = boxShape(0, 0.4), course.shape.padWidth = 0.28, course.speed = 1, course.soil = "lete_sand";
+  course.ground = scene::TerrainKind::scm;
+  const std::vector<std::string> sets = trialOf(Event::step, 0.2, course).overrides;
+  const auto ends = [&sets](const char* key, const char* end) {
+    return std::any_of(sets.begin(), sets.end(),
+                       [&](const std::string& s) { return s.starts_with(key) && s.ends_with(end); });
+  };
+  EXPECT_TRUE(ends("box.0.size=", ", 0.48]")) << fmt::format("{}", fmt::join(sets, " "));
+  EXPECT_TRUE(ends("box.0.position=", ", -0.04]"));
+  for (const std::string& set : sets) EXPECT_EQ(set.find("material"), std::string::npos) << set;
+}
+
 TEST(EventPlan, GrainsTooCoarseForTheRunningGearMeetTheShoesAlone) {
   EventOptions options;
   options.soil = "lete_sand", options.quick = true, options.only = {"pivot_turn"};
@@ -198,8 +240,48 @@ TEST(EventPlan, RefusesWhatIsNone) {
   EXPECT_EQ(fault(options).find("--set: driver.sprocket_speed"), 0u) << fault(options);
   options = {}, options.seeds = 3;
   EXPECT_NE(fault(options).find("--seeds: rigid ground has no grains"), std::string::npos);
+  options.soil = "lete_sand", options.ground = scene::TerrainKind::scm;
+  EXPECT_NE(fault(options).find("--seeds: deformable soil has no grains"), std::string::npos);
+  options = {}, options.ground = scene::TerrainKind::scm;
+  EXPECT_EQ(fault(options).find("--ground scm: needs a soil; name one with --soil"), 0u) << fault(options);
   options = {}, options.only = {"soft_soil"};
   EXPECT_NE(fault(options).find("--only soft_soil: rigid ground does not become softer"), std::string::npos);
+}
+
+/// The light vehicle of shared closed forms: W 49.21 kN, L 1.85 m, b 0.28 m; constants of LETE sand as published.
+Course lightOnSand() {
+  Course c;
+  c.shape = boxShape(0, 0.4);
+  c.shape.firstWheel = 0, c.shape.lastWheel = 1.85, c.shape.padWidth = 0.28, c.shape.mass = 49.21e3 / kGravity;
+  c.ground = scene::TerrainKind::scm;
+  c.constants.exponent = 0.793, c.constants.kc = 102000, c.constants.kphi = 5301000, c.constants.cohesion = 1300;
+  c.constants.friction = std::tan(31.1 * base::kPi / 180), c.constants.shearDisplacement = 0.012;
+  return c;
+}
+
+TEST(SoilLimits, AreThoseOfARigidTrack) {
+  const Course c = lightOnSand();
+  // Five digits: integrals of the exponential by hand.
+  EXPECT_NEAR(std::atan(holdingSlope(c.shape, c.constants)) * 180 / base::kPi, 32.44, 0.005);
+  for (const auto& [slip, force] : {std::pair{0.02, 21429.0}, {0.05, 27008.0}, {0.1, 29019.0}, {0.2, 30026.0}})
+    EXPECT_NEAR(trackThrust(c.shape, c.constants, slip), force, 5) << slip;
+  EXPECT_NEAR(compactionResistance(c.shape, c.constants), 2 * 0.5 * 35.705, 0.02) << "that of both tracks";
+  Course sticky = c;
+  sticky.constants.cohesion = 1e6;
+  EXPECT_TRUE(std::isinf(holdingSlope(sticky.shape, sticky.constants)));
+  EXPECT_FALSE(referenceOf(Event::grade, sticky)) << "it holds on any slope";
+}
+
+TEST(SoilLimits, BlockSlopesAboveTheHoldingOne) {
+  Course c = lightOnSand();
+  const std::optional<Reference> grade = referenceOf(Event::grade, c), side = referenceOf(Event::sideSlope, c);
+  ASSERT_TRUE(grade && side);
+  EXPECT_NEAR(*grade->blocks, std::tan(32.44 * base::kPi / 180), 2e-4);
+  EXPECT_FALSE(grade->passes);
+  EXPECT_EQ(side->blocks, grade->blocks);
+  c.shape.massCentre.z = 2; // tips first: 0.6 / 2
+  EXPECT_DOUBLE_EQ(*referenceOf(Event::sideSlope, c)->blocks, 0.3);
+  EXPECT_FALSE(referenceOf(Event::step, c));
 }
 
 TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/events/soil_limits.hpp"
+
+#include "base/math.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grouser::events {
+
+namespace {
+
+/// Both tracks [m2].
+double groundArea(const VehicleShape& s) { return 2 * s.groundRun() * s.padWidth; }
+
+} // namespace
+
+double holdingSlope(const VehicleShape& shape, const scm::SoilConstants& soil) {
+  // sin a - tan phi cos a = c A / W, whose left side is sin(a - phi) / cos(phi).
+  const double phi = std::atan(soil.friction);
+  const double cohesive = soil.cohesion * groundArea(shape) / (shape.mass * kGravity);
+  const double angle = phi + std::asin(std::min(1.0, cohesive * std::cos(phi)));
+  return angle < base::kPi / 2 ? std::tan(angle) : std::numeric_limits<double>::infinity();
+}
+
+double trackThrust(const VehicleShape& shape, const scm::SoilConstants& soil, double slip) {
+  const double most = soil.cohesion * groundArea(shape) + shape.mass * kGravity * soil.friction;
+  const double x = slip * shape.groundRun() / soil.shearDisplacement;
+  return most * (1 + std::expm1(-x) / x);
+}
+
+double compactionResistance(const VehicleShape& shape, const scm::SoilConstants& soil) {
+  const double pressure = shape.mass * kGravity / groundArea(shape), b = shape.padWidth, n = soil.exponent;
+  const double sinkage = std::pow(pressure / soil.modulusAt(b), 1 / n);
+  return 2 * b * pressure * sinkage / (n + 1);
+}
+
+} // namespace grouser::events
