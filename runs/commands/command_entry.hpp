@@ -35,11 +35,13 @@ struct CommandEntry {
 /// In the order of `grouser --help`.
 std::vector<CommandEntry> allCommands();
 
-constexpr const char* kSetHelp = "override a key of the scene, e.g. driver.sprocket_speed=2; may be repeated";
+constexpr const char* kSetHelp =
+    "override a key of the scene, e.g. driver.sprocket_speed=2, or remove one, e.g. ~terrain.tile; may be repeated";
 
 void addRun(CLI::App& app, const Invocation& invocation);
 void addSweep(CLI::App& app, const Invocation& invocation);
 void addCheck(CLI::App& app, const Invocation& invocation);
+void addCompare(CLI::App& app, const Invocation& invocation);
 void addEvents(CLI::App& app, const Invocation& invocation);
 void addPlan(CLI::App& app, const Invocation& invocation);
 void addBench(CLI::App& app, const Invocation& invocation);

@@ -7,6 +7,7 @@ std::vector<CommandEntry> allCommands() {
   return {{"run", addRun, RankUse::shared},
           {"sweep", addSweep, RankUse::refused, "; --jobs lets several runs go at the same time"},
           {"check", addCheck, RankUse::refused, "; --jobs lets several runs go at the same time"},
+          {"compare", addCompare, RankUse::refused, "; --jobs lets several runs go at the same time"},
           {"events", addEvents, RankUse::refused, "; --jobs lets several runs go at the same time"},
           {"bench", addBench, RankUse::shared},
           {"hash", addHash},

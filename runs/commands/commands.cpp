@@ -6,6 +6,7 @@
 #include "runs/campaigns/forecast/counted_grains.hpp"
 #include "runs/campaigns/forecast/forecast.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
+#include "runs/campaigns/sweeps/grounds.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/scene_check.hpp"
@@ -142,13 +143,14 @@ void runCommand(const RunCommand& command) {
 }
 
 void sweepCommand(const SweepCommand& command) {
-  const fs::path folder = command.folder.empty()
-                              ? fs::path("out") / (fs::path(command.scene).stem().string() + "_sweep")
-                              : fs::path(command.folder);
+  const std::string suffix = command.ground ? fmt::format("_sweep_{}", base::wordOf(*command.ground)) : "_sweep";
+  const fs::path folder = command.folder.empty() ? fs::path("out") / (fs::path(command.scene).stem().string() + suffix)
+                                                 : fs::path(command.folder);
   support::requireFolder(folder);
   std::vector<std::string> fixed;
   if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
   if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  if (command.ground) fixed = sweeps::groundOverrides(command.scene, command.lists, fixed, *command.ground);
   const sweeps::SweepPlan plan = sweeps::planSweep(command.scene, command.lists, fixed);
   if (!plan.runs.empty()) scene::printNotes(plan.runs.front().scene);
   sweeps::SweepOptions options;

@@ -35,9 +35,10 @@ void runCommand(const RunCommand& command);
 struct SweepCommand {
   std::string scene;
   sweeps::SweepLists lists;
-  std::string device;         ///< empty: as the scene says
-  std::optional<int> threads; ///< empty: as the scene says
-  std::string folder;         ///< empty: out/NAME_sweep
+  std::optional<scene::TerrainKind> ground; ///< empty: as the scene says
+  std::string device;                       ///< empty: as the scene says
+  std::optional<int> threads;               ///< empty: as the scene says
+  std::string folder;                       ///< empty: out/NAME_sweep
   int jobs = 1;
   double seconds = 0; ///< no run is begun after so many; 0: no end
   bool force = false;

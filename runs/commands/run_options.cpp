@@ -58,6 +58,11 @@ void addSweep(CLI::App& app, const Invocation&) {
           "a key and its values, e.g. driver.sprocket_speed=0.5,1,2; may be repeated: all combinations are run")
       ->allow_extra_args(false);
   sweep
+      ->add_option_function<std::string>(
+          "--ground", [&c](const std::string& word) { c.ground = base::valueOf<scene::TerrainKind>(word); },
+          "another kind of ground for the scene: rigid, granular or scm; default: as the scene says")
+      ->check(CLI::IsMember(base::wordsOf<scene::TerrainKind>()));
+  sweep
       ->add_option("--case", c.lists.cases,
                    "a name, and keys that change together: 'slow: driver.sprocket_speed=0.5, run.duration=16'; a name "
                    "alone is the scene as it is; may be repeated, the first is the one to compare with")
@@ -71,7 +76,9 @@ void addSweep(CLI::App& app, const Invocation&) {
       ->add_option("--seconds", c.seconds,
                    "no further run is begun after so many, 0: no limit; the same command again continues")
       ->check(support::notNegative("a time in seconds"));
-  support::addOut(*sweep, c.folder, "folder for the runs' folders and summary.csv; default: out/NAME_sweep");
+  support::addOut(
+      *sweep, c.folder,
+      "folder for the runs' folders and summary.csv; default: out/NAME_sweep, with --ground out/NAME_sweep_GROUND");
   sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
   sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
       ->check(support::wholeNumber(0, 1024));

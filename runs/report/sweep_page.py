@@ -12,6 +12,7 @@ import numpy
 import damage
 import definitions
 import grouser
+import ground_table
 import page as pages
 import run_page
 import space
@@ -272,6 +273,8 @@ def page(folder, options):
                 "in space and the ledgers.")
     made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep, faults),
                                                                            opened=not sweep.means or bool(faults)))
+    if grounds := ground_table.section(folder):
+        made.section("grounds", "Comparison of grounds", grounds)
     made.section("plots", "Plots", plots(made, sweep, options.program))
     add_runs(made, first_seeds(sweep, faults), options, "The first run of each combination.")
     return made

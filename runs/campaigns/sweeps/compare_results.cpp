@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/sweeps/compare_results.hpp"
+
+#include "base/counted.hpp"
+#include "base/math.hpp"
+#include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/campaigns/sweeps/run_series.hpp"
+#include "runs/support/csv_cell.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::sweeps {
+
+namespace fs = std::filesystem;
+using scene::TerrainKind;
+
+namespace {
+
+/// In the table to read; the files have all.
+constexpr const char* kShown[] = {"speed [m/s]",           "slip [-]",           "sinkage mean [m]",
+                                  "sinkage max [m]",       "drive torque [N m]", "drive power [W]",
+                                  "tension mean [N]",      "gross traction [N]", "drawbar pull [N]",
+                                  "motion resistance [N]", "pitch mean [deg]"};
+constexpr const char* kPitch = "pitch mean [deg]";
+constexpr const char* kInconclusive = "inconclusive";
+
+bool isShown(const std::string& column) {
+  return std::find(std::begin(kShown), std::end(kShown), column) != std::end(kShown) ||
+         column.find(" force ") != std::string::npos;
+}
+
+/// Mean pitch over the steady part, nose up positive [deg].
+double steadyPitch(const SweepRun& run, const fs::path& folder) {
+  const RunSeries series = readSeries(folder);
+  const std::vector<double>* pitch = series.of("vehicle.pitch_angle [rad]");
+  const double from = steadyFrom(run.scene, RunManifest(folder));
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; pitch && i < series.time.size(); ++i)
+    if (series.time[i] >= from && std::isfinite((*pitch)[i])) sum += (*pitch)[i], ++count;
+  return count > 0 ? sum / count * 180 / base::kPi : base::kNaN;
+}
+
+/// Those of a sweep, and the pitch.
+SweepFigures figuresOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
+  SweepFigures figures = sweepFigures(plan, outcomes, folder);
+  const auto hasVehicle = [](const SweepRun& run) { return run.scene.vehicle.has_value(); };
+  if (!std::any_of(plan.runs.begin(), plan.runs.end(), hasVehicle)) return figures;
+  figures.columns.emplace_back(kPitch);
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    figures.values[i].push_back(
+        output::hasEnded(outcomes[i].status) ? steadyPitch(plan.runs[i], folder / plan.runs[i].name) : base::kNaN);
+  return figures;
+}
+
+GroundResult resultOf(TerrainKind ground, const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
+                      SweepFigures& figures, const fs::path& folder) {
+  GroundResult result;
+  result.ground = ground, result.random = ground == TerrainKind::granular;
+  std::vector<std::size_t> runs;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    if (plan.runs[i].scene.terrain->kind == ground) runs.push_back(i);
+  result.runs = static_cast<int>(runs.size());
+  figures.keepSound(runs), result.doubt = figures.doubtOf(runs);
+  for (const std::size_t i : runs) {
+    if (!output::hasEnded(outcomes[i].status)) continue;
+    const RunManifest manifest(folder / plan.runs[i].name);
+    result.preparation += manifest.figure("wall_preparation_s"), result.cpuTime += manifest.figure("cpu_steps_s");
+    result.wallTime += manifest.wallTime(),
+        result.perSecond += manifest.wallTime() / manifest.number("simulated_time_s");
+    ++result.ended;
+  }
+  const double ended = result.ended > 0 ? result.ended : base::kNaN;
+  result.preparation /= ended, result.cpuTime /= ended;
+  result.wallTime /= ended, result.perSecond /= ended;
+  for (std::size_t c = 0; c < figures.columns.size(); ++c) {
+    std::vector<double>& values = result.values.emplace_back();
+    for (const std::size_t i : runs)
+      if (std::isfinite(figures.values[i][c])) values.push_back(figures.values[i][c]);
+    result.figures.push_back(values.empty()  ? support::Estimate{base::kNaN, base::kNaN}
+                             : result.random ? jobs::interval95(values)
+                                             : support::Estimate{values.front(), 0});
+  }
+  return result;
+}
+
+GroundDifference differenceOf(const Comparison& all, std::size_t from, std::size_t to, double percent) {
+  const GroundResult &a = all.grounds[from], &b = all.grounds[to];
+  GroundDifference difference{from, to, {}, {}};
+  for (std::size_t c = 0; c < all.columns.size(); ++c) {
+    const support::Estimate change = groundDifference(a, b, c);
+    difference.changes.push_back(change);
+    const bool doubtful = !a.doubt.empty() || !b.doubt.empty();
+    difference.verdicts.push_back(!std::isfinite(change.value) ? ""
+                                  : doubtful                   ? kInconclusive
+                                             : groundVerdict(change, a.figures[c].value, b.figures[c].value, percent));
+  }
+  return difference;
+}
+
+/// Why a ground has no sound figures; empty if it has.
+std::string whyNone(const Comparison& all, const GroundResult& ground) {
+  if (!ground.doubt.empty()) return ground.doubt;
+  for (std::size_t c = 0; c < all.columns.size(); ++c)
+    if (isShown(all.columns[c]) && std::isfinite(ground.figures[c].value)) return {};
+  return ground.ended > 0 ? "its runs end before the drive is up to speed; raise run.duration" : "no run has ended";
+}
+
+std::string figureText(const support::Estimate& e) {
+  if (!std::isfinite(e.value)) return "-";
+  return e.halfWidth == 0 || !std::isfinite(e.halfWidth) ? fmt::format("{:.4g}", e.value) : jobs::valueText(e);
+}
+
+} // namespace
+
+support::Estimate groundDifference(const GroundResult& a, const GroundResult& b, std::size_t column) {
+  const support::Estimate &x = a.figures[column], &y = b.figures[column];
+  if (!std::isfinite(x.value) || !std::isfinite(y.value)) return {base::kNaN, base::kNaN};
+  if (a.random && b.random) return jobs::unpairedChange(a.values[column], b.values[column]);
+  return {y.value - x.value, a.random ? x.halfWidth : b.random ? y.halfWidth : 0};
+}
+
+std::string groundVerdict(const support::Estimate& difference, double a, double b, double percent) {
+  const double bar = percent / 100 * std::max(std::fabs(a), std::fabs(b));
+  const jobs::Verdict verdict = jobs::judge(difference, bar);
+  return verdict == jobs::Verdict::notShown ? kInconclusive : jobs::verdictText(verdict);
+}
+
+Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
+                        const std::vector<TerrainKind>& grounds, double percent, const fs::path& folder) {
+  SweepFigures figures = figuresOf(plan, outcomes, folder);
+  Comparison all;
+  all.columns = figures.columns;
+  for (const TerrainKind ground : grounds) all.grounds.push_back(resultOf(ground, plan, outcomes, figures, folder));
+  for (std::size_t a = 0; a < all.grounds.size(); ++a)
+    for (std::size_t b = a + 1; b < all.grounds.size(); ++b)
+      all.differences.push_back(differenceOf(all, a, b, percent));
+  return all;
+}
+
+std::string comparisonText(const Comparison& all, double percent) {
+  const auto word = [&](std::size_t g) { return base::wordOf(all.grounds[g].ground); };
+  std::string text = "means over the steady part; granular: +- half of the 95 % interval over the seeds\n";
+  text += fmt::format("{:<28}", "figure");
+  for (std::size_t g = 0; g < all.grounds.size(); ++g) text += fmt::format("{:>22}", word(g));
+  text += "\n";
+  const auto isKnown = [&](std::size_t c) {
+    return std::any_of(all.grounds.begin(), all.grounds.end(),
+                       [c](const GroundResult& g) { return std::isfinite(g.figures[c].value); });
+  };
+  const auto line = [&](const std::string& name, const auto& cell) {
+    text += fmt::format("{:<28}", name);
+    for (const GroundResult& g : all.grounds) text += fmt::format("{:>22}", cell(g));
+    text += "\n";
+  };
+  for (std::size_t c = 0; c < all.columns.size(); ++c)
+    if (isShown(all.columns[c]) && isKnown(c))
+      line(all.columns[c], [c](const GroundResult& g) { return figureText(g.figures[c]); });
+  line("runs", [](const GroundResult& g) { return fmt::format("{} of {}", g.ended, g.runs); });
+  line("preparation of a run [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.preparation); });
+  line("wall time of its steps [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.wallTime); });
+  line("CPU time of its steps [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.cpuTime); });
+  line("wall time a second [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.perSecond); });
+  for (const GroundResult& g : all.grounds)
+    if (const std::string why = whyNone(all, g); !why.empty())
+      text += fmt::format("WARNING: {} is inconclusive: {}\n", base::wordOf(g.ground), why);
+  for (const GroundDifference& d : all.differences) {
+    if (std::all_of(d.verdicts.begin(), d.verdicts.end(), [](const std::string& v) { return v.empty(); })) continue;
+    text += fmt::format("\n{} - {}; equal: within {:g} % of the larger mean\n", word(d.to), word(d.from), percent);
+    for (std::size_t c = 0; c < all.columns.size(); ++c)
+      if (isShown(all.columns[c]) && !d.verdicts[c].empty())
+        text += fmt::format("{:<28}{:>22}  {}\n", all.columns[c], figureText(d.changes[c]), d.verdicts[c]);
+  }
+  return text;
+}
+
+std::string comparisonCsv(const Comparison& all) {
+  std::string text = "figure,ground,runs,mean,half width,inconclusive,compared with,difference,half width of the "
+                     "difference,verdict\n";
+  for (std::size_t c = 0; c < all.columns.size(); ++c)
+    for (std::size_t g = 0; g < all.grounds.size(); ++g) {
+      const GroundResult& ground = all.grounds[g];
+      const std::string head =
+          fmt::format("{},{},{},{},{},{}", support::csvCell(all.columns[c]), base::wordOf(ground.ground),
+                      ground.values[c].size(), support::csvCell(ground.figures[c].value),
+                      support::csvCell(ground.figures[c].halfWidth), support::csvCell(ground.doubt));
+      if (g == 0) text += head + ",,,,\n";
+      for (const GroundDifference& d : all.differences)
+        if (d.to == g)
+          text += fmt::format("{},{},{},{},{}\n", head, base::wordOf(all.grounds[d.from].ground),
+                              support::csvCell(d.changes[c].value), support::csvCell(d.changes[c].halfWidth),
+                              d.verdicts[c]);
+    }
+  return text;
+}
+
+nlohmann::ordered_json comparisonJson(const Comparison& all) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](double v) { return std::isfinite(v) ? Json(v) : Json(); };
+  const auto words = [&](std::size_t g) { return std::string(base::wordOf(all.grounds[g].ground)); };
+  Json json;
+  for (const GroundResult& g : all.grounds)
+    json["grounds"].push_back({{"ground", base::wordOf(g.ground)},
+                               {"runs", g.runs},
+                               {"ended", g.ended},
+                               {"inconclusive", g.doubt},
+                               {"wall_time_s", number(g.wallTime)},
+                               {"preparation_s", number(g.preparation)},
+                               {"cpu_time_s", number(g.cpuTime)},
+                               {"wall_time_per_second", number(g.perSecond)}});
+  for (std::size_t c = 0; c < all.columns.size(); ++c) {
+    Json row = {{"figure", all.columns[c]}, {"means", Json::array()}, {"differences", Json::array()}};
+    for (const GroundResult& g : all.grounds)
+      row["means"].push_back({{"ground", base::wordOf(g.ground)},
+                              {"mean", number(g.figures[c].value)},
+                              {"half_width", number(g.figures[c].halfWidth)},
+                              {"values", g.values[c]}});
+    for (const GroundDifference& d : all.differences)
+      if (!d.verdicts[c].empty())
+        row["differences"].push_back({{"from", words(d.from)},
+                                      {"to", words(d.to)},
+                                      {"change", number(d.changes[c].value)},
+                                      {"half_width", number(d.changes[c].halfWidth)},
+                                      {"verdict", d.verdicts[c]}});
+    json["rows"].push_back(row);
+  }
+  return json;
+}
+
+} // namespace grouser::sweeps

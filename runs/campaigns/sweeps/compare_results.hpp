@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/campaigns/sweeps/sweep_plan.hpp"
+#include "runs/campaigns/sweeps/sweep_summary.hpp"
+#include "runs/jobs/estimate.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Figures of a scene on several kinds of ground, and their differences.
+namespace grouser::sweeps {
+
+/// One kind of ground over its runs.
+struct GroundResult {
+  scene::TerrainKind ground{};
+  bool random = false;                     ///< it has seeds; without them a value has no interval
+  int runs = 0, ended = 0;                 ///< planned; with figures
+  std::string doubt;                       ///< why all its figures are inconclusive; else empty
+  std::vector<support::Estimate> figures;  ///< of the columns; NaN where there is none
+  std::vector<std::vector<double>> values; ///< [columns][runs with it]
+  double wallTime = 0;                     ///< mean over the runs, of their steps [s]
+  double preparation = 0, cpuTime = 0;     ///< mean wall time before the steps, CPU time of the steps [s]
+  double perSecond = 0;                    ///< the same over the simulated time [-]
+};
+
+/// One kind of ground less another.
+struct GroundDifference {
+  std::size_t from = 0, to = 0;           ///< of the results
+  std::vector<support::Estimate> changes; ///< of the columns; NaN where one has none
+  std::vector<std::string> verdicts;      ///< "equal", "differs", "inconclusive"; empty where one has none
+};
+
+struct Comparison {
+  std::vector<std::string> columns;
+  std::vector<GroundResult> grounds;
+  std::vector<GroundDifference> differences; ///< of all pairs
+};
+
+/// Difference b - a with its 95 % half width: Welch's interval between two samples, that of the other mean where one
+/// ground has no scatter, 0 where both have none.
+support::Estimate groundDifference(const GroundResult& a, const GroundResult& b, std::size_t column);
+
+/// Verdict on a difference by the bar `percent` of the larger of both means.
+std::string groundVerdict(const support::Estimate& difference, double a, double b, double percent);
+
+Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
+                        const std::vector<scene::TerrainKind>& grounds, double percent,
+                        const std::filesystem::path& folder);
+
+/// The figures one asks for first, their differences, and the cost.
+std::string comparisonText(const Comparison& comparison, double percent);
+/// A row for each figure, ground and ground before it.
+std::string comparisonCsv(const Comparison& comparison);
+nlohmann::ordered_json comparisonJson(const Comparison& comparison);
+
+} // namespace grouser::sweeps

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/campaigns/sweeps/sweep_plan.hpp"
+#include "runs/scene/choices.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// One scene on several kinds of ground.
+namespace grouser::sweeps {
+
+/// Overrides that put a scene on this kind of ground: `sets` and terrain.kind, without the keys that only other kinds
+/// have. Those in the file are removed ("~terrain.depth"). Throws InputError, with the key and the --set that is
+/// missing, if the scene has no [terrain] or lacks what the ground needs.
+std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const std::vector<std::string>& sets,
+                                         scene::TerrainKind ground);
+
+/// The same for a sweep, whose lists may hold what the ground needs; they stay apart.
+std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const SweepLists& lists,
+                                         const std::vector<std::string>& fixed, scene::TerrainKind ground);
+
+} // namespace grouser::sweeps

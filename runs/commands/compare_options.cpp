@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/counted.hpp"
+#include "base/error.hpp"
+#include "runs/campaigns/sweeps/compare.hpp"
+#include "runs/campaigns/sweeps/overrides.hpp"
+#include "runs/campaigns/sweeps/sweep_files.hpp"
+#include "runs/commands/command_entry.hpp"
+#include "runs/support/option_checks.hpp"
+#include "runs/support/output_place.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::commands {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareCommand {
+  std::string scene, device, folder;
+  std::vector<std::string> grounds;
+  std::optional<int> threads;
+  sweeps::CompareOptions options;
+};
+
+void compareCommand(CompareCommand command) {
+  sweeps::CompareOptions& options = command.options;
+  options.grounds = sweeps::groundsOf(command.grounds);
+  if (!command.device.empty()) options.fixed.push_back("run.device=" + command.device);
+  if (command.threads) options.fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  sweeps::checkGivenOnce(options.fixed);
+  for (const std::string& set : options.fixed)
+    for (const auto& [key, option] : {std::pair{"terrain.kind", "--grounds"}, {"run.seed", "--seeds"}})
+      if (sweeps::keyOf(set) == key)
+        throw base::InputError(fmt::format("--set {}: {} sets this key; leave it out", set, option));
+  const fs::path file = command.scene;
+  options.sweep.program = fs::read_symlink("/proc/self/exe");
+  options.sweep.folder =
+      command.folder.empty() ? fs::path("out") / (file.stem().string() + "_compare") : fs::path(command.folder);
+  support::requireFolder(options.sweep.folder);
+  if (const int failed = sweeps::runCompare(file, options))
+    throw base::SimulationError(fmt::format("{} failed; see {}", base::counted(failed, "run"),
+                                            (options.sweep.folder / sweeps::kSummaryFile).string()));
+}
+
+} // namespace
+
+void addCompare(CLI::App& app, const Invocation& invocation) {
+  const auto command = std::make_shared<CompareCommand>();
+  CompareCommand& c = *command;
+  c.options.words = invocation.words;
+  CLI::App* compare = app.add_subcommand("compare", "The same vehicle and drive on several kinds of ground: figures, "
+                                                    "differences with verdicts, cost");
+  compare->add_option("scene", c.scene, "scene file")->required();
+  compare
+      ->add_option(
+          "--grounds", c.grounds,
+          fmt::format("two or more of {}, separated by commas", fmt::join(base::wordsOf<scene::TerrainKind>(), ", ")))
+      ->delimiter(',')
+      ->required();
+  compare->add_option("--seeds", c.options.seeds, "beds of granular ground; other grounds have one run")
+      ->check(support::wholeNumber(1, 1000))
+      ->capture_default_str();
+  compare
+      ->add_option("--set", c.options.fixed, std::string(kSetHelp) + "; keys of one kind of ground apply to it alone")
+      ->allow_extra_args(false);
+  compare
+      ->add_option("--bar", c.options.percent,
+                   "percent of the larger mean (10 or 10%) within which verdicts call a figure equal; default: 5")
+      ->transform(support::percentSign())
+      ->check(support::positive("a share in percent"));
+  compare->add_option("--jobs", c.options.sweep.jobs, "runs at the same time; default: 1")
+      ->check(support::wholeNumber(1, 1024));
+  compare
+      ->add_option("--seconds", c.options.sweep.seconds,
+                   "no further run is begun after so many, 0: no limit; the same command again continues")
+      ->check(support::notNegative("a time in seconds"));
+  support::addOut(*compare, c.folder, "folder for the runs' folders and the tables; default: out/NAME_compare");
+  compare->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
+  compare->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
+      ->check(support::wholeNumber(0, 1024));
+  CLI::Option* resume =
+      compare->add_flag("--resume")
+          ->description("go on with what an earlier call has left, which the same command does anyway");
+  compare->add_flag("--force", c.options.sweep.force, "run again what has already been run")->excludes(resume);
+  compare->callback([command] { compareCommand(*command); });
+}
+
+} // namespace grouser::commands

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plot of a comparison of grounds: compare.py COMPARE.json FILE.png
+
+A panel a figure, with a bar for each kind of ground and its 95 % interval, and the wall time for a second of the drive.
+"""
+import json
+from pathlib import Path
+
+import drawing
+
+COLOURS = {"rigid": "#8a8d91", "scm": "#b0763a", "granular": "#d8b365"}
+# (name of the figure, label, factor)
+PANELS = (
+    ("speed [m/s]", "speed [m/s]", 1),
+    ("slip [-]", "slip [-]", 1),
+    ("sinkage mean [m]", "mean sinkage [mm]", 1000),
+    ("drive torque [N m]", "drive torque [kN m]", 1e-3),
+    ("motion resistance [N]", "motion resistance [kN]", 1e-3),
+    ("drawbar pull [N]", "drawbar pull [kN]", 1e-3),
+    ("pitch mean [deg]", "pitch, nose up [deg]", 1),
+)
+
+
+def bars(axis, label, grounds, values, halves):
+    places = range(len(grounds))
+    axis.bar(places, [value if value is not None else 0 for value in values], color=[COLOURS.get(g, "C0") for g in grounds],
+             width=0.6)
+    for place, value, half in zip(places, values, halves):
+        if value is None:
+            axis.text(place, 0, "none", ha="center", va="bottom", fontsize=7)
+        elif half:
+            axis.errorbar(place, value, yerr=half, color="black", capsize=3)
+    axis.axhline(0, color="black", linewidth=0.6)
+    axis.set_xticks(places, grounds, fontsize=8)
+    axis.set_ylabel(label, fontsize=8)
+    axis.tick_params(axis="y", labelsize=7)
+    axis.grid(False, axis="x")
+    axis.margins(y=0.15)
+
+
+def draw(path):
+    with open(path, encoding="utf-8") as file:
+        results = json.load(file)
+    grounds = [ground["ground"] for ground in results["grounds"]]
+    rows = {row["figure"]: row["means"] for row in results["rows"]}
+    panels = [(label, factor, rows[name]) for name, label, factor in PANELS
+              if any(mean["mean"] is not None for mean in rows.get(name, ()))]
+    if not panels:
+        return None
+    columns = 4
+    figure = drawing.Figure(figsize=(2.6 * columns, 2.6 * ((len(panels) + columns) // columns)))
+    axes = list(figure.subplots((len(panels) + columns) // columns, columns, squeeze=False).flatten())
+    for axis, (label, factor, means) in zip(axes, panels):
+        bars(axis, label, grounds, *([None if mean[key] is None else factor * mean[key] for mean in means]
+                                     for key in ("mean", "half_width")))
+    bars(axes[len(panels)], "wall time a second [s]", grounds, [g["wall_time_per_second"] for g in results["grounds"]],
+         [None] * len(grounds))
+    for axis in axes[len(panels) + 1:]:
+        axis.set_visible(False)
+    figure.suptitle(f"{Path(results['scene']).stem}: means over the steady part", fontsize=9)
+    return figure
+
+
+if __name__ == "__main__":
+    drawing.main(__doc__, draw, dpi=110)

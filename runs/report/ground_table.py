@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Differences between kinds of ground, on the page of a comparison (`grouser compare`)."""
+import json
+
+from grouser.series import counted
+from page import esc, facts, figure_with_bar, folded, number, table
+
+UNSHOWN = ("steady from", "teeth passed", "integration error", "impulse residual")
+
+
+def section(folder):
+    """HTML; empty if the folder holds no comparison."""
+    file = folder / "compare.json"
+    if not file.is_file():
+        return ""
+    with open(file, encoding="utf-8") as stream:
+        compared = json.load(stream)
+    grounds = [g["ground"] for g in compared["grounds"]]
+    rows = [row for row in compared["rows"] if not row["figure"].startswith(UNSHOWN)
+            and any(mean["mean"] is not None for mean in row["means"])]
+    told = facts([(g["ground"], f"{g['ended']} of {counted(g['runs'], 'run')}, {number(g['wall_time_s'], 's')} a run, "
+                                f"{number(g['wall_time_per_second'], 's')} for a second of the drive")
+                  for g in compared["grounds"] if g["wall_time_s"] is not None])
+    means = table(["figure", *grounds], [[esc(row["figure"]), *(cell(mean["mean"], mean["half_width"]) for mean in row["means"])]
+                                         for row in rows],
+                  "Means over the steady part; granular: \u00b1 half of the 95 % interval over the seeds.", numeric=range(1, 1 + len(grounds)))
+    pairs = [[esc(row["figure"]), f"{esc(d['to'])} \u2212 {esc(d['from'])}", cell(d["change"], d["half_width"]), esc(d["verdict"])]
+             for row in rows for d in row["differences"]]
+    words = (f"Equal: the whole 95 % interval lies within {compared['bar_percent']:g} % of the larger mean; differs: outside; "
+             "inconclusive: neither.")
+    return told + means + folded("Differences", table(["figure", "grounds", "difference", "verdict"], pairs, words, numeric=(2,)),
+                                 opened=True)
+
+
+def cell(value, half):
+    return "\u2013" if value is None else figure_with_bar(value, half or None)

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One scene on several kinds of ground: its conversion, differences and verdicts, and tables.
+#include "runs/campaigns/sweeps/compare_results.hpp"
+
+#include "base/error.hpp"
+#include "runs/campaigns/sweeps/compare.hpp"
+#include "runs/campaigns/sweeps/grounds.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "tests/runs/program_fixture.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::sweeps {
+
+using namespace test; // fixtures
+
+namespace {
+
+namespace fs = std::filesystem;
+using scene::TerrainKind;
+using Words = std::vector<std::string>;
+
+fs::path shipped(const std::string& name) { return fs::path(GROUSER_SOURCE_DIR) / "runs/scenes" / name; }
+
+bool has(const Words& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string fault(const fs::path& scene, const Words& sets, TerrainKind ground) {
+  try {
+    groundOverrides(scene, sets, ground);
+    return "";
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(Grounds, ABedLosesItsGrains) {
+  const fs::path scene = shipped("deep_bed.toml");
+  const Words sets = {"terrain.material=lete_sand", "terrain.depth=0.3", "scm.c=0", "run.duration=1"};
+  const Words rigid = groundOverrides(scene, sets, TerrainKind::rigid),
+              scm = groundOverrides(scene, sets, TerrainKind::scm);
+  for (const Words& words : {rigid, scm}) {
+    EXPECT_TRUE(has(words, "~terrain.depth"));
+    EXPECT_TRUE(has(words, "~terrain.grain_radius"));
+    EXPECT_FALSE(has(words, "terrain.depth=0.3")) << "only a bed has it";
+    EXPECT_TRUE(has(words, "run.duration=1"));
+  }
+  EXPECT_FALSE(has(rigid, "scm.c=0"));
+  EXPECT_TRUE(has(scm, "scm.c=0"));
+  const scene::Scene hard = setup::loadScene(scene, rigid), soft = setup::loadScene(scene, scm);
+  EXPECT_EQ(hard.terrain->kind, TerrainKind::rigid);
+  EXPECT_EQ(soft.terrain->kind, TerrainKind::scm);
+  EXPECT_EQ(soft.scm->cohesion, 0.0);
+  const scene::Scene bed = setup::loadScene(scene, groundOverrides(scene, sets, TerrainKind::granular));
+  EXPECT_EQ(bed.terrain->depth, 0.3);
+  EXPECT_FALSE(bed.scm) << "a bed has no [scm]";
+}
+
+TEST(Grounds, DeformableSoilBecomesABed) {
+  const fs::path scene = shipped("scm_drive.toml");
+  EXPECT_NE(fault(scene, {}, TerrainKind::granular)
+                .find("terrain.grain_radius [m] is missing, which granular ground "
+                      "needs; add --set terrain.grain_radius=VALUE"),
+            std::string::npos);
+  EXPECT_NE(fault(scene, {"terrain.grain_radius=0.05"}, TerrainKind::granular).find("--set terrain.depth=VALUE"),
+            std::string::npos);
+  const Words sets = {"terrain.grain_radius=0.05", "terrain.depth=0.3"};
+  EXPECT_EQ(setup::loadScene(scene, groundOverrides(scene, sets, TerrainKind::granular)).terrain->depth, 0.3);
+  EXPECT_TRUE(setup::loadScene(scene, groundOverrides(scene, sets, TerrainKind::scm)).terrain->deformable());
+  EXPECT_EQ(setup::loadScene(scene, groundOverrides(scene, sets, TerrainKind::rigid)).terrain->material, "lete_sand");
+}
+
+TEST(Grounds, NameWhatIsMissing) {
+  EXPECT_NE(fault(shipped("rigid_control.toml"), {}, TerrainKind::scm)
+                .find("is not a soil, which ground scm needs; add "
+                      "--set terrain.material=SOIL"),
+            std::string::npos);
+  EXPECT_EQ(fault(shipped("rigid_control.toml"), {"terrain.material=dry_sand"}, TerrainKind::scm), "");
+  EXPECT_EQ(fault(shipped("rigid_control.toml"), {"scm.n=1"}, TerrainKind::scm), "") << "the loader names the others";
+  EXPECT_NE(fault(shipped("drum.toml"), {}, TerrainKind::scm).find("has no [terrain]"), std::string::npos);
+}
+
+TEST(Grounds, EverySceneOfAVehicleIsConverted) {
+  int scenes = 0;
+  for (const auto& entry : fs::directory_iterator(shipped(""))) {
+    const scene::Scene own = setup::loadScene(entry.path());
+    if (!own.terrain || !own.vehicle) continue;
+    ++scenes;
+    for (const TerrainKind ground : {TerrainKind::rigid, TerrainKind::scm, TerrainKind::granular}) {
+      Words sets = {"terrain.material=lete_sand"};
+      if (!own.terrain->granular() && ground == TerrainKind::granular)
+        sets.insert(sets.end(), {"terrain.grain_radius=0.05", "terrain.depth=0.3"});
+      EXPECT_NO_THROW(
+          EXPECT_EQ(setup::loadScene(entry.path(), groundOverrides(entry.path(), sets, ground)).terrain->kind, ground))
+          << entry.path() << " " << base::wordOf(ground);
+    }
+  }
+  EXPECT_GT(scenes, 10);
+}
+
+TEST(Grounds, OfASweepMayStandInItsLists) {
+  const fs::path scene = shipped("scm_drive.toml");
+  const SweepLists lists{{"terrain.depth=0.3,0.4", "terrain.grain_radius=0.05"}};
+  const Words words = groundOverrides(scene, lists, {"run.threads=1"}, TerrainKind::granular);
+  EXPECT_EQ(words, (Words{"run.threads=1", "terrain.kind=\"granular\""}));
+  EXPECT_THROW(groundOverrides(scene, {{"terrain.kind=rigid,scm"}}, {}, TerrainKind::scm), base::InputError);
+}
+
+TEST(Compare, GroundsAreTwoDifferentOnes) {
+  EXPECT_EQ(groundsOf({"scm", "rigid"}), (std::vector{TerrainKind::scm, TerrainKind::rigid}));
+  for (const Words& words : {Words{"scm"}, {"scm", "scm"}, {"scm", "mud"}})
+    EXPECT_THROW(groundsOf(words), base::InputError) << words.back();
+}
+
+GroundResult resultWith(TerrainKind ground, const std::vector<double>& values) {
+  GroundResult g;
+  g.ground = ground, g.random = ground == TerrainKind::granular, g.values = {values};
+  g.runs = g.ended = static_cast<int>(values.size());
+  g.figures = {g.random ? jobs::interval95(values) : support::Estimate{values.front(), 0}};
+  return g;
+}
+
+TEST(Compare, DifferencesHaveTheScatterOfTheirSeeds) {
+  const GroundResult scm = resultWith(TerrainKind::scm, {2.0}), rigid = resultWith(TerrainKind::rigid, {1.5}),
+                     bed = resultWith(TerrainKind::granular, {1.0, 1.1, 1.2});
+  EXPECT_DOUBLE_EQ(groundDifference(rigid, scm, 0).value, 0.5);
+  EXPECT_EQ(groundDifference(rigid, scm, 0).halfWidth, 0);
+  // Student: 4.303 * 0.1 / sqrt(3)
+  for (const support::Estimate& d : {groundDifference(scm, bed, 0), groundDifference(bed, scm, 0)}) {
+    EXPECT_NEAR(std::fabs(d.value), 0.9, 1e-12); // round-off
+    EXPECT_NEAR(d.halfWidth, 4.303 * 0.1 / std::sqrt(3), 1e-4);
+  }
+  EXPECT_LT(groundDifference(scm, bed, 0).value, 0);
+  const GroundResult other = resultWith(TerrainKind::granular, {2.0, 2.1, 2.2});
+  EXPECT_NEAR(groundDifference(bed, other, 0).halfWidth, jobs::unpairedChange(bed.values[0], other.values[0]).halfWidth,
+              1e-15);
+}
+
+TEST(Compare, VerdictsAreByTheLargerMean) {
+  EXPECT_EQ(groundVerdict({0.049, 0}, 1, 1.049, 5), "equal");
+  EXPECT_EQ(groundVerdict({0.06, 0}, 1, 1.06, 5), "differs");
+  EXPECT_EQ(groundVerdict({1.02, 0}, 20, 21.02, 5), "equal") << "less than 5 % of 21.02, more than of 20";
+  EXPECT_EQ(groundVerdict({-1.02, 0}, 21.02, 20, 5), "equal");
+  EXPECT_EQ(groundVerdict({0.06, 0.02}, 1, 1.06, 5), "inconclusive");
+  EXPECT_EQ(groundVerdict({0.06, INFINITY}, 1, 1.06, 5), "inconclusive") << "one seed";
+}
+
+TEST(Compare, TablesHaveEveryPairOfGrounds) {
+  Comparison all;
+  all.columns = {"speed [m/s]"};
+  all.grounds = {resultWith(TerrainKind::rigid, {1.0}), resultWith(TerrainKind::scm, {0.9}),
+                 resultWith(TerrainKind::granular, {0.5, 0.6, 0.7})};
+  all.grounds[2].doubt = "1.2 teeth";
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
+    all.differences.push_back({a, b, {groundDifference(all.grounds[a], all.grounds[b], 0)}, {"differs"}});
+  const std::string csv = comparisonCsv(all), text = comparisonText(all, 5);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 1 + 1 + 2);
+  EXPECT_NE(csv.find("speed [m/s],scm,1,0.9,0,,rigid,-0.1"), std::string::npos) << csv;
+  EXPECT_NE(text.find("granular is inconclusive: 1.2 teeth"), std::string::npos) << text;
+  EXPECT_NE(text.find("granular - scm"), std::string::npos) << text;
+  const nlohmann::ordered_json json = comparisonJson(all);
+  EXPECT_EQ(json["rows"][0]["differences"].size(), 3u);
+  EXPECT_EQ(json["rows"][0]["means"][2]["values"].size(), 3u);
+  all.grounds[0].figures[0] = {NAN, NAN}, all.differences[0].verdicts[0] = all.differences[1].verdicts[0] = "";
+  const std::string none = comparisonText(all, 5);
+  EXPECT_NE(none.find("rigid is inconclusive: its runs end before the drive"), std::string::npos) << none;
+  EXPECT_EQ(none.find("scm - rigid"), std::string::npos) << none;
+}
+
+class CompareRuns : public ProgramTest {};
+
+TEST_F(CompareRuns, OneFolderAGroundAndAgainNothing) {
+  CompareOptions options;
+  options.grounds = {TerrainKind::rigid, TerrainKind::scm};
+  options.fixed = {"run.duration=0.004", "output.picture=false", "output.plots=false", "output.frames=false",
+                   "run.threads=1"};
+  options.sweep.program = programUnderTest(), options.sweep.folder = folder_ / "out", options.sweep.plot = false;
+  EXPECT_EQ(runCompare(shipped("scm_drive.toml"), options), 0);
+  const auto time = [&](const char* name) { return fs::last_write_time(folder_ / "out" / name / "manifest.json"); };
+  const auto rigid = time("rigid"), scm = time("scm");
+  EXPECT_EQ(runCompare(shipped("scm_drive.toml"), options), 0);
+  EXPECT_EQ(time("rigid"), rigid);
+  EXPECT_EQ(time("scm"), scm);
+  for (const char* file : {"compare.txt", "compare.csv", "compare.json", "summary.csv"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+  options.grounds.push_back(TerrainKind::granular);
+  try {
+    runCompare(shipped("scm_drive.toml"), options);
+    ADD_FAILURE() << "a bed without grains";
+  } catch (const base::InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("--grounds granular: "), 0u) << error.what();
+  }
+}
+
+} // namespace
+
+} // namespace grouser::sweeps
