@@ -3,6 +3,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/meeting_pairs.hpp"
 #include "runs/setup/scene_surfaces.hpp"
+#include "runs/setup/scm_constants.hpp"
 #include "runs/setup/scm_setup.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -82,7 +83,8 @@ std::string pairsText(const scene::Scene& scene) {
     if (scene.terrain && !scene.terrain->granular() && !scene.terrain->deformable())
       part("shoe on rigid ground", spec.contact.frictionGround);
   }
-  if (const std::optional<coupling::ScmSetup> soil = setup::scmSetup(scene)) text += soilText(*soil, width);
+  if (const std::optional<coupling::ScmSetup> soil = setup::scmSetup(scene))
+    text += soilText(*soil, width) + setup::ScmConstants(scene).text();
   return text + notes;
 }
 

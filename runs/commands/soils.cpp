@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "base/table.hpp"
 #include "runs/commands/commands.hpp"
-#include "runs/scene/soil.hpp"
+#include "runs/scene/soil_constants.hpp"
 #include "runs/support/locations.hpp"
 
 #include <fmt/format.h>
@@ -43,6 +43,14 @@ std::string radii(const Soil& soil) {
 }
 
 std::string state(const Soil& soil) { return soil.head.calibrated ? "calibrated" : "uncalibrated"; }
+
+/// " +- 0.078 - (assumed)", of the constants of the soil contact model; the unit alone of others.
+std::string intervalAndUnit(const std::vector<scene::ContactConstant>& constants, SoilQuantity quantity) {
+  for (const scene::ContactConstant& c : constants)
+    if (c.quantity == quantity && c.halfWidth() > 0)
+      return fmt::format(" +- {:.2g} {}{}", c.halfWidth(), unitOf(quantity), c.isAssumed ? " (assumed)" : "");
+  return " " + unitOf(quantity);
+}
 
 std::string reachedRows(const std::vector<Soil>& soils) {
   std::string rows;
@@ -104,12 +112,17 @@ std::string soilText(const std::string& word, const fs::path& folder) {
   text += fmt::format("its grains: radius {:g} mm +- {:g} %, {}\n", 1000 * soil.grains.radius,
                       100 * soil.grains.radiusSpread,
                       soil.grains.porosity ? fmt::format("porosity {:g}", *soil.grains.porosity) : "as poured");
-  text += "\npublished\n";
+  text += "\npublished, with 95 % intervals of the constants of the soil contact model\n";
+  const std::vector<scene::ContactConstant> constants =
+      scene::contactConstants(soil, scene::SoilConstantsFrom::published);
   for (const scene::PublishedConstant& c : soil.published) {
     const std::string span =
         c.low || c.high ? fmt::format(" ({:g} to {:g})", c.low.value_or(c.value), c.high.value_or(c.value)) : "";
-    text += fmt::format("  {:<13} {:g}{} {}: {}\n", base::wordOf(c.quantity), c.value, span, c.unit, c.source);
+    text += fmt::format("  {:<13} {:g}{}{}: {}\n", base::wordOf(c.quantity), c.value, span,
+                        intervalAndUnit(constants, c.quantity), c.source);
   }
+  if (constants.size() == scene::kContactQuantities.size())
+    text += "  " + scene::jointDistributionText(constants) + "\n";
   if (soil.published.empty()) text += "  nothing\n";
   text += "\nreached by its contact parameters\n";
   for (const scene::ReachedConstant& c : soil.reached)

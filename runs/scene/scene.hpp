@@ -170,6 +170,7 @@ struct Terrain {
 /// [scm]: constants of a deformable soil. Empty ones come from the soil file.
 struct Scm {
   SoilConstantsFrom constants = SoilConstantsFrom::published;
+  int constantsDraw = 0; ///< sample of the soil file's constants within their intervals; 0: nominal
   std::optional<double> n, kc, kphi, cohesion, frictionAngle, shearDisplacement; ///< [-], [N/m^(n+1)], ..., [deg], [m]
   double unloadingStiffness = 0, unloadingGrowth = 0;                            ///< [N/m3], [N/m4]
   double elasticRatio = 10;                                                      ///< [-]

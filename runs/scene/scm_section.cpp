@@ -14,6 +14,10 @@ base::Table<Scm> scmTable() {
              "file that terrain.material names");
   t.add("constants", &S::constants, "",
         "source of omitted constants: published values, or virtual tests of the soil's grains");
+  t.add("constants_draw", &S::constantsDraw, "",
+        "n >= 1: sample n of the constants that the section omits, within their intervals; 0: nominal values")
+      .atLeast(0)
+      .atMost(1'000'000);
   t.add("n", &S::n, "-", "exponent of sinkage").above(0).atMost(3);
   t.add("k_c", &S::kc, "N/m^(n+1)", "cohesive modulus; k_c / b + k_phi must be above 0 under a shoe");
   t.add("k_phi", &S::kphi, "N/m^(n+2)", "frictional modulus");
@@ -59,9 +63,13 @@ base::Table<Scm> scmTable() {
   return t;
 }
 
-void checkScm(const base::Section& section, Scm&, const Scene& scene) {
+void checkScm(const base::Section& section, Scm& scm, const Scene& scene) {
   if (!scene.terrain || !scene.terrain->deformable())
     section.fail("", "has no effect without terrain.kind = \"scm\"; set that, or remove the section");
+  if (scm.constantsDraw > 0 && scm.n && scm.kc && scm.kphi && scm.cohesion && scm.frictionAngle &&
+      scm.shearDisplacement)
+    section.fail("constants_draw", "has nothing to draw: the section has all of n, k_c, k_phi, c, phi and K; remove "
+                                   "those to be drawn, or set constants_draw = 0");
 }
 
 } // namespace

@@ -3,8 +3,8 @@
 
 #include "base/math.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/scene/soil.hpp"
 #include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/scm_constants.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <algorithm>
@@ -13,52 +13,12 @@
 
 namespace grouser::setup {
 
-namespace {
-
 using scene::SoilQuantity;
 
-/// Constants of [scm], or of the soil file.
-class Constants {
-public:
-  explicit Constants(const scene::Scene& scene) : scene_(scene), scm_(scene.scm.value_or(scene::Scm{})) {
-    const auto found = scene.soils.find(scene.terrain->material);
-    if (found != scene.soils.end()) soil_ = found->second.get();
-  }
-  const scene::Scm& section() const { return scm_; }
-
-  /// A published constant of the soil file; empty without.
-  std::optional<double> published(SoilQuantity quantity) const {
-    if (soil_)
-      for (const scene::PublishedConstant& p : soil_->published)
-        if (p.quantity == quantity) return p.value;
-    return {};
-  }
-  const scene::Soil* soil() const { return soil_; }
-
-  double value(const std::optional<double>& given, SoilQuantity quantity) const {
-    if (given) return *given;
-    const bool published = scm_.constants == scene::SoilConstantsFrom::published;
-    if (soil_) {
-      for (const scene::PublishedConstant& p : soil_->published)
-        if (published && p.quantity == quantity) return p.value;
-      for (const scene::ReachedConstant& r : soil_->reached)
-        if (!published && r.quantity == quantity) return r.value;
-    }
-    const std::string word(base::wordOf(quantity));
-    const std::string why =
-        soil_ ? fmt::format("the soil {} has no {} {}", soil_->name, base::wordOf(scm_.constants), word)
-              : fmt::format("there is no soil file {}", scene_.terrain->material);
-    scene_.fail("terrain", "kind", fmt::format("needs scm.{} [{}]: {}; give it in [scm]", word, unitOf(quantity), why));
-  }
-
-private:
-  const scene::Scene& scene_;
-  scene::Scm scm_;
-  const scene::Soil* soil_{};
-};
+namespace {
 
 /// [scm] bulk_density, or that of the soil [kg/m3].
-double bulkDensity(const Constants& constants) {
+double bulkDensity(const ScmConstants& constants) {
   constexpr double kUsual = 1600, kPorosity = 0.4; // where nothing is known of the soil, or of its porosity
   if (constants.section().bulkDensity) return *constants.section().bulkDensity;
   if (const auto published = constants.published(SoilQuantity::bulkDensity)) return *published;
@@ -99,7 +59,7 @@ void requireStrength(const scene::Scene& scene, const scm::SoilConstants& soil, 
 
 std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
   if (!scene.terrain || !scene.terrain->deformable()) return {};
-  const Constants constants(scene);
+  const ScmConstants constants(scene);
   const scene::Scm& s = constants.section();
   coupling::ScmSetup setup;
   scm::SoilConstants& soil = setup.soil;

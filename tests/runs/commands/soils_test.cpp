@@ -74,6 +74,22 @@ TEST_F(SoilsOfUser, StandInWhatARunPrintsAndLeaves) {
   EXPECT_NE(contents(folder_ / "out/scene.toml").find("soil_hash = " + soil.at("hash").dump()), std::string::npos);
 }
 
+TEST_F(SoilsOfUser, HaveIntervalsOfTheirConstantsAndSaySoWhereTheseAreAssumed) {
+  const Outcome lete = call("soils lete_sand");
+  EXPECT_NE(lete.out.find("0.793 +- 0.078 - (assumed): Wong"), std::string::npos) << lete.out;
+  EXPECT_NE(lete.out.find("ln k and n correlate by 0.9"), std::string::npos) << lete.out;
+  EXPECT_NE(call("soils dry_sand").out.find("0.025 (0.02 to 0.025) +- 0.005 m: "), std::string::npos);
+  put(folder_ / "drive.toml",
+      "version = 1\n[run]\nduration = 1\n[terrain]\nkind = \"scm\"\nmaterial = \"lete_sand\"\nheightmap = "
+      "\"heightmaps/flat.png\"\nsize = [8, 4]\nheight_range = [0, 0]\n[vehicle]\nspec = "
+      "\"vehicles/light_tracked.toml\"\n"
+      "[scm]\nc = 500\n");
+  const Outcome plan = call("plan drive.toml --no-probe --set scm.constants_draw=1");
+  EXPECT_NE(plan.out.find("lete_sand (published): sample 1"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("0.73116     0.793 +- 0.078 - (assumed)"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("500 Pa of the scene"), std::string::npos) << plan.out;
+}
+
 TEST_F(SoilsOfUser, StandInThePlan) {
   const Outcome plan = call("plan grain.toml --no-probe");
   ASSERT_EQ(plan.code, 0) << plan.errors;

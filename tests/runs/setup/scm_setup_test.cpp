@@ -4,6 +4,7 @@
 
 #include "base/math.hpp"
 #include "runs/scene/scene_file.hpp"
+#include "runs/scene/soil.hpp"
 #include "runs/setup/vehicle_step_limit.hpp"
 #include "tests/message_of.hpp"
 #include "vehicle/spec_file.hpp"
@@ -44,6 +45,43 @@ TEST(ScmSetup, TakesConstantsFromTheSoilOrTheScene) {
                                              "one.toml")));
 }
 
+TEST(ScmSetup, DrawsTheConstantsThatTheSceneOmits) {
+  const coupling::ScmSetup nominal = read(kScene), first = read(kScene + "[scm]\nconstants_draw = 1\n"),
+                           again = read(kScene + "[scm]\nconstants_draw = 1\n"),
+                           other = read(kScene + "[scm]\nconstants_draw = 2\n"),
+                           some = read(kScene + "[scm]\nconstants_draw = 1\nc = 500\nK = 0.01\n");
+  EXPECT_EQ(first.soil.exponent, again.soil.exponent);
+  EXPECT_EQ(first.soil.friction, again.soil.friction);
+  EXPECT_NE(first.soil.exponent, nominal.soil.exponent);
+  EXPECT_NE(first.soil.kphi, other.soil.kphi);
+  EXPECT_EQ(some.soil.cohesion, 500);
+  EXPECT_EQ(some.soil.shearDisplacement, 0.01);
+  EXPECT_EQ(some.soil.exponent, first.soil.exponent);
+  EXPECT_EQ(read(kScene + "[scm]\nconstants_draw = 0\n").soil.kphi, nominal.soil.kphi);
+}
+
+/// Soils whose grains have been measured by plates and by shear.
+TEST(ScmSetup, EverySoilWithMeasuredConstantsCanBeUsed) {
+  int soils = 0;
+  for (const auto& [name, file] : scene::knownSoils(GROUSER_SOURCE_DIR "/assets/scene.toml")) {
+    const scene::Soil soil = scene::readSoil(file);
+    if (std::none_of(soil.reached.begin(), soil.reached.end(),
+                     [](const scene::ReachedConstant& r) { return r.quantity == scene::SoilQuantity::exponent; }))
+      continue;
+    std::string text = kScene;
+    text.replace(text.find("lete_sand"), 9, name);
+    const ::grouser::scm::SoilConstants nominal = read(text + "[scm]\nconstants = \"measured\"\n").soil;
+    EXPECT_GT(nominal.modulusAt(0.28), 0) << name;
+    for (const int draw : {1, 2, 3, 4, 5, 6, 7, 8}) {
+      const ::grouser::scm::SoilConstants c =
+          read(text + "[scm]\nconstants = \"measured\"\nconstants_draw = " + std::to_string(draw) + "\n").soil;
+      EXPECT_TRUE(c.exponent > 0 && c.modulusAt(0.28) > 0 && c.cohesion > 0 && c.shearDisplacement > 0) << name << draw;
+    }
+    ++soils;
+  }
+  EXPECT_GE(soils, 5);
+}
+
 TEST(ScmSetup, StifferUnloadingLowersTheStepLimitOfAShoe) {
   const auto limit = [](const char* keys) {
     const scene::Scene scene = scene::readSceneText(kScene + keys, GROUSER_SOURCE_DIR "/runs/scenes/scm.toml");
@@ -75,7 +113,14 @@ TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
   noSoil.replace(noSoil.find("lete_sand"), 9, "m");
   noSoil += "[material.m]\nstiffness = 1e6\n";
   std::string noVehicle = kScene.substr(0, kScene.find("[vehicle]"));
+  std::string reposeOnly = kScene;
+  reposeOnly.replace(reposeOnly.find("lete_sand"), 9, "cmu_sand");
   const std::pair<std::string, const char*> cases[] = {
+      {reposeOnly + "[scm]\nconstants = \"measured\"\n", "the soil cmu_sand has no measured n; give it in [scm]"},
+      {kScene + "[scm]\nconstants_draw = -1\n", "constants_draw = -1"},
+      {kScene + "[scm]\nconstants_draw = 1.5\n", "constants_draw"},
+      {kScene + "[scm]\nconstants_draw = 3\nn = 1\nk_c = 0\nk_phi = 5e6\nc = 1e3\nphi = 30\nK = 0.01\n",
+       "constants_draw = 3 has nothing to draw: "},
       {other, "needs scm.n [-]: the soil gravel has no published n; give it in [scm]"},
       {noSoil, "there is no soil file m; give it in [scm]"},
       {noVehicle, "has no effect without a [vehicle] or a [[body]]"},

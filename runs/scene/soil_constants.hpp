@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/soil.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+/// Constants of the soil contact model with their intervals, and samples of their joint distribution.
+namespace grouser::scene {
+
+inline constexpr std::array<SoilQuantity, 6> kContactQuantities = {
+    SoilQuantity::exponent, SoilQuantity::cohesiveModulus, SoilQuantity::frictionalModulus,
+    SoilQuantity::cohesion, SoilQuantity::frictionAngle,   SoilQuantity::shearModulus};
+
+struct ContactConstant {
+  SoilQuantity quantity{};
+  double value = 0;     ///< in unitOf(quantity)
+  double deviation = 0; ///< standard deviation over the value, of phi that of tan phi over tan phi [-]; 0: is not drawn
+  bool isAssumed = false; ///< the deviation comes from the table in soil_constants.cpp
+
+  double halfWidth() const; ///< of the 95 % interval, in unitOf(quantity)
+};
+
+/// Constants of a soil file, in the order of kContactQuantities, without those that it lacks. Deviations follow from
+/// low and high of [[published]], or from half_width of [[reached]]; where the file has none they are assumed. Where
+/// grains of several radii were measured, the constants are those of the radius with most of them, of several such
+/// radii the smallest, since K and k depend on the size of the grains.
+std::vector<ContactConstant> contactConstants(const Soil& soil, SoilConstantsFrom from);
+
+/// Replaces the values by sample `number` (>= 1) of their joint distribution. A sample depends on `number` alone, on
+/// every machine. Values are drawn in the logarithm, by normal numbers that are limited to 3 deviations:
+/// - n, K, c and tan phi by their deviations; c and tan phi correlate by kStrengthCorrelation;
+/// - k_c and k_phi by one factor, so that the pressure at the sinkage under kReferencePressure, for a width of
+///   kReferenceWidth, deviates by kPressureDeviation and is independent of n.
+/// Their half widths are not used: the errors of k_c and k_phi nearly cancel at the width of a track.
+void drawContactConstants(std::vector<ContactConstant>& constants, int number);
+
+/// Correlation of ln k and n that follows [-]; 0 without n, k_c and k_phi.
+double modulusCorrelation(const std::vector<ContactConstant>& constants);
+
+/// "drawn together: ...": the assumptions above in one line.
+std::string jointDistributionText(const std::vector<ContactConstant>& constants);
+
+inline constexpr double kReferencePressure = 50e3, kReferenceWidth = 0.28; ///< of a track [Pa], [m]
+inline constexpr double kPressureDeviation = 0.10;                         ///< assumed [-]
+inline constexpr double kStrengthCorrelation = -0.5;                       ///< assumed [-]
+
+} // namespace grouser::scene

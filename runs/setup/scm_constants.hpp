@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/scene/soil_constants.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace grouser::setup {
+
+/// Constants of [scm], or of the soil file: nominal ones, or the sample that constants_draw names. A constant of the
+/// scene is never drawn.
+class ScmConstants {
+public:
+  explicit ScmConstants(const scene::Scene& scene);
+
+  const scene::Scm& section() const { return scm_; }
+  const scene::Soil* soil() const { return soil_; } ///< of the terrain's material; null without a soil file
+  /// A published constant of the soil file; empty without.
+  std::optional<double> published(scene::SoilQuantity quantity) const;
+  /// `given`: the key of [scm]. Throws base::InputError if neither the scene nor the soil file has the constant.
+  double value(const std::optional<double>& given, scene::SoilQuantity quantity) const;
+  /// Those that the scene or the soil file has: values in use, nominal values, intervals, a line each.
+  std::string text() const;
+
+private:
+  const scene::Scene& scene_;
+  scene::Scm scm_;
+  const scene::Soil* soil_{};
+  std::vector<scene::ContactConstant> nominal_, used_; ///< with deviation 0 where the scene has its own
+};
+
+} // namespace grouser::setup
