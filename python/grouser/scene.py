@@ -203,14 +203,14 @@ class Scene:
 
     @briefly
     def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "",
-              jobs: int = 1, force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
+              jobs: int = 1, draws: int = 0, force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
               environment: dict[str, str] | None = None) -> Check:
         """Runs `grouser check`: error bars of all figures, which goes on where it stopped.
 
         axes: what to vary (["step", "grain_size"], or one as a text); empty: all. seeds: of every case. budget: "90s", "20min", "1.5h";
-        empty: all of it.
+        empty: all of it. draws: samples of the constants of deformable soil.
         """
-        words = ["--jobs", str(jobs), "--seeds", str(seeds)]
+        words = ["--jobs", str(jobs), "--seeds", str(seeds)] + (["--draws", str(draws)] if draws else [])
         axes = axes if isinstance(axes, str) else ",".join(axes)
         words += (["--axes", axes] if axes else []) + (["--budget", budget] if budget else [])
         words += (["--force"] if force else []) + _options(device, threads)

@@ -68,8 +68,13 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->delimiter(',');
   check
       ->add_option("--axes", c.axes,
-                   "what to vary: step, skin, depth, width, floor, grain_size, spheres, precision; default: all")
+                   "what to vary: step, skin, depth, width, floor, grain_size, spheres, precision, node_spacing (of "
+                   "deformable soil); default: all")
       ->delimiter(',');
+  check
+      ->add_option("--draws", c.options.draws,
+                   "samples of the constants of deformable soil, for the parameter error of each figure; default: 0")
+      ->check(support::wholeNumber(0, 1000));
   check->add_option("--budget", c.options.budget,
                     "time for all of it, e.g. 90s, 20min or 1.5h: the first run decides what fits, the rest is named");
   check->add_option("--jobs", c.options.sweep.jobs, "runs at the same time; default: 1")

@@ -13,7 +13,7 @@ import drawing
 
 DOUBTFUL = {"markerfacecolor": "none"}
 AXES = {"depth": ("s", "C1"), "width": ("D", "C2"), "floor": ("v", "C3"), "grain_size": ("^", "C4"),
-        "spheres": ("P", "C5"), "precision": ("*", "C6")}
+        "spheres": ("P", "C5"), "precision": ("*", "C6"), "node_spacing": ("h", "C7"), "parameter": ("X", "C8")}
 MOST = 6
 LEAST = 5e-3  # of the value: smaller errors end at the lower edge
 

@@ -82,7 +82,7 @@ public:
                                          scene_.run.seed, options.mostSeeds()));
     record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = support::hashOfText(origin_);
     record_.jobs = options.sweep.jobs;
-    record_.cases = checkCases(file, fixed_, scene_);
+    record_.cases = checkCases(file, fixed_, scene_, options.draws);
     keepAxes();
     record_.runs.plan.scene = file, record_.runs.plan.keys = {kCaseKey, kSeedKey};
     if (options.figures.empty()) return;
@@ -117,14 +117,17 @@ private:
 
   void keepAxes() {
     if (options_.axes.empty()) return;
+    if (options_.draws == 0 && std::count(options_.axes.begin(), options_.axes.end(), CheckAxis::parameter) > 0)
+      throw base::InputError("--axes parameter: needs samples of the soil's constants; add --draws 8");
     const auto unwanted = [this](CheckAxis axis) {
-      return axis != CheckAxis::base &&
+      return axis != CheckAxis::base && axis != CheckAxis::parameter && // --draws asks for it
              std::find(options_.axes.begin(), options_.axes.end(), axis) == options_.axes.end();
     };
     std::erase_if(record_.cases.cases, [&](const CheckCase& c) { return unwanted(c.axis); });
     std::erase_if(record_.cases.omitted, [&](const CheckOmission& o) { return unwanted(o.axis); });
     for (const CheckAxis axis : kCheckAxes)
-      if (unwanted(axis)) record_.cases.omitted.push_back({axis, "not among --axes"});
+      if (unwanted(axis) && (axis != CheckAxis::nodeSpacing || (scene_.terrain && scene_.terrain->deformable())))
+        record_.cases.omitted.push_back({axis, "not among --axes"});
   }
 
   /// The question that a choice in choice.json answers.

@@ -10,6 +10,7 @@
 #include "runs/scene/soil.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/scm_setup.hpp"
 #include "runs/setup/step_limit.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ namespace {
 using Overrides = std::vector<std::string>;
 
 constexpr double kFiner = 0.8, kLarger = 1.5, kWiderSkin = 1.5;
-constexpr double kCostOfDouble = 1.6, kCostOfSpheres = 1.3; // about, of a whole run
+constexpr double kCostOfDouble = 1.6, kCostOfSpheres = 1.3, kCostOfNodes = 1.8; // about, of a whole run
 
 std::string set(const std::string& key, double value) { return fmt::format("{}={}", key, value); }
 
@@ -49,16 +50,20 @@ public:
     all_.cases.push_back(base);
   }
 
-  CheckCases make() {
+  CheckCases make(int draws) {
     for (const int refinement : all_.seeded ? std::vector{1} : std::vector{1, 2, 3}) addStep(refinement);
     addSkin();
-    addDepth(), addWidth(), addFloor(), addGrainSize(), addSpheres(), addPrecision();
+    addDepth(), addWidth(), addFloor(), addGrainSize(), addSpheres(), addPrecision(), addNodes(), addDraws(draws);
     for (const int refinement : all_.seeded ? std::vector{-1} : std::vector{-1, -2}) addStep(refinement);
     return std::move(all_);
   }
 
 private:
-  void omit(CheckAxis axis, const std::string& why) { all_.omitted.push_back({axis, why}); }
+  bool isDeformable() const { return scene_.terrain && scene_.terrain->deformable(); }
+
+  void omit(CheckAxis axis, const std::string& why) {
+    all_.omitted.push_back({axis, isDeformable() ? "deformable soil has neither grains nor seeds" : why});
+  }
 
   /// Loads the scene with the overrides, and keeps the case, refused or not.
   void add(CheckAxis axis, const std::string& name, const std::string& what, const Overrides& overrides,
@@ -210,6 +215,34 @@ private:
         {fmt::format("run.precision={}", single ? "double" : "single")}, single ? kCostOfDouble : 1 / kCostOfDouble);
   }
 
+  void addNodes() {
+    if (!isDeformable()) return;
+    const double spacing = 0.5 * setup::scmSetup(scene_)->spacing;
+    add(CheckAxis::nodeSpacing, "half_nodes", fmt::format("nodes {:.4g} m apart", spacing),
+        {set("scm.node_spacing", spacing)}, kCostOfNodes);
+  }
+
+  void addDraws(int draws) {
+    if (draws == 0) return;
+    const auto drawn = [](int number) { return fmt::format("scm.constants_draw={}", number); };
+    if (!isDeformable())
+      throw base::InputError(
+          fmt::format("--draws {}: the scene has no deformable soil, whose constants it draws; remove "
+                      "it, or set terrain.kind = \"scm\"",
+                      draws));
+    if (scene_.scm && scene_.scm->constantsDraw > 0)
+      throw base::InputError(
+          fmt::format("--draws {}: the scene itself has scm.constants_draw = {}; remove that key, so "
+                      "that the base has the nominal constants",
+                      draws, scene_.scm->constantsDraw));
+    Overrides first = fixed_;
+    putOverride(first, drawn(1));
+    setup::loadScene(file_, first); // throws where all constants are given
+    for (int number = 1; number <= draws; ++number)
+      add(CheckAxis::parameter, fmt::format("draw_{}", number),
+          fmt::format("sample {} of the soil's constants", number), {drawn(number)});
+  }
+
   const std::filesystem::path& file_;
   const Overrides& fixed_;
   const scene::Scene& scene_;
@@ -239,6 +272,7 @@ bool seedMatters(const scene::Scene& scene) {
 double runsOfBarCases(const scene::Scene& scene, int seeds) {
   double runs = 1 + 2; // the base and half its step
   if (scene.vehicle || !scene.meshes.empty()) runs += kCostOfSpheres;
+  if (scene.terrain && scene.terrain->deformable()) runs += kCostOfNodes;
   // Finer grains take a shorter step, and 1 / share^3 as many fill the bed.
   if (scene.terrain && scene.terrain->granular())
     runs += kLarger + kLarger + 1 + 1 / (kFiner * kFiner * kFiner * kFiner);
@@ -254,8 +288,8 @@ double runsOfWholeCheck(const scene::Scene& scene, int seeds) {
 }
 
 CheckCases checkCases(const std::filesystem::path& file, const std::vector<std::string>& fixed,
-                      const scene::Scene& scene) {
-  return Cases(file, fixed, scene).make();
+                      const scene::Scene& scene, int draws) {
+  return Cases(file, fixed, scene).make(draws);
 }
 
 } // namespace grouser::sweeps

@@ -11,10 +11,10 @@
 namespace grouser::sweeps {
 
 /// One setting that no user chooses for its own sake, and on which no answer should depend.
-enum class CheckAxis { base, step, skin, depth, width, floor, grainSize, spheres, precision };
-inline constexpr CheckAxis kCheckAxes[] = {CheckAxis::step,    CheckAxis::skin,     CheckAxis::depth,
-                                           CheckAxis::width,   CheckAxis::floor,    CheckAxis::grainSize,
-                                           CheckAxis::spheres, CheckAxis::precision};
+enum class CheckAxis { base, step, skin, depth, width, floor, grainSize, spheres, precision, nodeSpacing, parameter };
+inline constexpr CheckAxis kCheckAxes[] = {
+    CheckAxis::step,      CheckAxis::skin,    CheckAxis::depth,     CheckAxis::width,       CheckAxis::floor,
+    CheckAxis::grainSize, CheckAxis::spheres, CheckAxis::precision, CheckAxis::nodeSpacing, CheckAxis::parameter};
 /// The axis of such a word, of --axes. Throws InputError that names them all.
 CheckAxis checkAxisOf(const std::string& word);
 
@@ -51,8 +51,10 @@ struct CheckCases {
 /// grain size: radii x 0.8 in the same soil; stiffness of linear contacts and cohesion shrink with the radius, so that
 /// strains and strength stay (C. Thakur et al., 2015).
 /// spheres: those of vehicle and meshes at half their radius. skin: 1.5 times. precision: the other one.
+/// node spacing: half, of deformable soil. parameter: `draws` samples of its constants, each a case.
+/// Throws InputError where constants are to be drawn and the scene has none.
 CheckCases checkCases(const std::filesystem::path& file, const std::vector<std::string>& fixed,
-                      const scene::Scene& scene);
+                      const scene::Scene& scene, int draws = 0);
 
 /// About what a whole check of so many seeds costs, in runs of the scene [-]; loads nothing.
 double runsOfWholeCheck(const scene::Scene& scene, int seeds);
@@ -74,5 +76,7 @@ template <> struct grouser::base::EnumWords<grouser::sweeps::CheckAxis> {
                                          {E::floor, "floor"},
                                          {E::grainSize, "grain_size"},
                                          {E::spheres, "spheres"},
-                                         {E::precision, "precision"}};
+                                         {E::precision, "precision"},
+                                         {E::nodeSpacing, "node_spacing"},
+                                         {E::parameter, "parameter"}};
 };

@@ -59,6 +59,7 @@ std::vector<BarPart> partsOf(const CheckCases& cases, const CheckFigure& figure,
     parts.push_back(part(caseOf(cases, e.axis), e.axis, e.seeds, e.change, levels.change));
     parts.back().change = e.change.value, parts.back().bar = e.bar;
     if (cases.seeded && e.axis == CheckAxis::step && !e.order) parts.back().factor = kStepUnseen;
+    if (e.axis == CheckAxis::nodeSpacing) parts.back().factor = kStepUnseen;
   }
   return parts;
 }

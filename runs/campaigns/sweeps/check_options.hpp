@@ -16,6 +16,7 @@ struct CheckOptions {
   double percent = 5;               ///< of a figure's mean: the bar of the verdicts, and that wanted of figures
   std::vector<std::string> figures; ///< whose bars decide what is run: words of goalFigure(); empty: all is run
   std::vector<CheckAxis> axes;      ///< to be looked at; empty: all
+  int draws = 0;                    ///< samples of the constants of deformable soil
   std::string budget;               ///< "20min": wall time for all; empty: no end
   SweepOptions sweep;               ///< folder, jobs, seconds of this call
 

@@ -112,6 +112,7 @@ std::string remark(const CheckResults& results, const CheckFigure& f, const Axis
   if (e.axis == CheckAxis::precision && results.seeded)
     return std::fabs(e.change.value) <= f.value.halfWidth ? "inside the seeds' interval"
                                                           : "OUTSIDE the seeds' interval";
+  if (e.axis == CheckAxis::parameter) return base::counted(e.seeds, "sample");
   if (e.axis != CheckAxis::step) return "";
   return e.order ? fmt::format("order {:.1f}", *e.order) : "no order seen";
 }
@@ -129,12 +130,36 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// All axes of a figure that scatters.
+/// Whether runs that repeat have other axes than the step, of deformable soil.
+bool hasSoilAxes(const CheckFigure& f) {
+  return std::any_of(f.errors.begin(), f.errors.end(), [](const AxisError& e) {
+    return e.axis == CheckAxis::nodeSpacing || e.axis == CheckAxis::parameter;
+  });
+}
+
+/// "depth, width  left out: no bed of grains": a line for each reason.
+std::string omittedText(const std::vector<CheckOmission>& omitted) {
+  std::vector<std::pair<std::string, std::string>> lines; // reason, axes
+  for (const CheckOmission& o : omitted) {
+    const std::string axis(base::wordOf(o.axis));
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == o.why; });
+    if (same == lines.end())
+      lines.emplace_back(o.why, axis);
+    else
+      same->second += ", " + axis;
+  }
+  std::string text;
+  for (const auto& [why, axes] : lines) text += fmt::format("  {:<14} left out: {}\n", axes, why);
+  return text;
+}
+
+/// All axes of a figure.
 std::string linesOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::string text = fmt::format("{}  {}{}\n", f.name, jobs::valueText({f.value.value, f.bar}),
                                  isInconclusive(results, f) ? "  inconclusive" : "");
-  text += fmt::format("  {:<12} {:>26}  {:>18}  {}\n", "seeds", jobs::valueText(f.value),
-                      shareText(f, {0, f.value.halfWidth}), base::counted(f.seeds, "seed"));
+  if (results.seeded)
+    text += fmt::format("  {:<12} {:>26}  {:>18}  {}\n", "seeds", jobs::valueText(f.value),
+                        shareText(f, {0, f.value.halfWidth}), base::counted(f.seeds, "seed"));
   for (const AxisError& e : f.errors)
     text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", base::wordOf(e.axis), changeText(e.change),
                         shareText(f, e.change), jobs::verdictText(e.verdict), remark(results, f, e));
@@ -256,7 +281,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     if (!isHeadline(results, f) || !isTold(f)) continue;
     if (++told > kMostTold) ++more;
     if (told > kMostTold) continue;
-    text += results.seeded ? linesOf(record, results, f) : lineOf(record, results, f);
+    text += results.seeded || hasSoilAxes(f) ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);
   text += goalsText(record, results.percent) + "\nruns\n";
@@ -268,8 +293,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
                                                  : status.word,
                         status.message.empty() ? "" : ": " + status.message);
   }
-  for (const CheckOmission& o : record.cases.omitted)
-    text += fmt::format("  {:<14} left out: {}\n", base::wordOf(o.axis), o.why);
+  text += omittedText(record.cases.omitted);
   if (results.skin != SameBits::notRun) text += fmt::format("  {:<14} {}\n", "skin", bitsText(results.skin));
   return text;
 }

@@ -102,6 +102,7 @@ public:
     figure_.value = cases_.seeded ? jobs::interval(base, asked_.levels.value) : support::Estimate{base.front(), 0};
     cases_.seeded ? addScatteredStep() : addStep();
     for (std::size_t c = 1; c < cases_.cases.size(); ++c) addOther(c);
+    addParameter();
     std::vector<double> parts;
     bool hasStep = false;
     for (const AxisError& e : figure_.errors) {
@@ -165,15 +166,38 @@ private:
 
   void addOther(std::size_t c) {
     const CheckAxis axis = cases_.cases[c].axis;
-    if (axis == CheckAxis::step || axis == CheckAxis::skin) return;
+    if (axis == CheckAxis::step || axis == CheckAxis::skin || axis == CheckAxis::parameter) return;
     const std::vector<double> change = changes(0, c, std::nullopt);
     if (change.empty()) return;
     const support::Estimate changed = over(change);
+    // The finer grid is as wrong again as it differs, of first order.
+    const double unseen = axis == CheckAxis::nodeSpacing ? kStepUnseen : 1;
     add({axis,
          changed,
          std::nullopt,
          static_cast<int>(change.size()),
-         std::fabs(changed.value) + changed.halfWidth,
+         unseen * (std::fabs(changed.value) + changed.halfWidth),
+         {}});
+  }
+
+  /// Scatter of the figure with the soil's constants: the interval in which one more sample lies, about the samples'
+  /// mean.
+  void addParameter() {
+    std::vector<double> samples;
+    for (std::size_t c = 1; c < cases_.cases.size(); ++c) {
+      if (cases_.cases[c].axis != CheckAxis::parameter) continue;
+      const std::vector<double> change = changes(0, c, std::nullopt);
+      if (!change.empty())
+        samples.push_back(std::accumulate(change.begin(), change.end(), 0.0) / static_cast<double>(change.size()));
+    }
+    if (samples.size() < 2) return;
+    support::Estimate scatter = jobs::interval(samples, asked_.levels.change); // of the mean
+    scatter.halfWidth *= std::sqrt(static_cast<double>(samples.size()) + 1);
+    add({CheckAxis::parameter,
+         scatter,
+         std::nullopt,
+         static_cast<int>(samples.size()),
+         std::fabs(scatter.value) + scatter.halfWidth,
          {}});
   }
 

@@ -240,5 +240,22 @@ TEST_F(CheckResults, SeriesHaveAValueAndABarAtEveryTime) {
   EXPECT_NEAR(s.series[0].both[1], std::hypot(s.series[0].seeds[1], s.series[0].step[1]), 1e-9);
 }
 
+TEST_F(CheckResults, TheParameterErrorIsTheIntervalOfOneMoreSample) {
+  record_.cases.seeded = false;
+  add(CheckAxis::base, "base", 0, {10});
+  add(CheckAxis::nodeSpacing, "nodes", 0, {10.5});
+  add(CheckAxis::parameter, "draw_1", 0, {9}), add(CheckAxis::parameter, "draw_2", 0, {10});
+  add(CheckAxis::parameter, "draw_3", 0, {12.5});
+  const CheckFigure f = depth();
+  const AxisError e = errorBy(f, CheckAxis::parameter);
+  EXPECT_EQ(e.seeds, 3);
+  EXPECT_NEAR(e.change.value, 0.5, 1e-12);
+  // Samples deviate by -1, 0 and 2.5: s = 1.803; one more lies within t s sqrt(1 + 1/3) of their mean.
+  const double halfWidth = kStudent * std::sqrt(3.25) * std::sqrt(4.0 / 3);
+  EXPECT_NEAR(e.change.halfWidth, halfWidth, 1e-3);
+  EXPECT_NEAR(e.bar, 0.5 + halfWidth, 1e-3);
+  EXPECT_NEAR(errorBy(f, CheckAxis::nodeSpacing).bar, 2 * 0.5, 1e-12);
+}
+
 } // namespace
 } // namespace grouser::sweeps
