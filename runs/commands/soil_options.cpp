@@ -82,6 +82,8 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
 void doSoil(const virtual_tests::SoilCommand& c, const std::string& targets, const std::string& words) {
   if (c.soil.empty() == targets.empty())
     throw base::InputError("soil: give either a soil to test or --calibrate with a file of targets");
+  if (c.fitScm && !targets.empty())
+    throw base::InputError("soil: --fit-scm fits the tests of one soil; give its name instead of --calibrate");
   if (targets.empty())
     virtual_tests::soilCommand(c);
   else
@@ -109,6 +111,9 @@ void addSoil(CLI::App& app, const Invocation& invocation) {
       ->check(support::wholeNumber(1, 256))
       ->capture_default_str();
   soil->add_flag("--quick", c.place.quick, "a coarse pass in minutes: small plates of few grains, pushed fast");
+  soil->add_flag("--fit-scm", c.fitScm,
+                 "also fit the soil contact model (terrain.kind = \"scm\") to the tests: constants for [scm], and the "
+                 "residual that no constants remove");
   support::addOut(*soil, c.place.folder, "folder of the results; default: out/soil_NAME, or out/calibrate_NAME");
   soil->add_flag("--force", c.place.force, "overwrite what is in that folder");
   soil->callback([command, keys, targets, words = invocation.words] {

@@ -12,6 +12,7 @@
 #include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/preparation.hpp"
+#include "runs/virtual_tests/scm_fit.hpp"
 #include "runs/virtual_tests/soil_report.hpp"
 #include "runs/virtual_tests/test_notes.hpp"
 
@@ -186,6 +187,7 @@ void soilCommand(const SoilCommand& command) {
   const int missing = doTests(plan, pieces, command.pieces, command.jobs);
   if (!pieces.whole()) return;
   reportSoil(plan, pieces, missing);
+  if (command.fitScm) reportScmFit(plan, pieces);
   if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty())
     throw base::SimulationError("tests are left out of the tables: " + unsoundText(unsound));
 }

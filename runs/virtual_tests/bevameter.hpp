@@ -16,6 +16,7 @@ struct SoilCommand {
   jobs::PieceOptions pieces;
   int jobs = 1; ///< tests at the same time
   PlanOptions plan;
+  bool fitScm = false; ///< fits the soil contact model to the tests as well
 };
 void soilCommand(const SoilCommand& command);
 

@@ -86,10 +86,30 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
     ASSERT_EQ(again.code, 0) << again.errors;
     EXPECT_EQ(contents(folder_ / "results" / "constants.csv"), before) << "the same tests, the same numbers";
   }
+  // The soil contact model, fitted to the same tests.
+  const Outcome fit = call(words + " --resume --fit-scm");
+  ASSERT_EQ(fit.code, 0) << fit.errors;
+  EXPECT_NE(fit.out.find("model error, which no constants remove"), std::string::npos) << fit.out;
+  for (const char* group : {"plate 0.1 m", "plate 0.15 m", "shear 5 kPa", "shear 10 kPa"})
+    EXPECT_NE(contents(folder_ / "results" / "scm_residuals.csv").find(group), std::string::npos) << group;
+  const std::string scm = contents(folder_ / "results" / "scm_fit.toml");
+  const double n = std::strtod(scm.c_str() + scm.find("n = ") + 4, nullptr);
+  EXPECT_NEAR(n, json.at("constants").at("n").at("value").get<double>(), 1e-5 * n) << scm;
+  EXPECT_NE(scm.find("elastic_ratio = "), std::string::npos) << scm;
+  put(folder_ / "drive.toml",
+      "version = 1\n[run]\nduration = 1\n[terrain]\nkind = \"scm\"\nmaterial = \"lete_sand\"\nheightmap = "
+      "\"heightmaps/flat.png\"\nsize = [8, 4]\nheight_range = [0, 0]\n[vehicle]\nspec = "
+      "\"vehicles/light_tracked.toml\"\n" +
+          scm);
+  const Outcome plan = call("plan drive.toml --no-probe");
+  EXPECT_EQ(plan.code, 0) << plan.errors;
+  EXPECT_NE(plan.out.find("of the scene"), std::string::npos) << plan.out;
+  EXPECT_TRUE(fs::exists(folder_ / "results" / "scm_fit.png"));
   // Without the large plate: what the small one gives alone.
   for (const int seed : {1, 2}) fs::remove(folder_ / "results" / "runs" / fmt::format("coarse_large_seed{}.csv", seed));
-  const Outcome alone = call(words + " --resume --seconds 1e-6");
+  const Outcome alone = call(words + " --resume --seconds 1e-6 --fit-scm");
   ASSERT_EQ(alone.code, 0) << alone.errors;
+  EXPECT_NE(alone.out.find("fit       not made"), std::string::npos) << alone.out;
   EXPECT_NE(alone.out.find("n alone"), std::string::npos) << alone.out;
   EXPECT_NE(alone.out.find("with n = 1;"), std::string::npos) << alone.out;
   const auto small = nlohmann::json::parse(contents(folder_ / "results" / "soil.json"));
@@ -273,6 +293,7 @@ TEST_F(SoilCommandTest, WrongWordsEndWithTwoAndWriteNothing) {
   EXPECT_NE(key.error().find("wrong.toml:21"), std::string::npos) << key.errors;
   EXPECT_EQ(call("soil").code, 2);
   EXPECT_EQ(call("soil sand.toml --calibrate sand.toml").code, 2);
+  EXPECT_NE(call("soil --calibrate sand.toml --fit-scm").error().find("--fit-scm"), std::string::npos);
   EXPECT_EQ(call("soil sand.toml --quick --thickness 3.6").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "runs/virtual_tests/results.hpp"
+#include "runs/virtual_tests/scm_residual.hpp"
+
+#include <string>
+#include <vector>
+
+/// `grouser soil NAME --fit-scm`: constants of the soil contact model from virtual tests, and the residual that no
+/// constants remove.
+namespace grouser::virtual_tests {
+
+/// Tests of one plate, or sheared under one load.
+struct FittedGroup {
+  std::string name; ///< "plate 0.112 m", "shear 25 kPa"
+  bool isPlate = false;
+  std::vector<FittedCurve> tests;
+  std::vector<TestResidual> residuals; ///< one for each test
+  GroupResidual residual;
+};
+
+struct ScmFit {
+  std::map<Quantity, support::Estimate> constants; ///< n, k_c, k_phi, c, phi, K in unitOf()
+  support::Estimate elasticRatio = kUnmeasured;    ///< minimum of [scm] elastic_ratio is 1 [-]
+  std::vector<FittedGroup> groups;
+  /// Model error of the plates or of the shear tests: rms over their groups [-].
+  double modelError(bool ofPlates) const;
+};
+
+/// Unloading slope over max(1, n) p / z at the end of the loading of a plate, as [scm] elastic_ratio [-]; NaN if the
+/// slope was not measured. `origin`: of the sinkage, by correctedForBedding() [m].
+double elasticRatioOf(const jobs::Table& run, double origin, double n);
+
+/// Fit of the soil contact model to the finished tests, which are of both plates and of shear under all loads.
+ScmFit fitScm(const TestPlan& plan, const jobs::Pieces& pieces, const SoilResults& results);
+
+/// Table of constants and residuals.
+std::string scmFitText(const TestPlan& plan, const ScmFit& fit);
+/// Section [scm] of a scene file. Empty if the constants are outside the ranges of its keys; `why` then has the reason.
+std::string scmFitToml(const TestPlan& plan, const ScmFit& fit, std::string& why);
+std::string scmResidualsCsv(const TestPlan& plan, const ScmFit& fit); ///< a row a test
+std::string scmCurvesCsv(const TestPlan& plan, const ScmFit& fit);    ///< a row a point
+
+/// Prints the fit, and writes scm_fit.toml, scm_fit.txt, scm_residuals.csv, scm_curves.csv and scm_fit.png. Prints that
+/// tests are missing where they are.
+void reportScmFit(const TestPlan& plan, const jobs::Pieces& pieces);
+
+} // namespace grouser::virtual_tests

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Deviation of measured stress curves from those of the soil contact model.
+namespace grouser::virtual_tests {
+
+/// Share of a test's highest stress from which on its curve counts: relative deviations of smaller stresses say little.
+inline constexpr double kCountedFrom = 0.1;
+
+/// One test beside the model's curve.
+struct FittedCurve {
+  std::string test;                     ///< "small_seed1"
+  std::vector<double> way;              ///< sinkage or shear displacement [m], rising
+  std::vector<double> measured, fitted; ///< [Pa], one for each way; fitted > 0
+  double deviationAt(std::size_t i) const { return measured[i] / fitted[i] - 1; }
+};
+
+struct TestResidual {
+  double rms = 0, largest = 0; ///< of measured / fitted - 1 [-]; the largest with its sign
+  double largestAt = 0;        ///< way [m]
+  int points = 0;
+};
+/// Of the points with at least kCountedFrom of the highest measured stress.
+TestResidual residualOf(const FittedCurve& curve);
+
+/// Tests that differ in their seed alone.
+struct GroupResidual {
+  double rms = 0, largest = 0; ///< over all tests [-]
+  double model = 0;            ///< model error: rms deviation of the mean curve, less what seeds contribute to that [-]
+  double scatter = 0; ///< standard deviation of a test from the mean curve, rms over the way; NaN of one test [-]
+};
+/// The mean curve is taken where all tests have points that count. NaN where there is no such way.
+GroupResidual residualOf(const std::vector<FittedCurve>& tests);
+
+} // namespace grouser::virtual_tests
