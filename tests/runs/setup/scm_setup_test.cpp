@@ -130,6 +130,21 @@ TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
       {kScene + "[scm]\nelastic_ratio = 0.5\n", "elastic_ratio = 0.5"},
       {kScene + "[scm]\nphi = 90\n", "phi = 90"},
       {kScene + "[scm]\nconstants = \"guessed\"\n", "published"},
+      {kScene + "[scm]\nslip_sinkage = -0.1\n", "slip_sinkage = -0.1"},
+      {kScene + "[scm]\nslip_sinkage = 2\n", "slip_sinkage = 2"},
+      {kScene + "[scm]\nmaximum_slip_sinkage = -1\n", "maximum_slip_sinkage = -1"},
+      {kScene + "[scm]\ndisplaced_share = 1.2\n", "displaced_share = 1.2"},
+      {kScene + "[scm]\nrepose_angle = 0\n", "repose_angle = 0"},
+      {kScene + "[scm]\nbulk_density = -1\n", "bulk_density = -1"},
+      {kScene + "[scm]\nnode_spacing = 0\n", "node_spacing = 0"},
+      {kScene + "[scm]\nlargest_sinkage = 0\n", "largest_sinkage = 0"},
+      {kScene + "[scm]\nn = 4\n", "n = 4"},
+      {kScene + "[scm]\nK = 0\n", "K = 0"},
+      {kScene + "[scm]\nc = -1\n", "c = -1"},
+      {kScene + "[scm]\ndamping = -1\n", "damping = -1"},
+      {kScene + "[scm]\nunloading_growth = -1\n", "unloading_growth = -1"},
+      {kScene + "[scm]\nk_c = \"many\"\n", "k_c"},
+      {kScene + "[scm]\nk_c = -4e6\nk_phi = 2e7\n", "for single shoes of width b = 0.136 m"},
       {kScene + "[scm]\nkc = 1\n", "k_c"}};
   for (const auto& [text, message] : cases) {
     const std::string found = test::messageOf([&, scene = text] { read(scene); });
