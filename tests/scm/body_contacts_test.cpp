@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace grouser::scm {
+namespace grouser::scm::body_contacts {
 namespace {
 
 constexpr double kRadius = 0.25, kWidth = 0.15; // [m] of the wheel
@@ -197,4 +197,4 @@ TEST(BodyContacts, ContinuesFromASavedStateWithTheSameBits) {
 }
 
 } // namespace
-} // namespace grouser::scm
+} // namespace grouser::scm::body_contacts

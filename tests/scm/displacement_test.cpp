@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grouser::scm {
+namespace grouser::scm::displacement {
 namespace {
 
 constexpr double kHalfLength = 0.068, kHalfWidth = 0.14, kPitch = 0.154; // [m] of the paper's shoes
@@ -194,4 +194,4 @@ TEST(LoadedNodes, LooseSoilCarriesUntilTheFirmSoilCarriesMore) {
 }
 
 } // namespace
-} // namespace grouser::scm
+} // namespace grouser::scm::displacement

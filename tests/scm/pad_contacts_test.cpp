@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace grouser::scm {
+namespace grouser::scm::pad_contacts {
 namespace {
 
 constexpr double kHalfLength = 0.068, kHalfWidth = 0.14; // [m] of the paper's shoes
@@ -206,4 +206,4 @@ TEST(PadContacts, EnergyOfAPathIsHeldOrLost) {
 }
 
 } // namespace
-} // namespace grouser::scm
+} // namespace grouser::scm::pad_contacts
