@@ -76,10 +76,10 @@ std::string ScmConstants::text() const {
   for (std::size_t i = 0; i < used_.size(); ++i) {
     const ContactConstant& c = nominal_[i];
     const std::string value = scm_.constantsDraw > 0 ? fmt::format("{:<11.5g} ", used_[i].value) : "";
-    const std::string interval = givenIn(scm_, c.quantity)
-                                     ? fmt::format(" {} of the scene", unitOf(c.quantity))
-                                     : fmt::format(" +- {:.2g} {}{}", c.halfWidth(), unitOf(c.quantity),
-                                                   c.isAssumed ? " (assumed)" : "");
+    const std::string interval =
+        givenIn(scm_, c.quantity)
+            ? fmt::format(" {} of the scene", unitOf(c.quantity))
+            : fmt::format(" +- {:.2g} {}{}", c.halfWidth(), unitOf(c.quantity), c.isAssumed ? " (assumed)" : "");
     text += fmt::format("  {:<6} {}{:.5g}{}\n", base::wordOf(c.quantity), value, c.value, interval);
   }
   if (soil_) text += "  " + scene::jointDistributionText(nominal_) + "\n";

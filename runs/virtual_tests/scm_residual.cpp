@@ -15,7 +15,7 @@ constexpr int kPlaces = 50; // of the mean curve
 std::size_t firstCounted(const FittedCurve& c) {
   const double least = kCountedFrom * *std::max_element(c.measured.begin(), c.measured.end());
   std::size_t i = 0;
-  while (i < c.way.size() && (c.measured[i] < least || !(c.fitted[i] > 0))) ++i;
+  while (i < c.way.size() && !(c.fitted[i] > 0 && c.fitted[i] >= least)) ++i;
   return i;
 }
 

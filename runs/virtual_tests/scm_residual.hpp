@@ -7,7 +7,8 @@
 /// Deviation of measured stress curves from those of the soil contact model.
 namespace grouser::virtual_tests {
 
-/// Share of a test's highest stress from which on its curve counts: relative deviations of smaller stresses say little.
+/// Share of a test's highest stress that the fit must reach from where on the curve counts: relative deviations from a
+/// stress near 0 say little.
 inline constexpr double kCountedFrom = 0.1;
 
 /// One test beside the model's curve.
@@ -23,7 +24,7 @@ struct TestResidual {
   double largestAt = 0;        ///< way [m]
   int points = 0;
 };
-/// Of the points with at least kCountedFrom of the highest measured stress.
+/// Of the points from where the fit has kCountedFrom of the highest measured stress.
 TestResidual residualOf(const FittedCurve& curve);
 
 /// Tests that differ in their seed alone.

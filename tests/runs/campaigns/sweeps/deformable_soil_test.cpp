@@ -74,7 +74,8 @@ TEST_F(DeformableSoil, SamplesNeedConstantsToDraw) {
 
 TEST_F(DeformableSoil, AnErrorOfTheParametersStandsBesideThatOfTheNodes) {
   writeDrive();
-  const Outcome o = shell(withSharedCache() + "\"$grouser\" check drive.toml --axes node_spacing --draws 3 --out c --jobs 2");
+  const Outcome o =
+      shell(withSharedCache() + "\"$grouser\" check drive.toml --axes node_spacing --draws 3 --out c --jobs 2");
   ASSERT_EQ(o.code, 0) << o.errors;
   const Json check = json("c/check.json");
   const Json error = figure(check, "integration error [J]"); // the vehicle has not driven yet
