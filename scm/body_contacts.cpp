@@ -13,23 +13,28 @@ namespace {
 /// Cover of a node's square by the underside of a body.
 struct Cover {
   double share{}; ///< [-]
-  Underside mean; ///< of the covered points
+  Underside mean; ///< of the covered points, at the node: each point stands for its tangent plane
 };
 
-Cover coverAt(const Undersides& undersides, double x, double y, double h) {
+/// Parts of the body above `ceiling` [m] do not count.
+Cover coverAt(const Undersides& undersides, double x, double y, double h, double ceiling) {
   constexpr int kSide = 4; // points along a side of the square
   const auto corner = [&](double u, double v) {
-    return undersides.lowestAt(x + 0.499 * h * u, y + 0.499 * h * v).has_value();
+    return undersides.lowestAt(x + 0.499 * h * u, y + 0.499 * h * v, ceiling).has_value();
   };
-  const std::optional<Underside> middle = undersides.lowestAt(x, y);
+  double clearance = 0;
+  const std::optional<Underside> middle = undersides.lowestAt(x, y, ceiling, &clearance);
+  if (!middle && clearance > h) return {}; // farther than the corners
   if (middle && corner(-1, -1) && corner(1, -1) && corner(-1, 1) && corner(1, 1)) return {1, *middle};
   Cover c;
   int hits = 0;
   for (int b = 0; b < kSide; ++b)
     for (int a = 0; a < kSide; ++a) {
-      const auto at = [&](int k) { return h * ((k + 0.5) / kSide - 0.5); };
-      const std::optional<Underside> hit = undersides.lowestAt(x + at(a), y + at(b));
-      if (hit) ++hits, c.mean.z += hit->z, c.mean.normal += hit->normal;
+      const double u = h * ((a + 0.5) / kSide - 0.5), v = h * ((b + 0.5) / kSide - 0.5);
+      const std::optional<Underside> hit = undersides.lowestAt(x + u, y + v, ceiling);
+      if (!hit || -hit->normal.z < kSteepest) continue;
+      const Vec3d& n = hit->normal;
+      ++hits, c.mean.z += hit->z + (n.x * u + n.y * v) / n.z, c.mean.normal += n;
     }
   if (hits == 0) return {};
   c.share = static_cast<double>(hits) / (kSide * kSide);
@@ -66,11 +71,12 @@ void BodyContacts::gather(std::size_t body, const contact::PartMotion& motion) {
   for (std::int32_t j = firstJ; j <= lastJ; ++j)
     for (std::int32_t i = firstI; i <= lastI; ++i) {
       Node& node = map_.at(i, j);
-      if (node.height + node.looseThickness() < bottom - kNear) continue;
-      const Cover cover = coverAt(undersides, h * i, h * j, h);
+      const double top = node.height + node.looseThickness() + kNear;
+      if (top < bottom) continue;
+      const Cover cover = coverAt(undersides, h * i, h * j, h, top + 2.5 * h); // no surface in contact rises more within h
       if (!(cover.share > 0) || -cover.mean.normal.z < kSteepest) continue;
       const double gap = node.height - cover.mean.z;
-      if (gap < -kNear - node.looseThickness()) continue;
+      if (cover.mean.z > top) continue;
       const double depth = gap * node.cosine;
       Contact& c = contacts.emplace_back();
       c.i = i, c.j = j, c.node = &node, c.loaded = loaded_.add(node, depth, k), c.depth = depth;

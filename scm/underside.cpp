@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scm/underside.hpp"
 
+#include "base/math.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 namespace grouser::scm {
@@ -22,16 +25,18 @@ Undersides::Undersides(const Solid& solid, const contact::PartMotion& motion)
     for (int b = 0; b < 3; ++b) half_[a] += std::fabs(motion.rotation.m[a][b]) * solid.half[b];
 }
 
-std::optional<Underside> Undersides::lowestAt(double x, double y) const {
+std::optional<Underside> Undersides::lowestAt(double x, double y, double ceiling, double* clearance) const {
   constexpr int kSteps = 200; // a line that grazes the surface needs more, and counts as a miss
-  const double bottom = motion_.origin.z - half_.z;
+  const double bottom = motion_.origin.z - half_.z, height = std::min(2 * half_.z, ceiling - bottom);
   const Vec3d start = motion_.toPart({x, y, bottom});
-  double climbed = 0;
-  for (int k = 0; k < kSteps && climbed <= 2 * half_.z; ++k) {
+  double climbed = 0, nearest = base::kInfinity;
+  for (int k = 0; k < kSteps && climbed <= height; ++k) {
     const contact::SurfaceGap gap = solid_.gap(start + up_ * climbed);
+    nearest = std::min(nearest, gap.distance);
     if (gap.distance <= near_) return Underside{bottom + climbed, motion_.rotation * gap.normal};
     climbed += gap.distance;
   }
+  if (clearance) *clearance = 0.5 * nearest; // between two points of a line the distance is half of the second at least
   return {};
 }
 

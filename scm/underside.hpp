@@ -29,13 +29,15 @@ struct Underside {
 /// b of Bekker's relation in the present orientation [m]: the smaller horizontal side, or the radius of a round area.
 double breadthOf(const Solid& solid, const contact::PartMotion& motion);
 
-/// Lowest points of a body on vertical lines, by steps of the distance to the surface (sphere tracing); empty where the line
-/// misses the body. Error: below 1e-9 of its size. Both arguments outlive it.
+/// Lowest points of a body on vertical lines, by steps of the distance to the surface (sphere tracing). Error: below 1e-9 of
+/// its size. Both arguments outlive it.
 class Undersides {
 public:
   Undersides(const Solid& solid, const contact::PartMotion& motion);
 
-  std::optional<Underside> lowestAt(double x, double y) const;
+  /// Below `ceiling` [m]; empty where the line misses the body. `clearance` receives a lower bound of the distance of the
+  /// line from the body below the ceiling [m].
+  std::optional<Underside> lowestAt(double x, double y, double ceiling, double* clearance = nullptr) const;
   const Vec3d& half() const { return half_; } ///< half extents of the bounding box along the world's axes [m]
 
 private:

@@ -75,6 +75,10 @@ inline constexpr SoilConstantField kSoilConstants[] = {
       "ratio of the unloading slope to p / z at the end of virgin loading, at least"},
      &scm::SoilConstants::elasticRatio},
     {{"terrain/soil/damping", "Pa s/m", "during compression"}, &scm::SoilConstants::damping},
+    {{"terrain/soil/slip_sinkage", "-", "sinkage per shear displacement at constant pressure"},
+     &scm::SoilConstants::slipSinkage},
+    {{"terrain/soil/maximum_slip_sinkage", "m", "limit of slip sinkage"}, &scm::SoilConstants::maximumSlipSinkage},
+    {{"terrain/soil/unit_weight", "N/m3", "of the soil"}, &scm::SoilConstants::unitWeight},
 };
 
 /// `position` and unit vector `heading` of the vehicle. Empty maps where no soil was touched.

@@ -125,7 +125,9 @@ Image FramePainter::paint(std::size_t index) const {
   for (std::size_t i = 0; i < colours.size(); ++i)
     scene.spheres.push_back({frame.positions[i], frame.radii[i], colours[i]});
   for (const output::StoredPart& part : reader_.parts()) {
-    RenderMesh mesh{{{}, part.triangles}, {}, partColour(part.kind), part.kind == output::PartKind::surface, {}};
+    RenderMesh mesh;
+    mesh.mesh.indices = part.triangles, mesh.colour = partColour(part.kind);
+    mesh.oneSided = part.kind == output::PartKind::surface;
     for (std::uint32_t v = 0; v < part.count; ++v)
       mesh.mesh.vertices.push_back(frame.partVertices[part.first + v].as<double>());
     scene.meshes.push_back(std::move(mesh));
