@@ -8,9 +8,13 @@ namespace grouser::scm {
 
 namespace {
 
-/// Share of a node's square within a pad along one axis; `width`: of the square along that axis [m].
-double shareOf(double place, double half, double width) {
-  return std::clamp((half - std::fabs(place)) / width + 0.5, 0.0, 1.0);
+/// Share of a node's square within a pad along one axis; `perWidth`: 1 / width of the square along that axis [1/m].
+double shareOf(double place, double half, double perWidth) {
+  return std::clamp((half - std::fabs(place)) * perWidth + 0.5, 0.0, 1.0);
+}
+/// Number of the piece along one axis; `perHalf`: pieces per half side [1/m].
+int pieceOf(double place, double half, double perHalf, int count) {
+  return std::clamp(static_cast<int>((place + half) * perHalf), 0, count - 1);
 }
 
 /// Stress s of the last step in the present plane of the pad, of the same size.
@@ -84,20 +88,22 @@ void PadContacts::gather(std::size_t pad, const contact::PartMotion& motion) {
   const auto lastI = static_cast<std::int32_t>(std::floor((centre.x + reachX) / h));
   const auto firstJ = static_cast<std::int32_t>(std::ceil((centre.y - reachY) / h));
   const auto lastJ = static_cast<std::int32_t>(std::floor((centre.y + reachY) / h));
+  const double perWidthU = 1 / widthU, perWidthV = 1 / widthV;
+  const double perHalfU = 0.5 * kAlong / p.halfLength, perHalfV = 0.5 * kAcross / p.halfWidth;
   const double bottom = centre.z - std::fabs(u.z) * halfU - std::fabs(v.z) * halfV;
   if (bottom > map_.topOf(firstI, lastI, firstJ, lastJ) + kNear) return;
   for (std::int32_t j = firstJ; j <= lastJ; ++j)
     for (std::int32_t i = firstI; i <= lastI; ++i) {
       const double x = h * i - centre.x, y = h * j - centre.y, plate = slopeX * x + slopeY * y;
       const double placeU = x * u.x + y * u.y + plate * u.z, placeV = x * v.x + y * v.y + plate * v.z;
-      const double share = shareOf(placeU, p.halfLength, widthU) * shareOf(placeV, p.halfWidth, widthV);
+      const double share = shareOf(placeU, p.halfLength, perWidthU) * shareOf(placeV, p.halfWidth, perWidthV);
       if (!(share > 0)) continue;
       Node& node = map_.at(i, j);
       const double gap = node.height - (centre.z + plate);
       if (gap < -kNear - node.looseThickness()) continue;
       const double depth = gap * node.cosine;
-      const int a = std::clamp(static_cast<int>((placeU / p.halfLength + 1) * 0.5 * kAlong), 0, kAlong - 1);
-      const int b = std::clamp(static_cast<int>((placeV / p.halfWidth + 1) * 0.5 * kAcross), 0, kAcross - 1);
+      const int a = pieceOf(placeU, p.halfLength, perHalfU, kAlong);
+      const int b = pieceOf(placeV, p.halfWidth, perHalfV, kAcross);
       Contact& c = contacts.emplace_back();
       c.i = i, c.j = j, c.node = &node, c.loaded = loaded_.add(node, depth, k), c.depth = depth;
       c.area = share * h * h / node.cosine, c.face = share * area;
@@ -178,16 +184,14 @@ void PadContacts::resistAside(std::size_t pad, const contact::PartMotion& motion
   PadLoad& load = loads_[pad];
   if (!p.grousers) return;
   const double K = loaded_.soil().shearDisplacement, beside = p.halfWidth + 2 * map_.spacing();
-  const Vec3d u = motion.rotation * p.along, v = motion.rotation * p.across, centre = motion.toWorld(p.centre);
+  const Vec3d v = motion.rotation * p.across, centre = motion.toWorld(p.centre);
   for (std::size_t k = 0; k < 2; ++k) {
     const double side = k == 0 ? 1 : -1, before = last.sideStrength[k];
     double strength = 0;
-    if (load.pressed > 0)
-      for (const double place : {-0.5, 0.5}) {
-        const Vec3d edge = centre + u * (place * p.halfLength) + v * (side * p.halfWidth);
-        const Vec3d rim = centre + u * (place * p.halfLength) + v * (side * beside);
-        strength += sides_.at(map_.surfaceAt(rim.x, rim.y) - edge.z) * p.halfLength;
-      }
+    if (load.pressed > 0) {
+      const Vec3d edge = centre + v * (side * p.halfWidth), rim = centre + v * (side * beside);
+      strength = sides_.at(map_.surfaceAt(rim.x, rim.y) - edge.z) * 2 * p.halfLength;
+    }
     Shear s{last.side[k], 0};
     if (last.isThere && before > 0 && strength > 0) {
       const Vec3d moved = centre + v * (side * p.halfWidth) - (last.centre + last.v * (side * p.halfWidth));
