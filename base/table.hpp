@@ -313,7 +313,7 @@ private:
 class Document {
 public:
   /// Reads the file. Each override is "a.b.c=value", e.g. `grain.0.radius=0.01`, `body."left wheel".mass=2` (an entry
-  /// of a list by its name) or `contact."a|b".friction=0.3`; its value is TOML, or a bare word taken as text. "~a.b.c"
+  /// of a list by its name) or `contact."a|b".friction=0.3`; its value is TOML or a bare word, which is text. "~a.b.c"
   /// removes a key or section. Throws InputError: no such file, syntax (file:line:column), version, override.
   static Document load(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
   /// The same from text; `name` stands for the file in messages.

@@ -49,15 +49,15 @@ struct SoilEnergyEntry {
   double scm::SoilEnergy::*energy;
 };
 inline constexpr SoilEnergyEntry kSoilEnergies[] = {
-    {"elastic_pressure", "elastic energy of the soil's pressure under the pads, part of elastic",
+    {"elastic_pressure", "elastic energy of the soil's pressure under shoes and bodies, part of elastic",
      &scm::SoilEnergy::elastic},
-    {"elastic_shear", "elastic energy of the soil's shear under the pads, part of elastic",
+    {"elastic_shear", "elastic energy of the soil's shear under shoes and bodies, part of elastic",
      &scm::SoilEnergy::elasticShear},
     {"compaction", "plastic sinkage", &scm::SoilEnergy::compaction},
     {"shear", "plastic shear", &scm::SoilEnergy::shear},
     {"slip_sinkage", "sinkage by shear", &scm::SoilEnergy::slipSinkage},
     {"damping", "damping during compression", &scm::SoilEnergy::damping},
-    {"edges", "elastic energy of soil that leaves a pad or loses contact; negative where soil enters",
+    {"edges", "elastic energy of soil that leaves a shoe or body, or loses contact; negative where soil enters",
      &scm::SoilEnergy::edges},
     {"coupling", "change of the elastic shear energy with the pressure", &scm::SoilEnergy::coupling},
 };

@@ -19,13 +19,16 @@ public:
   /// `repose`: tangent of the angle of repose.
   Berms(SoilMap& map, double repose) : map_(map), steepest_(repose * map.spacing()) {}
 
-  /// Moves the displaced soil of a node outward from (x, y) along the horizontal unit vector (dx, dy), to the nearest node
-  /// without contact. Without one within kFarthest nodes the soil waits.
+  /// Moves the displaced soil of a node outward from (x, y) along the horizontal unit vector (dx, dy), to the nearest
+  /// node without contact. Without one within kFarthest nodes the soil waits.
   void deposit(Node& from, double x, double y, double dx, double dy);
-  /// One sweep over the tiles in which soil has moved. Each pair of neighbours halves its excess over the slope of repose.
+  /// One sweep over the tiles in which soil has moved. Each pair of neighbours halves its excess over the slope of
+  /// repose.
   void slide();
 
-  double moved() const { return static_cast<double>(moved_) * kHeightQuantum * map_.spacing() * map_.spacing(); } ///< [m3]
+  double moved() const {
+    return static_cast<double>(moved_) * kHeightQuantum * map_.spacing() * map_.spacing();
+  } ///< [m3]
 
   void save(NumberStream& numbers) const;
   void restore(NumberStream& numbers);

@@ -73,7 +73,8 @@ void BodyContacts::gather(std::size_t body, const contact::PartMotion& motion) {
       Node& node = map_.at(i, j);
       const double top = node.height + node.looseThickness() + kNear;
       if (top < bottom) continue;
-      const Cover cover = coverAt(undersides, h * i, h * j, h, top + 2.5 * h); // no surface in contact rises more within h
+      const Cover cover =
+          coverAt(undersides, h * i, h * j, h, top + 2.5 * h); // no surface in contact rises more within h
       if (!(cover.share > 0) || -cover.mean.normal.z < kSteepest) continue;
       const double gap = node.height - cover.mean.z;
       if (cover.mean.z > top) continue;
@@ -91,15 +92,12 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
   load = {};
   const SoilConstants& soil = loaded_.soil();
   const double K = soil.shearDisplacement, h = map_.spacing();
-  auto former = last.contacts.begin();
-  const auto formerEnd = last.contacts.end();
-  const auto end = [&](const Contact& f) {
-    release(f, energy);
-    energy.edges += 0.5 * K * norm2(f.shear) * f.strength * f.face;
+  FormerContacts<Contact> former(last.contacts);
+  const auto ended = [&](const Contact& c) {
+    release(c, energy), releaseShear(energy, K, c.strength * c.face, norm2(c.shear));
   };
   for (Contact& c : now_[body]) {
-    while (former != formerEnd && std::pair(former->j, former->i) < std::pair(c.j, c.i)) end(*former++);
-    const Contact* before = former != formerEnd && former->j == c.j && former->i == c.i ? &*former++ : nullptr;
+    const Contact* before = former.match(c, ended);
     c.pressure = scm::press(c, before, loaded_, energy);
     c.strength = c.pressure > 0 ? soil.cohesion + c.pressure * soil.friction : 0;
     const Vec3d place{h * c.i, h * c.j, c.z};
@@ -113,7 +111,7 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
     if (!before) continue;
     const double strengthBefore = before->strength * before->face, strength = c.strength * c.face;
     if (!(strengthBefore > 0 && strength > 0)) {
-      energy.edges += 0.5 * K * norm2(before->shear) * strengthBefore;
+      releaseShear(energy, K, strengthBefore, norm2(before->shear));
       continue;
     }
     // Rotate the stress into the present tangent plane, then add the shear displacement of the step.
@@ -124,20 +122,20 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
     const Vec3d slip = moved - c.up * dot(moved, c.up);
     const double slipped = norm(slip);
     c.shear = turned;
+    double loss = 0;
     if (slipped > 0) {
       // Components along the slip and across it, in the tangent plane.
       const Vec3d along = slip * (1 / slipped), across = cross(c.up, along);
       Shear s{dot(turned, along), dot(turned, across)};
-      energy.shear += strengthBefore * advance(s, slipped, 0, K).loss;
+      loss = advance(s, slipped, 0, K).loss;
       c.shear = along * s.x + across * s.y;
       loaded_.slip(c.loaded, slipped);
     }
-    energy.coupling -= 0.5 * K * norm2(c.shear) * (strength - strengthBefore);
-    energy.elasticShear += 0.5 * K * norm2(c.shear) * strength;
+    addShear(energy, K, strengthBefore, strength, norm2(c.shear), loss);
     const Vec3d force = c.shear * -strength;
     load.force += force, load.torque += cross(place - motion.centre, force);
   }
-  while (former != formerEnd) end(*former++);
+  former.finish(ended);
   last.motion = motion;
   std::swap(last.contacts, now_[body]);
 }

@@ -16,10 +16,10 @@ struct BodyLoad {
   double sinkage{};    ///< maximum [m]
 };
 
-/// Contacts of rigid bodies of any shape with deformable soil: wheels, plates, stones. The underside of a body is sampled
-/// along the vertical through each node. Pressure acts along the normal of the body; each contact of body and node has a
-/// shear stress of its own, which starts at zero when the node touches the body. Squares of nodes that the body covers in
-/// part count by the covered share of 16 points.
+/// Contacts of rigid bodies of any shape with deformable soil: wheels, plates, stones. The underside of a body is
+/// sampled along the vertical through each node. Pressure acts along the normal of the body; each contact of body and
+/// node has a shear stress of its own, which starts at zero when the node touches the body. Squares of nodes that the
+/// body covers in part count by the covered share of 16 points.
 class BodyContacts {
 public:
   BodyContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Solid> solids);

@@ -24,16 +24,16 @@ struct Compaction {
   double elastic(double p) const { return stiffness > 0 ? 0.5 * p * p / stiffness : 0; }
 };
 
-/// Slope k_u after virgin loading to (z_u, p_u) [N/m3], at least f max(1, n) p_u / z_u. A slope below p_u / z_u would raise
-/// the unloaded surface above the virgin one; a slope below that of the virgin curve, n p_u / z_u, would make the plastic
-/// sinkage decrease during loading.
+/// Slope k_u after virgin loading to (z_u, p_u) [N/m3], at least f max(1, n) p_u / z_u. A slope below p_u / z_u would
+/// raise the unloaded surface above the virgin one; a slope below that of the virgin curve, n p_u / z_u, would make the
+/// plastic sinkage decrease during loading.
 inline double unloadingStiffness(const SoilConstants& soil, double sinkage, double pressure) {
   return std::max(soil.unloadingStiffness + soil.unloadingGrowth * sinkage,
                   soil.elasticRatio * std::max(1.0, soil.exponent) * pressure / sinkage);
 }
 
-/// Moves the end of virgin loading to where the unloading-reloading line meets a stiffer virgin curve k g(z) [N/m^(n+2)],
-/// as under a loaded area of another width. A softer curve has no effect.
+/// Moves the end of virgin loading to where the unloading-reloading line meets a stiffer virgin curve k g(z)
+/// [N/m^(n+2)], as under a loaded area of another width. A softer curve has no effect.
 inline void stiffen(Compaction& state, const PressureCurve& curve, double k) {
   if (!(state.stiffness > 0) || k <= state.modulus) return;
   // p_u + k_u (z - z_u) = k g(z). The line is the steeper one, so Newton's method converges from its present end.
@@ -51,8 +51,8 @@ struct Compression {
   double work{}, loss{}; ///< done on the soil, and dissipated of that [J/m2]
 };
 
-/// Changes the sinkage of a node from `from` to `to` [m] under a pad of modulus k, and updates its state. Work and loss are
-/// integrals of the pressure over the path, exact for any step.
+/// Changes the sinkage of a node from `from` to `to` [m] under a pad of modulus k, and updates its state. Work and loss
+/// are integrals of the pressure over the path, exact for any step.
 inline Compression compress(Compaction& state, const SoilConstants& soil, const PressureCurve& curve, double k,
                             double from, double to) {
   stiffen(state, curve, k);

@@ -7,17 +7,17 @@
 
 namespace grouser::scm {
 
-/// A node in contact in this step. Loose soil carries alone until the firm soil below it would carry more; then it counts
-/// as compacted into the firm soil. `offset` is the depth at which the sinkage of the carrying layer begins.
+/// A node in contact in this step. Loose soil carries alone until the firm soil below it would carry more; then it
+/// counts as compacted into the firm soil. `offset` is the depth at which the sinkage of the carrying layer begins.
 struct LoadedNode {
   Node* node{};
-  double deepest{};   ///< maximum depth of the bodies below the undisturbed surface, along its normal [m]
-  double modulus{};   ///< maximum k of the bodies [N/m^(n+2)]
-  Compaction before;  ///< state of the carrying layer before the step
-  double offset{};    ///< depth minus sinkage of the layer [m]
-  bool onLoose{};     ///< the loose soil carries
-  bool yields{};      ///< the layer is in virgin loading
-  double slip{};      ///< maximum shear displacement of the step [m]
+  double deepest{};  ///< maximum depth of the bodies below the undisturbed surface, along its normal [m]
+  double modulus{};  ///< maximum k of the bodies [N/m^(n+2)]
+  Compaction before; ///< state of the carrying layer before the step
+  double offset{};   ///< depth minus sinkage of the layer [m]
+  bool onLoose{};    ///< the loose soil carries
+  bool yields{};     ///< the layer is in virgin loading
+  double slip{};     ///< maximum shear displacement of the step [m]
 
   const Compaction& state() const { return onLoose ? node->loose : node->state; }
 };

@@ -11,7 +11,7 @@ double press(NodeContact& contact, const NodeContact* former, const LoadedNodes&
   contact.offset = t.offset, contact.onLoose = t.onLoose, contact.elastic = state.elastic(pressure);
   energy.elastic += contact.area * contact.elastic;
   if (former && former->onLoose != t.onLoose) release(*former, energy), former = nullptr; // another layer carries
-  double before = 0; // area in the last step
+  double before = 0;                                                                      // area in the last step
   if (former) {
     before = former->area;
     double elastic = former->elastic;

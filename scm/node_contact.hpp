@@ -5,6 +5,7 @@
 #include "scm/number_stream.hpp"
 #include "scm/soil_energy.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace grouser::scm {
@@ -38,6 +39,36 @@ struct NodeStress {
 double press(NodeContact& contact, const NodeContact* former, const LoadedNodes& loaded, SoilEnergy& energy);
 /// Adds the loss of a contact that ended.
 inline void release(const NodeContact& former, SoilEnergy& energy) { energy.edges += former.area * former.elastic; }
+
+/// Adds the energies of a shear force to those of the step. Its strength, tau_m times area, was `before` and is
+/// `strength` [N]; `square`: |s|^2 now; `loss`: as ShearWork [m].
+inline void addShear(SoilEnergy& energy, double K, double before, double strength, double square, double loss) {
+  energy.shear += before * loss;
+  energy.coupling -= 0.5 * K * square * (strength - before);
+  energy.elasticShear += 0.5 * K * square * strength;
+}
+/// Adds the loss of a shear force whose contact ended.
+inline void releaseShear(SoilEnergy& energy, double K, double strength, double square) {
+  energy.edges += 0.5 * K * square * strength;
+}
+
+/// Contacts of the last step, by row and column of their nodes, in step with those of this one.
+template <class Contact> class FormerContacts {
+public:
+  explicit FormerContacts(const std::vector<Contact>& all) : at_(all.begin()), end_(all.end()) {}
+
+  /// The former contact of the same node, or null. Calls ended() for contacts that come before.
+  template <class Ended> const Contact* match(const Contact& now, const Ended& ended) {
+    while (at_ != end_ && std::pair(at_->j, at_->i) < std::pair(now.j, now.i)) ended(*at_++);
+    return at_ != end_ && at_->j == now.j && at_->i == now.i ? &*at_++ : nullptr;
+  }
+  template <class Ended> void finish(const Ended& ended) {
+    while (at_ != end_) ended(*at_++);
+  }
+
+private:
+  typename std::vector<Contact>::const_iterator at_, end_;
+};
 
 /// Writes or reads the contacts of a body. `rest`: of what a contact has in addition.
 template <class Contact, class Rest>

@@ -39,11 +39,12 @@ PadContacts::PadContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Pad> pad
   }
 }
 
-/// b of each pad: of a track the smaller of its width and the length of the run of pads in contact that it belongs to or
-/// will lengthen.
+/// b of each pad: of a track the smaller of its width and the length of the run of pads in contact that it belongs to
+/// or will lengthen.
 void PadContacts::updateBreadths() {
   for (std::size_t first = 0, end = 0; first < pads_.size(); first = end) {
-    for (end = first + 1; end < pads_.size() && pads_[first].track >= 0 && pads_[end].track == pads_[first].track;) ++end;
+    for (end = first + 1; end < pads_.size() && pads_[first].track >= 0 && pads_[end].track == pads_[first].track;)
+      ++end;
     const std::size_t count = end - first;
     const auto touches = [&](std::size_t k) { return last_[first + k % count].touches; };
     for (std::size_t k = 0; k < count; ++k) {
@@ -115,101 +116,102 @@ void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, doub
   Last& last = last_[pad];
   PadLoad& load = loads_[pad];
   load = {};
-  if (now_[pad].empty() && last.contacts.empty() && !last.touches) {
-    last.isThere = false;
-    return;
-  }
+  if (now_[pad].empty() && last.contacts.empty() && !last.touches) return;
   const Pad& p = pads_[pad];
-  const SoilConstants& soil = loaded_.soil();
-  const Vec3d u = motion.rotation * p.along, v = motion.rotation * p.across, up = cross(u, v);
-  const Vec3d centre = motion.toWorld(p.centre);
-  std::array<double, kPieces> pressed{}, touching{};
-  std::array<Vec3d, kPieces> moment{}; // first moments of the normal forces, in the plane of the pad [N m]
-  auto former = last.contacts.begin();
-  const auto formerEnd = last.contacts.end();
+  const Pose pose{motion.rotation * p.along, motion.rotation * p.across, motion.toWorld(p.centre)};
+  const Pieces pieces = pressNodes(pad, motion, pose, timeStep, energy);
+  shearPieces(pad, motion, pose, pieces, energy);
+  if (p.grousers) resistAside(pad, motion, pose, energy);
+  last.pose = pose, last.touches = load.pressed > 0;
+  std::swap(last.contacts, now_[pad]);
+}
+
+PadContacts::Pieces PadContacts::pressNodes(std::size_t pad, const contact::PartMotion& motion, const Pose& pose,
+                                            double timeStep, SoilEnergy& energy) {
+  Pieces pieces;
+  PadLoad& load = loads_[pad];
+  const double damping = loaded_.soil().damping;
+  const Vec3d up = pose.up();
+  FormerContacts<Contact> former(last_[pad].contacts);
+  const auto ended = [&](const Contact& c) { release(c, energy); };
   for (Contact& c : now_[pad]) {
-    while (former != formerEnd && std::pair(former->j, former->i) < std::pair(c.j, c.i)) release(*former++, energy);
-    const bool isKnown = former != formerEnd && former->j == c.j && former->i == c.i;
-    c.pressure = scm::press(c, isKnown ? &*former : nullptr, loaded_, energy);
-    if (isKnown) ++former;
+    c.pressure = scm::press(c, former.match(c, ended), loaded_, energy);
     if (!(c.pressure > 0)) continue;
     // Damping acts during compression only.
-    const Vec3d arm = u * c.u + v * c.v, place = centre + arm;
+    const Vec3d arm = pose.u * c.u + pose.v * c.v, place = pose.centre + arm;
     const double sinking = std::max(0.0, -dot(motion.velocityAt(place), up));
-    const double force = c.face * (c.pressure + soil.damping * sinking);
-    energy.damping += c.face * soil.damping * sinking * sinking * timeStep;
+    const double force = c.face * (c.pressure + damping * sinking);
+    energy.damping += c.face * damping * sinking * sinking * timeStep;
     const auto k = static_cast<std::size_t>(c.piece);
-    pressed[k] += c.face * c.pressure, touching[k] += c.face;
-    moment[k] += arm * (c.face * c.pressure);
+    pieces.pressed[k] += c.face * c.pressure, pieces.touching[k] += c.face;
+    pieces.moment[k] += arm * (c.face * c.pressure);
     load.force += up * force, load.torque += cross(place - motion.centre, up * force);
     load.pressed += force, load.area += c.face, load.sinkage = std::max(load.sinkage, c.depth);
   }
-  while (former != formerEnd) release(*former++, energy);
+  former.finish(ended);
+  return pieces;
+}
 
-  const double K = soil.shearDisplacement;
+void PadContacts::shearPieces(std::size_t pad, const contact::PartMotion& motion, const Pose& pose,
+                              const Pieces& pieces, SoilEnergy& energy) {
+  Last& last = last_[pad];
+  PadLoad& load = loads_[pad];
+  const double K = loaded_.soil().shearDisplacement;
   std::array<double, kPieces> slipped{}; // shear displacement of the step [m]
-  for (std::size_t k = 0; k < pressed.size(); ++k) {
+  for (std::size_t k = 0; k < slipped.size(); ++k) {
     Shear& s = last.shear[k];
-    const double before = last.strength[k], strength = strengths_[pad].of(touching[k], pressed[k]);
-    const Vec3d place = pressed[k] > 0 ? moment[k] * (1 / pressed[k]) : Vec3d{};
-    if (last.isThere && before > 0 && strength > 0) {
-      s = turned(s, last.u, last.v, u, v);
-      const double pu = dot(place, u), pv = dot(place, v);
-      const Vec3d moved = centre + place - (last.centre + last.u * pu + last.v * pv);
-      const double x = dot(moved, u), y = dot(moved, v);
-      const ShearWork w = advance(s, x, y, K);
+    const double pressed = pieces.pressed[k], touching = pieces.touching[k];
+    const double before = last.strength[k], strength = strengths_[pad].of(touching, pressed);
+    const Vec3d place = pressed > 0 ? pieces.moment[k] * (1 / pressed) : Vec3d{};
+    if (before > 0 && strength > 0) {
+      s = turned(s, last.pose.u, last.pose.v, pose.u, pose.v);
+      const double pu = dot(place, pose.u), pv = dot(place, pose.v);
+      const Vec3d moved = pose.centre + place - (last.pose.centre + last.pose.u * pu + last.pose.v * pv);
+      const double x = dot(moved, pose.u), y = dot(moved, pose.v);
+      const double loss = advance(s, x, y, K).loss;
       slipped[k] = ::sqrt(x * x + y * y);
-      energy.shear += before * w.loss;
-      energy.coupling -= 0.5 * K * s.square() * (strength - before);
+      addShear(energy, K, before, strength, s.square(), loss);
     } else {
-      energy.edges += 0.5 * K * s.square() * before; // contact lost
+      releaseShear(energy, K, before, s.square());
       s = {};
     }
-    last.strength[k] = strength, last.area[k] = touching[k];
-    energy.elasticShear += 0.5 * K * s.square() * strength;
-    const Vec3d force = (u * s.x + v * s.y) * -strength;
-    load.force += force, load.torque += cross(centre + place - motion.centre, force);
+    last.strength[k] = strength, last.area[k] = touching;
+    const Vec3d force = (pose.u * s.x + pose.v * s.y) * -strength;
+    load.force += force, load.torque += cross(pose.centre + place - motion.centre, force);
   }
-  resistAside(pad, motion, energy);
-  last.u = u, last.v = v, last.centre = centre, last.isThere = true, last.touches = load.pressed > 0;
-  std::swap(last.contacts, now_[pad]);
-  for (const Contact& c : last.contacts)
+  for (const Contact& c : now_[pad])
     if (c.pressure > 0) loaded_.slip(c.loaded, slipped[static_cast<std::size_t>(c.piece)]);
 }
 
 /// Sides that push soil: the resistance is mobilised with the lateral displacement as the shear stress is.
-void PadContacts::resistAside(std::size_t pad, const contact::PartMotion& motion, SoilEnergy& energy) {
+void PadContacts::resistAside(std::size_t pad, const contact::PartMotion& motion, const Pose& pose,
+                              SoilEnergy& energy) {
   const Pad& p = pads_[pad];
   Last& last = last_[pad];
   PadLoad& load = loads_[pad];
-  if (!p.grousers) return;
   const double K = loaded_.soil().shearDisplacement, beside = p.halfWidth + 2 * map_.spacing();
-  const Vec3d v = motion.rotation * p.across, centre = motion.toWorld(p.centre);
   for (std::size_t k = 0; k < 2; ++k) {
     const double side = k == 0 ? 1 : -1, before = last.sideStrength[k];
+    const Vec3d edge = pose.centre + pose.v * (side * p.halfWidth);
     double strength = 0;
     if (load.pressed > 0) {
-      const Vec3d edge = centre + v * (side * p.halfWidth), rim = centre + v * (side * beside);
+      const Vec3d rim = pose.centre + pose.v * (side * beside);
       strength = sides_.at(map_.surfaceAt(rim.x, rim.y) - edge.z) * 2 * p.halfLength;
     }
     Shear s{last.side[k], 0};
-    if (last.isThere && before > 0 && strength > 0) {
-      const Vec3d moved = centre + v * (side * p.halfWidth) - (last.centre + last.v * (side * p.halfWidth));
-      const double held = s.square(), outward = side * dot(moved, v);
-      const ShearWork w = advance(s, outward, 0, K);
-      if (s.x < 0) // a gap opens
-        s.x = 0, energy.shear += before * 0.5 * K * held;
-      else
-        energy.shear += before * w.loss;
-      energy.coupling -= 0.5 * K * s.square() * (strength - before);
+    const double held = s.square();
+    if (before > 0 && strength > 0) {
+      const Vec3d moved = edge - (last.pose.centre + last.pose.v * (side * p.halfWidth));
+      double loss = advance(s, side * dot(moved, pose.v), 0, K).loss;
+      if (s.x < 0) s.x = 0, loss = 0.5 * K * held; // a gap opens
+      addShear(energy, K, before, strength, s.square(), loss);
     } else {
-      energy.edges += 0.5 * K * s.square() * before;
+      releaseShear(energy, K, before, held);
       s = {};
     }
     last.side[k] = s.x, last.sideStrength[k] = strength;
-    energy.elasticShear += 0.5 * K * s.square() * strength;
-    const Vec3d force = v * (-side * s.x * strength);
-    load.force += force, load.torque += cross(centre + v * (side * p.halfWidth) - motion.centre, force);
+    const Vec3d force = pose.v * (-side * s.x * strength);
+    load.force += force, load.torque += cross(edge - motion.centre, force);
   }
 }
 
@@ -221,9 +223,8 @@ void PadContacts::restore(NumberStream& numbers) { stream(numbers, last_); }
 
 void PadContacts::stream(NumberStream& numbers, std::vector<Last>& all) const {
   for (Last& last : all) {
-    numbers(last.isThere, last.touches, last.u, last.v, last.centre);
-    for (std::size_t k = 0; k < kPieces; ++k)
-      numbers(last.shear[k].x, last.shear[k].y, last.strength[k], last.area[k]);
+    numbers(last.touches, last.pose.u, last.pose.v, last.pose.centre);
+    for (std::size_t k = 0; k < kPieces; ++k) numbers(last.shear[k].x, last.shear[k].y, last.strength[k], last.area[k]);
     for (std::size_t k = 0; k < 2; ++k) numbers(last.side[k], last.sideStrength[k]);
     streamContacts(numbers, last.contacts, map_, [&](Contact& c) { numbers(c.piece, c.u, c.v, c.pressure); });
   }

@@ -22,8 +22,8 @@ struct Pad {
   double halfLength{}, halfWidth{}; ///< along, across [m]
   double breadth{};                 ///< b of Bekker's relation [m]; in a track the largest, of a long run of shoes
   /// Pads of one track follow each other in the order of the closed loop; b is that of the run of pads in contact.
-  int track = -1;                   ///< -1: no track
-  double pitch{};                   ///< distance of neighbours in the track [m]
+  int track = -1;                     ///< -1: no track
+  double pitch{};                     ///< distance of neighbours in the track [m]
   std::optional<Grousers> grousers{}; ///< none: a rough plate, on which the soil reaches its own strength
 };
 
@@ -35,12 +35,12 @@ struct PadLoad {
   double sinkage{};    ///< maximum [m]
 };
 
-/// Contacts of pads with deformable soil. Each node under a pad has a pressure along the normal of the pad; each of eight
-/// pieces of a pad has a shear stress, and each lateral side a bulldozing resistance. Loads depend on the poses of the
-/// step; node states and shear advance once a step, from the previous poses.
+/// Contacts of pads with deformable soil. Each node under a pad has a pressure along the normal of the pad; each of
+/// eight pieces of a pad has a shear stress, and each lateral side a bulldozing resistance. Loads depend on the poses
+/// of the step; node states and shear advance once a step, from the previous poses.
 ///
-/// A node is weighted by the share of its square that the pad covers, clamp((half - |u|) / width + 1/2) along each side, so
-/// that area and forces vary continuously with the position on the grid.
+/// A node is weighted by the share of its square that the pad covers, clamp((half - |u|) / width + 1/2) along each
+/// side, so that area and forces vary continuously with the position on the grid.
 class PadContacts {
 public:
   static constexpr int kAlong = 2, kAcross = 4; ///< pieces of a pad
@@ -50,8 +50,8 @@ public:
   // One step, in this order; `motion`: indexed by part.
   void gather(const contact::PartMotion* motion); ///< adds the nodes under the pads to the loaded nodes
   void press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy); ///< computes the loads
-  /// Calls move(node, x, y, dx, dy) for the nodes under pads: (x, y) outside the side of the pad next to the node, and the
-  /// unit vector away from the pad.
+  /// Calls move(node, x, y, dx, dy) for the nodes under pads: (x, y) outside the side of the pad next to the node, and
+  /// the unit vector away from the pad.
   template <class Move> void pushAside(const Move& move) const;
 
   const std::vector<PadLoad>& loads() const { return loads_; } ///< one a pad
@@ -66,21 +66,31 @@ public:
 private:
   static constexpr int kPieces = kAlong * kAcross;
   struct Contact : NodeContact {
-    int piece{};        ///< of the pad
-    double u{}, v{};    ///< on the pad [m]
-    double pressure{};  ///< [Pa]
+    int piece{};       ///< of the pad
+    double u{}, v{};   ///< on the pad [m]
+    double pressure{}; ///< [Pa]
+  };
+  struct Pose {
+    Vec3d u, v;   ///< unit vectors of the sides, world
+    Vec3d centre; ///< [m]
+    Vec3d up() const { return cross(u, v); }
+  };
+  /// Normal loads of the pieces of a pad.
+  struct Pieces {
+    std::array<double, kPieces> pressed{};  ///< [N]
+    std::array<double, kPieces> touching{}; ///< [m2]
+    std::array<Vec3d, kPieces>
+        moment{}; ///< first moments of the forces about the centre, in the plane of the pad [N m]
   };
   /// State of a pad after a step.
   struct Last {
-    Vec3d u, v;                             ///< its sides [-]
-    Vec3d centre;                           ///< [m]
+    Pose pose;
     std::array<Shear, kPieces> shear;
     std::array<double, kPieces> strength{}; ///< tau_m times area [N]
     std::array<double, kPieces> area{};     ///< in contact [m2]
     std::array<double, 2> side{};           ///< mobilised share of the resistance at +v, -v [-]
     std::array<double, 2> sideStrength{};   ///< [N]
     std::vector<Contact> contacts;
-    bool isThere = false;
     bool touches = false;
   };
 
@@ -88,7 +98,11 @@ private:
   void gather(std::size_t pad, const contact::PartMotion& motion);
   void press(std::size_t pad, const contact::PartMotion& motion, double timeStep, SoilEnergy& energy);
   void stream(NumberStream& numbers, std::vector<Last>& all) const;
-  void resistAside(std::size_t pad, const contact::PartMotion& motion, SoilEnergy& energy);
+  Pieces pressNodes(std::size_t pad, const contact::PartMotion& motion, const Pose& pose, double timeStep,
+                    SoilEnergy& energy);
+  void shearPieces(std::size_t pad, const contact::PartMotion& motion, const Pose& pose, const Pieces& pieces,
+                   SoilEnergy& energy);
+  void resistAside(std::size_t pad, const contact::PartMotion& motion, const Pose& pose, SoilEnergy& energy);
 
   SoilMap& map_;
   LoadedNodes& loaded_;
@@ -106,7 +120,8 @@ template <class Move> void PadContacts::pushAside(const Move& move) const {
     const Last& last = last_[k];
     for (const Contact& c : last.contacts) {
       const double side = c.v < 0 ? -1 : 1;
-      const Vec3d place = last.centre + last.u * c.u + last.v * (side * pads_[k].halfWidth), out = last.v * side;
+      const Pose& pose = last.pose;
+      const Vec3d place = pose.centre + pose.u * c.u + pose.v * (side * pads_[k].halfWidth), out = pose.v * side;
       const double size = ::sqrt(out.x * out.x + out.y * out.y);
       move(*c.node, place.x, place.y, out.x / size, out.y / size);
     }
@@ -121,7 +136,7 @@ template <class Look> void PadContacts::forEachLoaded(const Look& look) const {
       const auto k = static_cast<std::size_t>(c.piece);
       const double share = c.area * c.node->cosine / square, stress = share * last.strength[k] / last.area[k];
       look(NodeStress{c.i, c.j, c.depth / c.node->cosine, share * c.pressure,
-                      (last.u * last.shear[k].x + last.v * last.shear[k].y) * stress});
+                      (last.pose.u * last.shear[k].x + last.pose.v * last.shear[k].y) * stress});
     }
 }
 

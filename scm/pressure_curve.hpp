@@ -8,9 +8,10 @@
 
 namespace grouser::scm {
 
-/// z^n tabulated as a piecewise linear function g(z) with its exact integral: the step needs no powers, and energies match
-/// pressures to rounding. Knots lie at deepest (i / kIntervals)^2, so the relative error n (n - 1) / (2 i^2) decreases with
-/// depth: 1e-4 beyond a thousandth of the depth at n = 0.8. The last line continues beyond the deepest knot.
+/// z^n tabulated as a piecewise linear function g(z) with its exact integral: the step needs no powers, and energies
+/// match pressures to rounding. Knots lie at deepest (i / kIntervals)^2, so the relative error n (n - 1) / (2 i^2)
+/// decreases with depth: 1e-4 beyond a thousandth of the depth at n = 0.8. The last line continues beyond the deepest
+/// knot.
 class PressureCurve {
 public:
   static constexpr int kIntervals = 1024;

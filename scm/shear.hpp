@@ -6,9 +6,10 @@
 
 namespace grouser::scm {
 
-/// Direction and mobilised share of the shear stress under a piece of a pad, tau = tau_m s, |s| <= 1, in the plane of the
-/// pad. K ds = dj - s |dj| for a shear displacement dj: straight motion gives Janosi's 1 - exp(-j / K) (Janosi, Hanamoto
-/// 1961). After a turn or a reversal s follows with delay, whereas a scalar path length would turn the stress at once.
+/// Direction and mobilised share of the shear stress under a piece of a pad, tau = tau_m s, |s| <= 1, in the plane of
+/// the pad. K ds = dj - s |dj| for a shear displacement dj: straight motion gives Janosi's 1 - exp(-j / K) (Janosi,
+/// Hanamoto 1961). After a turn or a reversal s follows with delay, whereas a scalar path length would turn the stress
+/// at once.
 struct Shear {
   double x{}, y{}; ///< [-]
 

@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/host_device.hpp"
+#include "base/math.hpp"
 
 namespace grouser::scm {
 
-/// Soil constants: Bekker's pressure-sinkage relation p = (k_c / b + k_phi) z^n, Wong's linear unloading, and Janosi's shear
-/// stress tau = (c + p tan phi) (1 - exp(-j / K)) (Wong, Theory of Ground Vehicles, chapter 2).
+/// Soil constants: Bekker's pressure-sinkage relation p = (k_c / b + k_phi) z^n, Wong's linear unloading, and Janosi's
+/// shear stress tau = (c + p tan phi) (1 - exp(-j / K)) (Wong, Theory of Ground Vehicles, chapter 2).
 struct SoilConstants {
-  double exponent = 1;       ///< n [-], > 0
-  double kc{};               ///< [N/m^(n+1)], may be negative
-  double kphi{};             ///< [N/m^(n+2)]
-  double cohesion{};         ///< c [Pa], >= 0
-  double friction{};         ///< tan phi [-], >= 0
-  double shearDisplacement{}; ///< K [m], > 0
+  double exponent = 1;                            ///< n [-], > 0
+  double kc{};                                    ///< [N/m^(n+1)], may be negative
+  double kphi{};                                  ///< [N/m^(n+2)]
+  double cohesion{};                              ///< c [Pa], >= 0
+  double friction{};                              ///< tan phi [-], >= 0
+  double shearDisplacement{};                     ///< K [m], > 0
   double unloadingStiffness{}, unloadingGrowth{}; ///< k_0 [N/m3] and A_u [N/m4] of k_u = k_0 + A_u z_u, as measured
-  double elasticRatio = 10;  ///< f [-], >= 1: k_u is at least f max(1, n) p_u / z_u, so a plate rebounds by z_u / f at most
-  double damping{};          ///< [Pa s/m] while soil is being compressed, >= 0
-  double slipSinkage{};      ///< sinkage per shear displacement at constant pressure [-], >= 0
+  double elasticRatio =
+      10;               ///< f [-], >= 1: k_u is at least f max(1, n) p_u / z_u, so a plate rebounds by z_u / f at most
+  double damping{};     ///< [Pa s/m] while soil is being compressed, >= 0
+  double slipSinkage{}; ///< sinkage per shear displacement at constant pressure [-], >= 0
   double maximumSlipSinkage{}; ///< [m]
   double unitWeight{};         ///< [N/m3]
 
   /// k = k_c / b + k_phi [N/m^(n+2)] under a loaded area whose smaller side is b [m].
   double modulusAt(double b) const { return kc / b + kphi; }
+  /// Sinkage under a pressure [Pa] by virgin loading [m].
+  double sinkageUnder(double pressure, double b) const { return base::pow(pressure / modulusAt(b), 1 / exponent); }
 };
 
 } // namespace grouser::scm

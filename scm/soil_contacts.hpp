@@ -12,9 +12,9 @@ namespace grouser::scm {
 
 /// Soil displaced by sinking bodies.
 struct Displacement {
-  double share{};          ///< of the sunk volume that moves aside instead of being compacted [-], 0 to 1
-  double repose{};         ///< tangent of the angle of repose [-]
-  double interval = 5e-3;  ///< between two rearrangements, rounded to steps [s]
+  double share{};         ///< of the sunk volume that moves aside instead of being compacted [-], 0 to 1
+  double repose{};        ///< tangent of the angle of repose [-]
+  double interval = 5e-3; ///< between two rearrangements, rounded to steps [s]
 };
 
 /// All contacts of a scene with deformable soil.

@@ -11,7 +11,7 @@ struct SoilEnergy {
   double shear{};        ///< plastic shear, and soil that sides of shoes push
   double slipSinkage{};  ///< sinkage by shear
   double damping{};
-  double edges{};    ///< elastic energy of soil that leaves a body sideways or loses contact; negative where soil enters
+  double edges{}; ///< elastic energy of soil that leaves a body sideways or loses contact; negative where soil enters
   double coupling{}; ///< change of elastic shear energy with the pressure
 
   double held() const { return elastic + elasticShear; }

@@ -30,18 +30,6 @@ const Node* SoilMap::find(std::int32_t i, std::int32_t j) const {
   return found == tiles_.end() ? nullptr : &found->second->nodes[placeInTile(i, j)];
 }
 
-namespace {
-
-/// Value at (x, y) of a grid of this spacing, linear between nodes.
-template <class Value> double interpolate(double x, double y, double spacing, const Value& valueAt) {
-  const auto i = static_cast<std::int32_t>(std::floor(x / spacing)), j = static_cast<std::int32_t>(std::floor(y / spacing));
-  const double u = x / spacing - i, v = y / spacing - j;
-  return (1 - v) * ((1 - u) * valueAt(i, j) + u * valueAt(i + 1, j)) +
-         v * ((1 - u) * valueAt(i, j + 1) + u * valueAt(i + 1, j + 1));
-}
-
-} // namespace
-
 double SoilMap::rutAt(double x, double y) const {
   return interpolate(x, y, spacing_, [&](std::int32_t i, std::int32_t j) {
     const Node* node = find(i, j);

@@ -6,6 +6,7 @@
 #include "terrain/height_field.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -19,9 +20,9 @@ inline constexpr double kHeightQuantum = 1.0 / (1 << 30);
 
 /// A node of the grid, which stands for a square of soil around it.
 struct Node {
-  double height{};     ///< of the undisturbed surface [m]
-  double cosine = 1;   ///< between the normal of that surface and the vertical [-]
-  Compaction state;    ///< sinkage is measured along the normal, from the undisturbed surface lowered by slipSinkage
+  double height{};      ///< of the undisturbed surface [m]
+  double cosine = 1;    ///< between the normal of that surface and the vertical [-]
+  Compaction state;     ///< sinkage is measured along the normal, from the undisturbed surface lowered by slipSinkage
   double slipSinkage{}; ///< additional sinkage by shear [m]
   Compaction loose;     ///< of the loose soil, below its own surface
   std::int64_t looseQuanta{}; ///< thickness of loose soil as deposited, vertical [kHeightQuantum]
@@ -36,6 +37,15 @@ struct Node {
   double rut() const { return (firmDepth() + loose.rebound()) / cosine - looseThickness(); }
   double surface() const { return height - rut(); } ///< height of the unloaded surface [m]
 };
+
+/// Value at (x, y) of a grid of this spacing, linear between nodes; `valueAt`: of node (i, j).
+template <class Value> double interpolate(double x, double y, double spacing, const Value& valueAt) {
+  const auto i = static_cast<std::int32_t>(std::floor(x / spacing)),
+             j = static_cast<std::int32_t>(std::floor(y / spacing));
+  const double u = x / spacing - i, v = y / spacing - j;
+  return (1 - v) * ((1 - u) * valueAt(i, j) + u * valueAt(i + 1, j)) +
+         v * ((1 - u) * valueAt(i, j + 1) + u * valueAt(i + 1, j + 1));
+}
 
 /// A grid of soil nodes in square tiles, allocated when a contact first approaches: memory grows with the touched
 /// ground, not with the terrain.

@@ -3,6 +3,7 @@
 #include "runs/campaigns/sweeps/check.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/commands/command_entry.hpp"
+#include "runs/commands/process_options.hpp"
 #include "runs/support/option_checks.hpp"
 
 #include <CLI/CLI.hpp>
@@ -27,8 +28,7 @@ struct CheckCommand {
 
 void checkCommand(CheckCommand command) {
   sweeps::CheckOptions& options = command.options;
-  if (!command.device.empty()) options.fixed.push_back("run.device=" + command.device);
-  if (command.threads) options.fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  addDeviceOverrides(options.fixed, command.device, command.threads);
   sweeps::checkGivenOnce(options.fixed);
   for (const std::string& set : options.fixed)
     if (sweeps::keyOf(set) == "run.seed")
@@ -77,20 +77,9 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->check(support::wholeNumber(0, 1000));
   check->add_option("--budget", c.options.budget,
                     "time for all of it, e.g. 90s, 20min or 1.5h: the first run decides what fits, the rest is named");
-  check->add_option("--jobs", c.options.sweep.jobs, "runs at the same time; default: 1")
-      ->check(support::wholeNumber(1, 1024));
-  check
-      ->add_option("--seconds", c.options.sweep.seconds,
-                   "this call begins no further run after so many, 0: no limit; the same command again continues")
-      ->check(support::notNegative("a time in seconds"));
-  support::addOut(*check, c.folder, "folder for the runs' folders and the results; default: out/NAME_check");
-  check->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
-  check->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
-      ->check(support::wholeNumber(0, 1024));
-  CLI::Option* resume =
-      check->add_flag("--resume")
-          ->description("go on with what an earlier call has left, which the same command does anyway");
-  check->add_flag("--force", c.options.sweep.force, "run again what has already been run")->excludes(resume);
+  addProcessOptions(
+      *check, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
+      "folder for the runs' folders and the results; default: out/NAME_check");
   check->callback([command] { checkCommand(*command); });
 }
 

@@ -14,6 +14,7 @@
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/commands/bed_warnings.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/commands/process_options.hpp"
 #include "runs/commands/run_scene.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
@@ -100,8 +101,7 @@ double secondsOf(const output::Summary& summary) {
 
 void runCommand(const RunCommand& command) {
   std::vector<std::string> overrides = command.overrides;
-  if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
-  if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
+  addDeviceOverrides(overrides, command.device, command.threads);
   sweeps::checkGivenOnce(overrides);
   const fs::path replayed = fs::path(command.replay).lexically_normal();
   const scene::Scene scene =
@@ -148,8 +148,7 @@ void sweepCommand(const SweepCommand& command) {
                                                  : fs::path(command.folder);
   support::requireFolder(folder);
   std::vector<std::string> fixed;
-  if (!command.device.empty()) fixed.push_back("run.device=" + command.device);
-  if (command.threads) fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  addDeviceOverrides(fixed, command.device, command.threads);
   if (command.ground) fixed = sweeps::groundOverrides(command.scene, command.lists, fixed, *command.ground);
   const sweeps::SweepPlan plan = sweeps::planSweep(command.scene, command.lists, fixed);
   if (!plan.runs.empty()) scene::printNotes(plan.runs.front().scene);
@@ -192,8 +191,7 @@ void sinkageCommand(const SinkageCommand& command) {
 
 void planCommand(const PlanCommand& command) {
   std::vector<std::string> overrides = command.overrides;
-  if (!command.device.empty()) overrides.push_back("run.device=" + command.device);
-  if (command.threads) overrides.push_back(fmt::format("run.threads={}", *command.threads));
+  addDeviceOverrides(overrides, command.device, command.threads);
   sweeps::checkGivenOnce(overrides);
   const scene::Scene scene = setup::loadScene(command.scene, overrides);
   scene::printNotes(scene);

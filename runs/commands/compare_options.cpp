@@ -5,6 +5,7 @@
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/commands/command_entry.hpp"
+#include "runs/commands/process_options.hpp"
 #include "runs/support/option_checks.hpp"
 #include "runs/support/output_place.hpp"
 
@@ -34,8 +35,7 @@ struct CompareCommand {
 void compareCommand(CompareCommand command) {
   sweeps::CompareOptions& options = command.options;
   options.grounds = sweeps::groundsOf(command.grounds);
-  if (!command.device.empty()) options.fixed.push_back("run.device=" + command.device);
-  if (command.threads) options.fixed.push_back(fmt::format("run.threads={}", *command.threads));
+  addDeviceOverrides(options.fixed, command.device, command.threads);
   sweeps::checkGivenOnce(options.fixed);
   for (const std::string& set : options.fixed)
     for (const auto& [key, option] : {std::pair{"terrain.kind", "--grounds"}, {"run.seed", "--seeds"}})
@@ -77,20 +77,9 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
                    "percent of the larger mean (10 or 10%) within which verdicts call a figure equal; default: 5")
       ->transform(support::percentSign())
       ->check(support::positive("a share in percent"));
-  compare->add_option("--jobs", c.options.sweep.jobs, "runs at the same time; default: 1")
-      ->check(support::wholeNumber(1, 1024));
-  compare
-      ->add_option("--seconds", c.options.sweep.seconds,
-                   "no further run is begun after so many, 0: no limit; the same command again continues")
-      ->check(support::notNegative("a time in seconds"));
-  support::addOut(*compare, c.folder, "folder for the runs' folders and the tables; default: out/NAME_compare");
-  compare->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
-  compare->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
-      ->check(support::wholeNumber(0, 1024));
-  CLI::Option* resume =
-      compare->add_flag("--resume")
-          ->description("go on with what an earlier call has left, which the same command does anyway");
-  compare->add_flag("--force", c.options.sweep.force, "run again what has already been run")->excludes(resume);
+  addProcessOptions(
+      *compare, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
+      "folder for the runs' folders and the tables; default: out/NAME_compare");
   compare->callback([command] { compareCommand(*command); });
 }
 

@@ -18,7 +18,7 @@ namespace {
 /// Returns true if contacts without grains depend on the material: foundations of bodies, surfaces and ground, or
 /// deformable soil.
 bool actsWithoutGrains(const scene::Scene& scene, const std::string& material) {
-  if (scene.terrain && scene.terrain->deformable() && scene.terrain->material == material) return true;
+  if (scene.deformable() && scene.terrain->material == material) return true;
   if (!scene.mechanism.touches()) return false;
   const auto& bodies = scene.mechanism.bodies;
   const std::vector<setup::SceneSurface> surfaces = setup::surfacesOf(scene);
@@ -80,7 +80,7 @@ std::string pairsText(const scene::Scene& scene) {
                           spec.contact.foundationModulus, spec.contact.relaxationTime, friction);
     };
     part("shoe on running gear", spec.contact.frictionInside);
-    if (scene.terrain && !scene.terrain->granular() && !scene.terrain->deformable())
+    if (scene.terrain && !scene.terrain->granular() && !scene.deformable())
       part("shoe on rigid ground", spec.contact.frictionGround);
   }
   if (const std::optional<coupling::ScmSetup> soil = setup::scmSetup(scene))

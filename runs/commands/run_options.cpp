@@ -2,6 +2,7 @@
 #include "runs/commands/command_entry.hpp"
 
 #include "runs/commands/commands.hpp"
+#include "runs/commands/process_options.hpp"
 #include "runs/support/option_checks.hpp"
 
 #include <memory>
@@ -71,21 +72,9 @@ void addSweep(CLI::App& app, const Invocation&) {
       ->add_option("--seeds", c.lists.seeds,
                    "each combination with run.seed 1 to so many: means with 95 % intervals, and differences")
       ->check(support::wholeNumber(1, 1000));
-  sweep->add_option("--jobs", c.jobs, "runs at the same time; default: 1")->check(support::wholeNumber(1, 1024));
-  sweep
-      ->add_option("--seconds", c.seconds,
-                   "no further run is begun after so many, 0: no limit; the same command again continues")
-      ->check(support::notNegative("a time in seconds"));
-  support::addOut(
-      *sweep, c.folder,
+  addProcessOptions(
+      *sweep, {c.jobs, c.seconds, c.force, c.folder, c.device, c.threads},
       "folder for the runs' folders and summary.csv; default: out/NAME_sweep, with --ground out/NAME_sweep_GROUND");
-  sweep->add_option("--device", c.device, "auto, cpu or cuda; default: as the scene says");
-  sweep->add_option("--threads", c.threads, "CPU threads of each run; default: all cores shared among the jobs")
-      ->check(support::wholeNumber(0, 1024));
-  CLI::Option* resume =
-      sweep->add_flag("--resume")
-          ->description("go on with what an earlier call has left, which the same command does anyway");
-  sweep->add_flag("--force", c.force, "run again what has already been run")->excludes(resume);
   CLI::Option* from =
       sweep
           ->add_option("--from-checkpoint", c.checkpoint,

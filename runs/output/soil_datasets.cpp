@@ -75,7 +75,7 @@ std::uint64_t bytesOfSoil(const SoilSurface& soil) {
   constexpr std::uint64_t kOwn = 4096; // overhead of HDF5 for a dataset
   std::uint64_t bytes = kOwn + soil.mesh.indices.size() * sizeof(std::uint32_t);
   for (const SoilDataset& d : kSoilDatasets) bytes += kOwn + soil.mesh.vertices.size() * d.width * sizeof(float);
-  return bytes + bytes / 100; // what cannot be compressed grows a little
+  return bytes + bytes / 100; // incompressible data grow by less than 1 %
 }
 
 void writeSoil(support::Hdf5File& file, const std::string& frame, const SoilSurface& soil) {

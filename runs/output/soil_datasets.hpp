@@ -10,16 +10,16 @@
 #include <vector>
 
 /// Deformable soil in frames.h5: /000012/soil/{position [v, 3], triangles [t, 3], sinkage [v], pressure [v], ...},
-/// compressed, for most of it is plane and bears nothing.
+/// compressed, since most of the surface is plane and unloaded.
 namespace grouser::output {
 
-/// Size of the soil of one frame in the file at most [bytes].
+/// Upper bound of the size of one frame's soil in the file [bytes].
 std::uint64_t bytesOfSoil(const SoilSurface& soil);
 /// `frame`: the group of the frame.
 void writeSoil(support::Hdf5File& file, const std::string& frame, const SoilSurface& soil);
-/// The soil of a frame for frames.xdmf; empty where it has none.
+/// XML of a frame's soil for frames.xdmf; empty if the frame has none.
 std::string soilXdmf(const support::Hdf5File& file, const std::string& frame);
-/// What writeSoil() wrote; null where there is none. Throws base::InputError where it is damaged.
+/// Reads a frame's soil; null if the frame has none. Throws base::InputError if the data are damaged.
 std::shared_ptr<const SoilSurface> readSoil(const support::Hdf5File& file, const std::string& frame);
 
 /// For docs/files.md; `frame`: "FRAME/".

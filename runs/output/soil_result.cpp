@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/soil_result.hpp"
 
+#include "scm/soil_map.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,11 +28,8 @@ double sinkageAt(const GroundFields& fields, std::int32_t i, std::int32_t j) {
 
 /// Linear between nodes.
 double sinkageAt(const GroundFields& fields, const base::Vec3d& p) {
-  const double x = p.x / fields.spacing, y = p.y / fields.spacing;
-  const auto i = static_cast<std::int32_t>(std::floor(x)), j = static_cast<std::int32_t>(std::floor(y));
-  const double u = x - i, v = y - j;
-  return (1 - v) * ((1 - u) * sinkageAt(fields, i, j) + u * sinkageAt(fields, i + 1, j)) +
-         v * ((1 - u) * sinkageAt(fields, i, j + 1) + u * sinkageAt(fields, i + 1, j + 1));
+  return scm::interpolate(p.x, p.y, fields.spacing,
+                          [&](std::int32_t i, std::int32_t j) { return sinkageAt(fields, i, j); });
 }
 
 /// Maps over the rectangle of all nodes.

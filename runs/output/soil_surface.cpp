@@ -21,7 +21,11 @@ void sortUnique(std::vector<Place>& places) {
   places.erase(std::unique(places.begin(), places.end()), places.end());
 }
 
-std::int32_t blockOf(std::int32_t node) { return node >= 0 ? node / kBlock : -((kBlock - 1 - node) / kBlock); }
+/// The quotient rounded down; `size` > 0.
+std::int32_t floorDivide(std::int32_t node, std::int32_t size) {
+  return node >= 0 ? node / size : -((size - 1 - node) / size);
+}
+std::int32_t blockOf(std::int32_t node) { return floorDivide(node, kBlock); }
 
 /// A square of `size` nodes along a side with its lower corner at node (i, j).
 struct Cell {
@@ -42,7 +46,7 @@ public:
     std::int32_t size = kBlock;
     while (h_ * size < std::max(area.width(), area.length())) size *= 2;
     // Cells are aligned with multiples of their size, as the blocks are.
-    const auto down = [size](std::int32_t node) { return node >= 0 ? node / size : -((size - 1 - node) / size); };
+    const auto down = [size](std::int32_t node) { return floorDivide(node, size); };
     for (std::int32_t j = down(at(area.yMin)); j <= down(at(area.yMax)); ++j)
       for (std::int32_t i = down(at(area.xMin)); i <= down(at(area.xMax)); ++i) cut({i * size, j * size, size});
   }

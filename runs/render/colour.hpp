@@ -16,7 +16,7 @@ Colour srgb(int red, int green, int blue);
 /// The sRGB triple of a linear colour.
 std::array<std::uint8_t, 3> toSrgb(const Colour& colour);
 
-/// Of ground without grains.
+/// Colour of rigid ground and of undisturbed deformable soil.
 Colour groundColour();
 
 /// A perceptually even colour map from dark violet over green to yellow; `value` 0 to 1, clamped.

@@ -22,7 +22,7 @@ enum class LookAt {
 struct FrameView {
   LookAt lookAt = LookAt::All;
   base::Vec3d point; ///< of LookAt::Point [m]
-  /// Of the camera about z, 0 is +x [deg]; empty: from the front, from behind on deformable soil.
+  /// Azimuth of the camera about z, from +x [deg]; by default in front of the vehicle, on deformable soil behind it.
   std::optional<double> azimuth;
   /// Of the camera above the horizon [deg]; empty: low for a vehicle or a mechanism, higher for a bed or what lies
   /// flat.

@@ -1,29 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The section of deformable soil: constants, map of the ruts, profiles, pressure under the tracks, energies."""
 import base64
+import io
 import math
-import struct
-import zlib
 
 import numpy
 
 import soil_fields
 from page import esc, folded, number, pictures, table, term
 
-MOST_PIXELS = 1600  # of a map along x and y
-ENERGIES = ("elastic_pressure", "elastic_shear", "compaction", "shear", "slip_sinkage", "damping", "edges", "coupling")
+MOST_PIXELS = 1600  # maximum width and height of a map
 
 
 def png(colours):
     """A picture of [rows, columns, 3] bytes as a data URI."""
-    rows, columns, _ = colours.shape
-    lines = b"".join(b"\0" + row.tobytes() for row in numpy.ascontiguousarray(colours, dtype=numpy.uint8))
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    head = struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)
-    data = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b"")
-    return "data:image/png;base64," + base64.b64encode(data).decode()
+    import matplotlib.image  # no other page needs it
+    file = io.BytesIO()
+    matplotlib.image.imsave(file, numpy.ascontiguousarray(colours, dtype=numpy.uint8), format="png",
+                            metadata={"Software": None})
+    return "data:image/png;base64," + base64.b64encode(file.getvalue()).decode()
 
 
 class Soil:
@@ -152,12 +147,10 @@ def profiles(made, soil):
 
 
 def energies(run):
-    rows = []
-    for name in ("dissipated_soil", *(f"soil_{word}" for word in ENERGIES)):
-        if f"ledger.{name}" in run and len(run.time):
-            series = run[f"ledger.{name}"]
-            rows.append([term(name.replace("_", " "), series.help),
-                         number(float(series.value[-1]), "", f"soil energy {name}"), "J", esc(series.help)])
+    names = run.names("ledger.dissipated_soil") + run.names("ledger.soil_")
+    rows = [[term(name.removeprefix("ledger.").replace("_", " "), run[name].help),
+             number(float(run[name].value[-1]), "", f"soil energy {name.removeprefix('ledger.')}"), "J", esc(run[name].help)]
+            for name in names if len(run.time)]
     return table(["energy", "at the end", "unit", "what it is"], rows, "Energies of the soil: elastic ones at the end, "
                  "dissipated ones since the start.", numeric=(1,)) if rows else ""
 

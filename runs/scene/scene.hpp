@@ -362,6 +362,8 @@ struct Scene {
   std::string placeOf(const std::string& list, std::size_t number) const;
 
   std::string name() const { return file.stem().string(); }
+  /// Returns true on deformable soil.
+  bool deformable() const { return terrain && terrain->deformable(); }
   /// The material `name`; loading has made sure that it exists.
   const Material& material(const std::string& name) const;
   /// The override of a pair, in either order; null where there is none.

@@ -64,7 +64,7 @@ base::Table<Scm> scmTable() {
 }
 
 void checkScm(const base::Section& section, Scm& scm, const Scene& scene) {
-  if (!scene.terrain || !scene.terrain->deformable())
+  if (!scene.deformable())
     section.fail("", "has no effect without terrain.kind = \"scm\"; set that, or remove the section");
   if (scm.constantsDraw > 0 && scm.n && scm.kc && scm.kphi && scm.cohesion && scm.frictionAngle &&
       scm.shearDisplacement)

@@ -76,6 +76,13 @@ struct Soil {
   std::vector<PublishedConstant> published;
   std::vector<ReachedConstant> reached;
   std::shared_ptr<const base::Document> document;
+
+  /// The first published constant of this quantity; null if there is none.
+  const PublishedConstant* publishedValue(SoilQuantity quantity) const {
+    for (const PublishedConstant& p : published)
+      if (p.quantity == quantity) return &p;
+    return nullptr;
+  }
 };
 
 /// Reads a soil's file. Throws base::InputError with file, line, key, value, range and remedy.

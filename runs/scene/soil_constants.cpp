@@ -30,7 +30,7 @@ double assumedDeviation(SoilQuantity quantity) {
   case Q::cohesion:
     return 0.20;
   case Q::frictionAngle:
-    return 0.05; // of tan phi
+    return 0.05; // deviation of tan phi
   case Q::shearModulus:
     return 0.25;
   default:
@@ -58,17 +58,11 @@ ContactConstant constantOf(const PublishedConstant& p) {
   return c;
 }
 
-const ContactConstant* find(const std::vector<ContactConstant>& constants, SoilQuantity quantity) {
-  const auto found = std::find_if(constants.begin(), constants.end(),
-                                  [quantity](const ContactConstant& c) { return c.quantity == quantity; });
-  return found == constants.end() ? nullptr : &*found;
-}
-
 /// Pressure-sinkage relation at the reference: ln of the sinkage [m] under kReferencePressure. Empty where constants
 /// are missing, or where the soil bears nothing.
 std::optional<double> referenceSinkage(const std::vector<ContactConstant>& constants) {
-  const ContactConstant *n = find(constants, Q::exponent), *kc = find(constants, Q::cohesiveModulus),
-                        *kphi = find(constants, Q::frictionalModulus);
+  const ContactConstant *n = findConstant(constants, Q::exponent), *kc = findConstant(constants, Q::cohesiveModulus),
+                        *kphi = findConstant(constants, Q::frictionalModulus);
   if (!n || !kc || !kphi || !(n->value > 0)) return {};
   const double k = kc->value / kReferenceWidth + kphi->value;
   if (!(k > 0)) return {};
@@ -90,9 +84,8 @@ double measuredRadius(const Soil& soil) {
 }
 
 std::optional<ContactConstant> published(const Soil& soil, SoilQuantity quantity) {
-  for (const PublishedConstant& p : soil.published)
-    if (p.quantity == quantity) return constantOf(p);
-  return {};
+  const PublishedConstant* p = soil.publishedValue(quantity);
+  return p ? std::optional(constantOf(*p)) : std::nullopt;
 }
 
 std::optional<ContactConstant> measured(const Soil& soil, SoilQuantity quantity, double radius) {
@@ -115,6 +108,12 @@ double normal(int number, SoilQuantity quantity) {
 
 } // namespace
 
+const ContactConstant* findConstant(const std::vector<ContactConstant>& constants, SoilQuantity quantity) {
+  const auto found = std::find_if(constants.begin(), constants.end(),
+                                  [quantity](const ContactConstant& c) { return c.quantity == quantity; });
+  return found == constants.end() ? nullptr : &*found;
+}
+
 double ContactConstant::halfWidth() const {
   if (quantity != Q::frictionAngle) return kNormal95 * deviation * std::fabs(value);
   const double by = kNormal95 * deviation;
@@ -128,7 +127,7 @@ std::vector<ContactConstant> contactConstants(const Soil& soil, SoilConstantsFro
     if (const auto c = from == SoilConstantsFrom::published ? published(soil, q) : measured(soil, q, radius))
       constants.push_back(*c);
   const std::optional<double> sinkage = referenceSinkage(constants);
-  const ContactConstant* n = find(constants, Q::exponent);
+  const ContactConstant* n = findConstant(constants, Q::exponent);
   for (ContactConstant& c : constants)
     if (c.isAssumed && (c.quantity == Q::cohesiveModulus || c.quantity == Q::frictionalModulus))
       c.deviation = sinkage ? lengthOf(kPressureDeviation, n->deviation * n->value * *sinkage) : kPressureDeviation;
@@ -138,7 +137,7 @@ std::vector<ContactConstant> contactConstants(const Soil& soil, SoilConstantsFro
 void drawContactConstants(std::vector<ContactConstant>& constants, int number) {
   const std::optional<double> sinkage = referenceSinkage(constants); // of the nominal constants
   const auto isFixed = [&](SoilQuantity q) {
-    const ContactConstant* c = find(constants, q);
+    const ContactConstant* c = findConstant(constants, q);
     return c && c->deviation == 0;
   };
   const bool modulusIsFixed = isFixed(Q::cohesiveModulus) && isFixed(Q::frictionalModulus);
@@ -167,7 +166,7 @@ void drawContactConstants(std::vector<ContactConstant>& constants, int number) {
 double modulusCorrelation(const std::vector<ContactConstant>& constants) {
   const std::optional<double> sinkage = referenceSinkage(constants);
   if (!sinkage) return 0;
-  const ContactConstant& n = *find(constants, Q::exponent);
+  const ContactConstant& n = *findConstant(constants, Q::exponent);
   const double byExponent = -n.deviation * n.value * *sinkage;
   return byExponent / lengthOf(kPressureDeviation, byExponent);
 }

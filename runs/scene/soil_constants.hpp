@@ -29,6 +29,9 @@ struct ContactConstant {
 /// radii the smallest, since K and k depend on the size of the grains.
 std::vector<ContactConstant> contactConstants(const Soil& soil, SoilConstantsFrom from);
 
+/// The constant of this quantity; null if there is none.
+const ContactConstant* findConstant(const std::vector<ContactConstant>& constants, SoilQuantity quantity);
+
 /// Replaces the values by sample `number` (>= 1) of their joint distribution. A sample depends on `number` alone, on
 /// every machine. Values are drawn in the logarithm, by normal numbers that are limited to 3 deviations:
 /// - n, K, c and tan phi by their deviations; c and tan phi correlate by kStrengthCorrelation;
@@ -40,7 +43,7 @@ void drawContactConstants(std::vector<ContactConstant>& constants, int number);
 /// Correlation of ln k and n that follows [-]; 0 without n, k_c and k_phi.
 double modulusCorrelation(const std::vector<ContactConstant>& constants);
 
-/// "drawn together: ...": the assumptions above in one line.
+/// "samples (scm.constants_draw): ...": the assumptions above in one line.
 std::string jointDistributionText(const std::vector<ContactConstant>& constants);
 
 inline constexpr double kReferencePressure = 50e3, kReferenceWidth = 0.28; ///< of a track [Pa], [m]

@@ -28,12 +28,6 @@ const std::optional<double>& givenIn(const scene::Scm& scm, SoilQuantity quantit
   }
 }
 
-const ContactConstant* find(const std::vector<ContactConstant>& constants, SoilQuantity quantity) {
-  for (const ContactConstant& c : constants)
-    if (c.quantity == quantity) return &c;
-  return nullptr;
-}
-
 } // namespace
 
 ScmConstants::ScmConstants(const scene::Scene& scene) : scene_(scene), scm_(scene.scm.value_or(scene::Scm{})) {
@@ -43,7 +37,7 @@ ScmConstants::ScmConstants(const scene::Scene& scene) : scene_(scene), scm_(scen
   for (const SoilQuantity q : scene::kContactQuantities) {
     if (const std::optional<double>& given = givenIn(scm_, q))
       nominal_.push_back({q, *given, 0, false});
-    else if (const ContactConstant* c = find(ofSoil, q))
+    else if (const ContactConstant* c = scene::findConstant(ofSoil, q))
       nominal_.push_back(*c);
   }
   used_ = nominal_;
@@ -51,15 +45,13 @@ ScmConstants::ScmConstants(const scene::Scene& scene) : scene_(scene), scm_(scen
 }
 
 std::optional<double> ScmConstants::published(SoilQuantity quantity) const {
-  if (soil_)
-    for (const scene::PublishedConstant& p : soil_->published)
-      if (p.quantity == quantity) return p.value;
-  return {};
+  const scene::PublishedConstant* found = soil_ ? soil_->publishedValue(quantity) : nullptr;
+  return found ? std::optional(found->value) : std::nullopt;
 }
 
 double ScmConstants::value(const std::optional<double>& given, SoilQuantity quantity) const {
   if (given) return *given;
-  if (const ContactConstant* c = find(used_, quantity)) return c->value;
+  if (const ContactConstant* c = scene::findConstant(used_, quantity)) return c->value;
   const std::string word(base::wordOf(quantity));
   const std::string why = soil_
                               ? fmt::format("the soil {} has no {} {}", soil_->name, base::wordOf(scm_.constants), word)

@@ -31,7 +31,7 @@ double lyaskoSlipSinkage(const scm::SoilConstants& soil, const vehicle::VehicleS
   const double length = (spec.roadWheel.count - 1) * spec.roadWheel.spacing, breadth = 2 * spec.shoe.padHalfWidth;
   if (!(length > 0)) return 0;
   const double pressure = spec.totalMass() * gravity / (2 * length * breadth);
-  return 3 * base::pow(pressure / soil.modulusAt(breadth), 1 / soil.exponent) / length;
+  return 3 * soil.sinkageUnder(pressure, breadth) / length;
 }
 
 /// Default spacing of nodes under bodies [m]: an eighth of the smallest width in contact.
@@ -58,7 +58,7 @@ void requireStrength(const scene::Scene& scene, const scm::SoilConstants& soil, 
 } // namespace
 
 std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
-  if (!scene.terrain || !scene.terrain->deformable()) return {};
+  if (!scene.deformable()) return {};
   const ScmConstants constants(scene);
   const scene::Scm& s = constants.section();
   coupling::ScmSetup setup;

@@ -36,7 +36,7 @@ void considerIdler(StepLimit& limit, const vehicle::VehicleSpec& s) {
 
 /// Returns true if shoes touch deformable soil only.
 bool meetsSoilOnly(const scene::Scene& scene) {
-  return scene.terrain && scene.terrain->deformable() && obstaclesOf(scene).empty() && !scene.mechanism.touches();
+  return scene.deformable() && obstaclesOf(scene).empty() && !scene.mechanism.touches();
 }
 
 /// The foundation between parts: shoes on rigid ground, and wheels on shoes.

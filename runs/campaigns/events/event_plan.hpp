@@ -27,7 +27,7 @@ struct EventOptions {
   std::string soil = "rigid";               ///< rigid, or a soil by its name
   std::optional<scene::TerrainKind> ground; ///< empty: rigid for the soil "rigid", else granular
   std::vector<std::string> only;            ///< events; empty: all
-  std::vector<double> levels;               ///< of the one event that is asked for; empty: those of the event
+  std::vector<double> levels;               ///< of the single event in `only`; empty: its default levels
   std::vector<std::string> fixed;           ///< "key=value", of all runs
   std::optional<double> speed;              ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
   std::optional<double> grainRadius;        ///< in the middle of the distribution [m]

@@ -16,12 +16,12 @@ namespace grouser::events {
 
 namespace {
 
-constexpr double kWay = 5;               // m, that is to be driven at half the commanded speed or more
-constexpr double kEnd = 0.3;             // m, between the vehicle and the end of the terrain
-constexpr double kRunUp = 3;             // m, before those on a slope: near the limit it takes long to come up to speed
-constexpr double kCrawl = 0.4;           // of the commanded speed, and m/s at least: over steps, gaps and ditches
-constexpr double kBeyond = 0.3;          // m, driven on behind the course, or drifted to the side in it
-constexpr double kSwerve = 0.2;          // of the way, beside it without grains: obstacles turn vehicles a little
+constexpr double kWay = 5;      // m, that is to be driven at half the commanded speed or more
+constexpr double kEnd = 0.3;    // m, between the vehicle and the end of the terrain
+constexpr double kRunUp = 3;    // m, before those on a slope: near the limit it takes long to come up to speed
+constexpr double kCrawl = 0.4;  // of the commanded speed, and m/s at least: over steps, gaps and ditches
+constexpr double kBeyond = 0.3; // m, driven on behind the course, or drifted to the side in it
+constexpr double kSwerve = 0.2; // room beside a course without grains, over its length: obstacles turn vehicles
 constexpr double kReferenceRun = 1.7832; // m, ground run of the light vehicle, whose obstacles are scaled to others
 constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of the ditch of ditch.png, over its length
 constexpr double kSettled = 2;                           // s, in which any vehicle stands and drives

@@ -31,9 +31,8 @@ double trackThrust(const VehicleShape& shape, const scm::SoilConstants& soil, do
 }
 
 double compactionResistance(const VehicleShape& shape, const scm::SoilConstants& soil) {
-  const double pressure = shape.mass * kGravity / groundArea(shape), b = shape.padWidth, n = soil.exponent;
-  const double sinkage = std::pow(pressure / soil.modulusAt(b), 1 / n);
-  return 2 * b * pressure * sinkage / (n + 1);
+  const double pressure = shape.mass * kGravity / groundArea(shape), b = shape.padWidth;
+  return 2 * b * pressure * soil.sinkageUnder(pressure, b) / (soil.exponent + 1);
 }
 
 } // namespace grouser::events

@@ -126,7 +126,7 @@ private:
     std::erase_if(record_.cases.cases, [&](const CheckCase& c) { return unwanted(c.axis); });
     std::erase_if(record_.cases.omitted, [&](const CheckOmission& o) { return unwanted(o.axis); });
     for (const CheckAxis axis : kCheckAxes)
-      if (unwanted(axis) && (axis != CheckAxis::nodeSpacing || (scene_.terrain && scene_.terrain->deformable())))
+      if (unwanted(axis) && (axis != CheckAxis::nodeSpacing || scene_.deformable()))
         record_.cases.omitted.push_back({axis, "not among --axes"});
   }
 

@@ -59,10 +59,8 @@ public:
   }
 
 private:
-  bool isDeformable() const { return scene_.terrain && scene_.terrain->deformable(); }
-
   void omit(CheckAxis axis, const std::string& why) {
-    all_.omitted.push_back({axis, isDeformable() ? "deformable soil has neither grains nor seeds" : why});
+    all_.omitted.push_back({axis, scene_.deformable() ? "deformable soil has neither grains nor seeds" : why});
   }
 
   /// Loads the scene with the overrides, and keeps the case, refused or not.
@@ -216,7 +214,7 @@ private:
   }
 
   void addNodes() {
-    if (!isDeformable()) return;
+    if (!scene_.deformable()) return;
     const double spacing = 0.5 * setup::scmSetup(scene_)->spacing;
     add(CheckAxis::nodeSpacing, "half_nodes", fmt::format("nodes {:.4g} m apart", spacing),
         {set("scm.node_spacing", spacing)}, kCostOfNodes);
@@ -225,7 +223,7 @@ private:
   void addDraws(int draws) {
     if (draws == 0) return;
     const auto drawn = [](int number) { return fmt::format("scm.constants_draw={}", number); };
-    if (!isDeformable())
+    if (!scene_.deformable())
       throw base::InputError(
           fmt::format("--draws {}: the scene has no deformable soil, whose constants it draws; remove "
                       "it, or set terrain.kind = \"scm\"",
@@ -272,7 +270,7 @@ bool seedMatters(const scene::Scene& scene) {
 double runsOfBarCases(const scene::Scene& scene, int seeds) {
   double runs = 1 + 2; // the base and half its step
   if (scene.vehicle || !scene.meshes.empty()) runs += kCostOfSpheres;
-  if (scene.terrain && scene.terrain->deformable()) runs += kCostOfNodes;
+  if (scene.deformable()) runs += kCostOfNodes;
   // Finer grains take a shorter step, and 1 / share^3 as many fill the bed.
   if (scene.terrain && scene.terrain->granular())
     runs += kLarger + kLarger + 1 + 1 / (kFiner * kFiner * kFiner * kFiner);

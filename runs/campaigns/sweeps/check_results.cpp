@@ -170,7 +170,7 @@ private:
     const std::vector<double> change = changes(0, c, std::nullopt);
     if (change.empty()) return;
     const support::Estimate changed = over(change);
-    // The finer grid is as wrong again as it differs, of first order.
+    // First order: the error of the finer grid equals its difference from the coarser one.
     const double unseen = axis == CheckAxis::nodeSpacing ? kStepUnseen : 1;
     add({axis,
          changed,
@@ -191,7 +191,7 @@ private:
         samples.push_back(std::accumulate(change.begin(), change.end(), 0.0) / static_cast<double>(change.size()));
     }
     if (samples.size() < 2) return;
-    support::Estimate scatter = jobs::interval(samples, asked_.levels.change); // of the mean
+    support::Estimate scatter = jobs::interval(samples, asked_.levels.change); // interval of the mean
     scatter.halfWidth *= std::sqrt(static_cast<double>(samples.size()) + 1);
     add({CheckAxis::parameter,
          scatter,

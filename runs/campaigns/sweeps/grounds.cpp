@@ -26,7 +26,7 @@ const std::string* wordOf(const Node* section, const char* key) {
   return node ? std::get_if<std::string>(&node->value) : nullptr;
 }
 
-/// Whether a material has constants of deformable soil: its name, or its key soil, names a soil file.
+/// Returns true if a material has constants of deformable soil: its name, or its key soil, names a soil file.
 bool isSoil(const Node& root, const std::string& material, const std::filesystem::path& scene) {
   const Node* materials = root.find("material");
   const Node* own = materials ? materials->find(material) : nullptr;
@@ -36,7 +36,7 @@ bool isSoil(const Node& root, const std::string& material, const std::filesystem
   return !scene::findSoil(of ? *of : material, scene, tried).empty();
 }
 
-/// What must be in the scene already; all else is the loader's to say.
+/// Throws InputError if the scene lacks a key that the ground needs. The loader checks all other keys.
 void requireKeys(const Node& root, const std::filesystem::path& scene, TerrainKind ground) {
   const Node& terrain = *root.find("terrain");
   const auto missing = [&](const char* key, const char* unit) {
@@ -57,7 +57,7 @@ void requireKeys(const Node& root, const std::filesystem::path& scene, TerrainKi
                                scene.string(), *material));
 }
 
-/// Paths of the keys that this kind of ground does not have.
+/// Paths of the scene's keys that this kind of ground does not have.
 std::vector<std::string> foreignKeys(const Node& root, TerrainKind ground) {
   std::vector<std::string> found;
   if (ground != TerrainKind::scm && root.find(kScm)) found.emplace_back(kScm);
@@ -99,7 +99,7 @@ std::vector<std::string> groundOverrides(const std::filesystem::path& scene, con
   std::vector<std::string> sets = fixed, swept;
   for (const std::string& list : lists.sets) {
     const std::size_t equals = equalsSign(list);
-    if (equals == std::string::npos) continue; // planSweep() says so
+    if (equals == std::string::npos) continue; // planSweep() reports it
     if (keyOf(list) == "terrain.kind") throw InputError("--set terrain.kind: --ground sets this key; leave one out");
     swept.push_back(list.substr(0, equals + 1) + splitValues(std::string_view(list).substr(equals + 1)).front());
   }
