@@ -28,8 +28,9 @@ void requireThreads(const base::Exec& exec) {
   static std::atomic<pid_t> withThreads{0};
   const pid_t before = withThreads.load();
   if (before != 0 && before != getpid())
-    throw base::InputError("a process forked after a multi-threaded simulation cannot run simulations: spawn it instead "
-                           "(Python: multiprocessing.set_start_method(\"spawn\")), or use threads = 1 in its parent");
+    throw base::InputError(
+        "a process forked after a multi-threaded simulation cannot run simulations: spawn it instead "
+        "(Python: multiprocessing.set_start_method(\"spawn\")), or use threads = 1 in its parent");
   if (exec.onCpu() && exec.threads > 1) withThreads = getpid();
 }
 
@@ -197,9 +198,7 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
 
 std::exception_ptr Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
   const std::int64_t end = now().steps() + count;
-  const auto goesOn = [&] {
-    return now().steps() < end && !(now().vehicle() && !now().vehicle()->ended().empty());
-  };
+  const auto goesOn = [&] { return now().steps() < end && !(now().vehicle() && !now().vehicle()->ended().empty()); };
   std::exception_ptr thrown;
   const auto stops = [&] {
     try {

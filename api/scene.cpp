@@ -21,7 +21,7 @@ std::string textOf(const std::filesystem::path& file) {
 }
 
 std::shared_ptr<const detail::SceneData> loaded(std::optional<std::string> text, const std::filesystem::path& file,
-                                          std::vector<std::string> overrides) {
+                                                std::vector<std::string> overrides) {
   return detail::translated([&] {
     auto data = std::make_shared<detail::SceneData>();
     data->scene = text ? setup::parseScene(*text, file, overrides) : setup::loadScene(file, overrides);
@@ -42,9 +42,7 @@ std::string quoted(std::string_view text) {
 
 } // namespace
 
-Scene Scene::fromFile(const std::filesystem::path& file) {
-  return Scene(loaded({}, file, {}));
-}
+Scene Scene::fromFile(const std::filesystem::path& file) { return Scene(loaded({}, file, {})); }
 
 Scene Scene::fromText(std::string_view toml, const std::filesystem::path& folder, const std::string& file) {
   return Scene(loaded(std::string(toml), folder / file, {}));

@@ -57,9 +57,7 @@ void Simulation::stepFor(double seconds) {
   step(std::max<std::int64_t>(1, std::llround(seconds / run_->now().timeStep())));
 }
 
-std::string Simulation::ended() const {
-  return run_->now().vehicle() ? run_->now().vehicle()->ended() : "";
-}
+std::string Simulation::ended() const { return run_->now().vehicle() ? run_->now().vehicle()->ended() : ""; }
 
 double Simulation::time() const { return run_->now().time(); }
 double Simulation::timeStep() const { return run_->now().timeStep(); }
@@ -102,7 +100,8 @@ std::size_t Simulation::ownGrainCount() const {
 void Simulation::readPositions(std::span<Vec3> positions) const {
   const auto& grains = run_->now().ground().grains;
   if (positions.size() != ownGrainCount())
-    throw InputError(fmt::format("readPositions(): room for {} grains, there are {}", positions.size(), ownGrainCount()));
+    throw InputError(
+        fmt::format("readPositions(): room for {} grains, there are {}", positions.size(), ownGrainCount()));
   if (!grains || positions.empty()) return;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   detail::translated([&] {
@@ -121,8 +120,12 @@ std::vector<Body> Simulation::bodies() const {
   for (std::size_t b = 0; model && b < model->bodies().size(); ++b) {
     const multibody::Body& body = model->bodies()[b];
     const base::Quat& q = state->pose[b].orientation;
-    bodies.push_back({body.name, body.mass, outside(state->pose[b].position), {q.w, q.x, q.y, q.z},
-                      outside(state->twist[b].v), outside(state->twist[b].w)});
+    bodies.push_back({body.name,
+                      body.mass,
+                      outside(state->pose[b].position),
+                      {q.w, q.x, q.y, q.z},
+                      outside(state->twist[b].v),
+                      outside(state->twist[b].w)});
   }
   return bodies;
 }
@@ -133,7 +136,9 @@ Energies Simulation::energies() const {
   return {l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.driveWork, l.integrationError, l.residual};
 }
 
-void Simulation::setGravity(const Vec3& g) { run_->set({{0, coupling::InputKind::gravity, 0, false, {g.x, g.y, g.z}}}); }
+void Simulation::setGravity(const Vec3& g) {
+  run_->set({{0, coupling::InputKind::gravity, 0, false, {g.x, g.y, g.z}}});
+}
 void Simulation::releaseGravity() { run_->release({coupling::InputKind::gravity}); }
 
 void Simulation::setLoad(std::string_view body, const Vec3& f, const Vec3& t) {
@@ -152,9 +157,10 @@ std::vector<std::string> warningsOf(const Simulation& simulation) {
   for (const setup::Notice& notice : detail::translated([&] { return setup::noticesOf(run.scene, run.now()); }))
     texts.push_back(notice.text);
   if (run.exec.threads > 1 && !std::getenv("GOMP_SPINCOUNT") && !std::getenv("OMP_WAIT_POLICY"))
-    texts.emplace_back("threads that wait for each other spin, which makes steps many times slower where other programs "
-                       "use the cores: set GOMP_SPINCOUNT=5000 in the environment before this program starts, or use "
-                       "one thread");
+    texts.emplace_back(
+        "threads that wait for each other spin, which makes steps many times slower where other programs "
+        "use the cores: set GOMP_SPINCOUNT=5000 in the environment before this program starts, or use "
+        "one thread");
   return texts;
 }
 
@@ -163,8 +169,9 @@ void Simulation::save(const std::filesystem::path& checkpoint) const {
   const std::filesystem::path folder = std::filesystem::absolute(checkpoint, error).parent_path();
   if (!std::filesystem::is_directory(folder, error) || std::filesystem::is_directory(checkpoint, error))
     throw InputError(fmt::format("save(\"{}\"): {}", checkpoint.string(),
-                                 std::filesystem::is_directory(checkpoint, error) ? "that is a folder; name a file"
-                                                                                  : "there is no such folder; make it first"));
+                                 std::filesystem::is_directory(checkpoint, error)
+                                     ? "that is a folder; name a file"
+                                     : "there is no such folder; make it first"));
   if (!run_->failed.empty())
     throw InputError("save(): the simulation has failed, and its state is not sound. The cause: " + run_->failed);
   run_->act();

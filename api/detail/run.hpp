@@ -93,8 +93,8 @@ struct Run {
   support::FileLock lock;                     ///< lock of the folder of a resumed run
   std::vector<coupling::Input> pending;       ///< inputs queued for act()
   bool finished = false;
-  std::string failed;      ///< message of the failed step
-  bool isStepping = false; ///< within step() or keepGoing
+  std::string failed;            ///< message of the failed step
+  bool isStepping = false;       ///< within step() or keepGoing
   std::int64_t stepsAtATime = 1; ///< steps between two calls of keepGoing
   support::Stopwatch since;
 };

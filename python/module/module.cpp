@@ -52,7 +52,8 @@ public:
              const std::optional<std::filesystem::path>& checkpoint) {
     const grouser::Scene of = grouser::Scene::fromText(scene, place.parent_path(), place.filename().string());
     py::gil_scoped_release release;
-    run_.emplace(checkpoint ? grouser::Simulation::resumed(of, *checkpoint, options) : grouser::Simulation(of, options));
+    run_.emplace(checkpoint ? grouser::Simulation::resumed(of, *checkpoint, options)
+                            : grouser::Simulation(of, options));
   }
 
   void step(std::int64_t count) {
@@ -132,18 +133,19 @@ private:
 
 py::dict trackOf(const grouser::Track& t) {
   using namespace py::literals;
-  return py::dict("sprocket_speed"_a = t.sprocketSpeed, "drive_torque"_a = t.driveTorque, "drive_power"_a = t.drivePower,
-                  "speed"_a = t.speed, "slip"_a = t.slip, "tension"_a = copied(t.tension), "sinkage"_a = copied(t.sinkage),
+  return py::dict("sprocket_speed"_a = t.sprocketSpeed, "drive_torque"_a = t.driveTorque,
+                  "drive_power"_a = t.drivePower, "speed"_a = t.speed, "slip"_a = t.slip,
+                  "tension"_a = copied(t.tension), "sinkage"_a = copied(t.sinkage),
                   "normal_force"_a = copied(t.normalForce), "shear_force"_a = copied(t.shearForce));
 }
 
 py::dict vehicleOf(Simulation& simulation) {
   using namespace py::literals;
   const grouser::VehicleState s = simulation.used().vehicle().state();
-  py::dict all("time"_a = s.time, "position"_a = vector(s.position), "centre"_a = vector(s.centre), "velocity"_a = vector(s.velocity), "speed"_a = s.speed,
-               "heading"_a = s.heading, "pitch"_a = s.pitch, "roll"_a = s.roll, "turn_rate"_a = s.turnRate,
-               "ground_force"_a = vector(s.groundForce), "drawbar_pull"_a = s.drawbarPull, "drive_start"_a = s.driveStart,
-               "left"_a = trackOf(s.left));
+  py::dict all("time"_a = s.time, "position"_a = vector(s.position), "centre"_a = vector(s.centre),
+               "velocity"_a = vector(s.velocity), "speed"_a = s.speed, "heading"_a = s.heading, "pitch"_a = s.pitch,
+               "roll"_a = s.roll, "turn_rate"_a = s.turnRate, "ground_force"_a = vector(s.groundForce),
+               "drawbar_pull"_a = s.drawbarPull, "drive_start"_a = s.driveStart, "left"_a = trackOf(s.left));
   all["right"] = s.right.tension.empty() ? py::object(py::none()) : py::object(trackOf(s.right));
   return all;
 }
@@ -153,8 +155,8 @@ py::list bodiesOf(Simulation& simulation) {
   py::list all;
   for (const grouser::Body& b : simulation.used().bodies())
     all.append(py::dict("name"_a = b.name, "mass"_a = b.mass, "position"_a = vector(b.position),
-                        "orientation"_a = copied(std::vector<double>{b.orientation.w, b.orientation.x, b.orientation.y,
-                                                                     b.orientation.z}),
+                        "orientation"_a = copied(
+                            std::vector<double>{b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z}),
                         "velocity"_a = vector(b.velocity), "spin"_a = vector(b.spin)));
   return all;
 }
@@ -191,8 +193,8 @@ PYBIND11_MODULE(_core, m) {
     }
   });
   py::class_<Simulation>(m, "Simulation")
-      .def(py::init([](const std::string& scene, const std::filesystem::path& place, const std::string& device, std::optional<int> threads,
-                       const std::filesystem::path& folder, bool overwrite, bool cache,
+      .def(py::init([](const std::string& scene, const std::filesystem::path& place, const std::string& device,
+                       std::optional<int> threads, const std::filesystem::path& folder, bool overwrite, bool cache,
                        const std::function<void(double, double)>& settling,
                        const std::optional<std::filesystem::path>& checkpoint) {
         grouser::Options o;
@@ -228,9 +230,8 @@ PYBIND11_MODULE(_core, m) {
            })
       .def("energies", &energiesOf)
       .def("hash", &Simulation::hash)
-      .def("save", [](Simulation& s, const std::filesystem::path& file) {
-        s.free([&](grouser::Simulation& run) { run.save(file); });
-      })
+      .def("save", [](Simulation& s,
+                      const std::filesystem::path& file) { s.free([&](grouser::Simulation& run) { run.save(file); }); })
       .def("restore", &Simulation::restore)
       .def("set_sprocket_speed", [](Simulation& s, double l, double r) { s.used().vehicle().setSprocketSpeed(l, r); })
       .def("set_sprocket_torque", [](Simulation& s, double l, double r) { s.used().vehicle().setSprocketTorque(l, r); })
@@ -241,9 +242,7 @@ PYBIND11_MODULE(_core, m) {
       .def("release_hitch", [](Simulation& s) { s.used().vehicle().releaseHitch(); })
       .def("set_gravity", [](Simulation& s, const std::array<double, 3>& g) { s.used().setGravity(threeOf(g)); })
       .def("release_gravity", [](Simulation& s) { s.used().releaseGravity(); })
-      .def("set_load",
-           [](Simulation& s, const std::string& body, const std::array<double, 3>& f, const std::array<double, 3>& t) {
-             s.used().setLoad(body, threeOf(f), threeOf(t));
-           })
+      .def("set_load", [](Simulation& s, const std::string& body, const std::array<double, 3>& f,
+                          const std::array<double, 3>& t) { s.used().setLoad(body, threeOf(f), threeOf(t)); })
       .def("release_load", [](Simulation& s, const std::string& body) { s.used().releaseLoad(body); });
 }

@@ -37,8 +37,8 @@ public:
   Scene& set(std::string_view key, double value);
   Scene& set(std::string_view key, bool value);
   template <class Integer>
-    requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, char>)
-  Scene& set(std::string_view key, Integer value) {
+  requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, char>) Scene& set(std::string_view key,
+                                                                                     Integer value) {
     return put(key, std::to_string(value));
   }
   Scene& set(std::string_view key, const char* value);
@@ -50,7 +50,7 @@ public:
   Scene& set(const std::vector<std::string>& assignments);
 
   std::string name() const;
-  double duration() const;     ///< run.duration [s]; Simulation::step() may go beyond it
+  double duration() const;      ///< run.duration [s]; Simulation::step() may go beyond it
   std::string resolved() const; ///< the scene as TOML, including all defaults
 
 private:

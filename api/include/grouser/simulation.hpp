@@ -47,7 +47,8 @@ struct Options {
   bool cache = true;            ///< reuse settled beds and cut meshes from earlier runs, and store new ones
   /// MPI ranks that share the scene. All must make the same calls, from the thread that created the simulation.
   const Ranks* ranks = nullptr;
-  /// Called while a bed settles, with its time [s] and its kinetic energy ratio. An exception from it ends the settling.
+  /// Called while a bed settles, with its time [s] and its kinetic energy ratio. An exception from it ends the
+  /// settling.
   std::function<void(double time, double energy)> settling;
 };
 
@@ -68,20 +69,20 @@ public:
 
   /// Takes `count` steps, or fewer if a [stop] condition of the scene is met; see ended(). Throws SimulationError if
   /// the simulation becomes unsound, and InputError if the run has already ended or failed. `keepGoing`, if given, is
-  /// called about ten times a second; if it returns false, or throws, step() returns after the current step. It may read
-  /// and set, but not step. The scene's run.duration does not end the simulation.
+  /// called about ten times a second; if it returns false, or throws, step() returns after the current step. It may
+  /// read and set, but not step. The scene's run.duration does not end the simulation.
   void step(std::int64_t count = 1, const std::function<bool()>& keepGoing = {});
   /// Advances by `seconds` > 0, rounded to whole steps, at least one.
   void stepFor(double seconds);
   std::string ended() const; ///< why a [stop] condition ended the run; empty while it continues
 
-  double time() const;         ///< simulation time from the end of settling [s]
-  double timeStep() const;     ///< [s]
-  std::int64_t steps() const;  ///< steps taken
-  std::string device() const;  ///< name of the device
+  double time() const;        ///< simulation time from the end of settling [s]
+  double timeStep() const;    ///< [s]
+  std::int64_t steps() const; ///< steps taken
+  std::string device() const; ///< name of the device
 
   bool hasVehicle() const;
-  Vehicle vehicle();           ///< throws InputError if the scene has none
+  Vehicle vehicle();              ///< throws InputError if the scene has none
   std::size_t grainCount() const; ///< of all ranks
   Grains grains() const;
   std::size_t ownGrainCount() const; ///< grains that this rank returns; all grains without MPI

@@ -14,38 +14,38 @@ struct Run;
 
 /// One track. Vectors have one entry per shoe, in loop order. "Mean": average over the last Simulation::step() call.
 struct Track {
-  double sprocketSpeed = 0; ///< now [rad/s], forward positive
-  double driveTorque = 0;   ///< torque of the drive on the sprocket, mean [N m]
-  double drivePower = 0;    ///< of the drive, mean [W]
-  double speed = 0;         ///< of the hull at this track, along the hull [m/s]
-  double slip = 0;          ///< 1 - speed / (sprocket speed x pitch radius) [-]; NaN while the sprocket is at rest
-  std::vector<double> tension;     ///< in the pin ahead of each shoe [N]
-  std::vector<double> sinkage;     ///< of each shoe [m]; NaN outside the ground contact
+  double sprocketSpeed = 0;    ///< now [rad/s], forward positive
+  double driveTorque = 0;      ///< torque of the drive on the sprocket, mean [N m]
+  double drivePower = 0;       ///< of the drive, mean [W]
+  double speed = 0;            ///< of the hull at this track, along the hull [m/s]
+  double slip = 0;             ///< 1 - speed / (sprocket speed x pitch radius) [-]; NaN while the sprocket is at rest
+  std::vector<double> tension; ///< in the pin ahead of each shoe [N]
+  std::vector<double> sinkage; ///< of each shoe [m]; NaN outside the ground contact
   std::vector<double> normalForce; ///< ground force normal to each pad, mean [N]
   std::vector<double> shearForce;  ///< magnitude of the ground force tangential to each pad, mean [N]
 };
 
 /// How the vehicle moves now, and what acts on it.
 struct VehicleState {
-  double time = 0;       ///< [s]
-  Vec3 position;         ///< middle of the sprockets' axle line [m]
-  Vec3 centre;           ///< centre of mass of the hull [m]
-  Vec3 velocity;         ///< of the hull's centre of mass [m/s]
-  double speed = 0;      ///< horizontal speed of the hull along its heading [m/s]
-  double heading = 0;    ///< of the hull from x towards y, continuous over turns [rad]
-  double pitch = 0;      ///< nose up [rad]
-  double roll = 0;       ///< right side down [rad]
-  double turnRate = 0;   ///< yaw rate, left positive [rad/s]
-  Vec3 groundForce;      ///< forward, left, up, mean [N]
-  double drawbarPull = 0; ///< of the vehicle on its hitch; net thrust without one; mean [N]
+  double time = 0;                  ///< [s]
+  Vec3 position;                    ///< middle of the sprockets' axle line [m]
+  Vec3 centre;                      ///< centre of mass of the hull [m]
+  Vec3 velocity;                    ///< of the hull's centre of mass [m/s]
+  double speed = 0;                 ///< horizontal speed of the hull along its heading [m/s]
+  double heading = 0;               ///< of the hull from x towards y, continuous over turns [rad]
+  double pitch = 0;                 ///< nose up [rad]
+  double roll = 0;                  ///< right side down [rad]
+  double turnRate = 0;              ///< yaw rate, left positive [rad/s]
+  Vec3 groundForce;                 ///< forward, left, up, mean [N]
+  double drawbarPull = 0;           ///< of the vehicle on its hitch; net thrust without one; mean [N]
   std::optional<double> driveStart; ///< start time of the drive [s]; empty until it is known
-  Track left, right;      ///< right: empty vectors for a single-track scene
+  Track left, right;                ///< right: empty vectors for a single-track scene
 };
 
 /// The vehicle of a simulation; valid as long as the simulation, also after the simulation has been moved. An input
 /// takes effect at the next step, once the drive has started, and holds until it is set again or released;
-/// driver.drive_ramp smooths the start. Setters throw InputError if the scene does not support the input or the value is
-/// out of range.
+/// driver.drive_ramp smooths the start. Setters throw InputError if the scene does not support the input or the value
+/// is out of range.
 class Vehicle {
 public:
   VehicleState state() const;
