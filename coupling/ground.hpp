@@ -138,7 +138,7 @@ public:
   virtual ListedContacts listed() const { return {}; }
   /// Heights of the surface as it lies now [m] at the nodes of the undisturbed one; empty where it does not change.
   virtual std::vector<double> surfaceNow() const { return {}; }
-  /// Surface and stresses of deformable soil now; empty of other grounds.
+  /// Present surface and stresses of deformable soil; empty on other grounds.
   virtual std::optional<GroundFields> fieldsNow() const { return {}; }
   /// Begins new means and maxima: called after every row of output.
   virtual void restartMeans() {}

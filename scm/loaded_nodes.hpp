@@ -7,15 +7,15 @@
 
 namespace grouser::scm {
 
-/// A node in contact in this step. Loose soil carries alone until the firm soil below it would carry more; then it
-/// counts as compacted into the firm soil. `offset` is the depth at which the sinkage of the carrying layer begins.
+/// A node in contact in this step. Loose soil carries the load until the pressure of the firm soil below it is higher;
+/// then it counts as compacted into the firm soil. `offset` is the depth at which the sinkage of that layer begins.
 struct LoadedNode {
   Node* node{};
   double deepest{};  ///< maximum depth of the bodies below the undisturbed surface, along its normal [m]
   double modulus{};  ///< maximum k of the bodies [N/m^(n+2)]
-  Compaction before; ///< state of the carrying layer before the step
+  Compaction before; ///< state of the loaded layer before the step
   double offset{};   ///< depth minus sinkage of the layer [m]
-  bool onLoose{};    ///< the loose soil carries
+  bool onLoose{};    ///< the loaded layer is the loose soil
   bool yields{};     ///< the layer is in virgin loading
   double slip{};     ///< maximum shear displacement of the step [m]
 
@@ -44,7 +44,7 @@ public:
     }
     return node.touched;
   }
-  /// Chooses the carrying layer of each node and compresses it.
+  /// Chooses the loaded layer of each node and compresses it.
   void advance();
   /// Reports a shear displacement under a body [m].
   void slip(int index, double displacement) {

@@ -68,7 +68,7 @@ void addSection(SoilResult& result, const GroundFields& fields, const base::Vec3
     if (!(node.pressure > 0)) continue;
     front = std::max(front, along), rear = std::min(rear, along), half = std::max(half, std::fabs(dot(p, left)));
   }
-  if (front < rear) return;                                                       // nothing carries
+  if (front < rear) return;                                                       // no node is loaded
   double from = std::max(end, rear - kSectionLength), to = rear - fields.spacing; // between unloaded nodes
   if (to - from < 2 * fields.spacing) from = rear, to = front;
   const int samples = std::max(1, static_cast<int>((to - from) / fields.spacing));

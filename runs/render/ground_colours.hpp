@@ -19,7 +19,7 @@ enum class GroundQuantity {
   Shear     ///< magnitude of the shear stress [Pa]
 };
 
-/// Of "sinkage", "pressure" or "shear"; none for any other word.
+/// The quantity called "sinkage", "pressure" or "shear"; empty for any other word.
 std::optional<GroundQuantity> groundQuantity(const std::string& word);
 
 /// Colours of deformable soil; the same for all frames of a film.

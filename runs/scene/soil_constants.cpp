@@ -59,7 +59,7 @@ ContactConstant constantOf(const PublishedConstant& p) {
 }
 
 /// Pressure-sinkage relation at the reference: ln of the sinkage [m] under kReferencePressure. Empty where constants
-/// are missing, or where the soil bears nothing.
+/// are missing, or where k is not positive.
 std::optional<double> referenceSinkage(const std::vector<ContactConstant>& constants) {
   const ContactConstant *n = findConstant(constants, Q::exponent), *kc = findConstant(constants, Q::cohesiveModulus),
                         *kphi = findConstant(constants, Q::frictionalModulus);

@@ -7,8 +7,8 @@
 /// Deviation of measured stress curves from those of the soil contact model.
 namespace grouser::virtual_tests {
 
-/// Share of a test's highest stress that the fit must reach from where on the curve counts: relative deviations from a
-/// stress near 0 say little.
+/// A curve counts from the point where the fit reaches this share of the maximum measured stress: relative deviations
+/// are meaningless at stresses near 0.
 inline constexpr double kCountedFrom = 0.1;
 
 /// One test beside the model's curve.
@@ -24,13 +24,13 @@ struct TestResidual {
   double largestAt = 0;        ///< way [m]
   int points = 0;
 };
-/// Of the points from where the fit has kCountedFrom of the highest measured stress.
+/// Residual over the points that count (kCountedFrom).
 TestResidual residualOf(const FittedCurve& curve);
 
 /// Tests that differ in their seed alone.
 struct GroupResidual {
   double rms = 0, largest = 0; ///< over all tests [-]
-  double model = 0;            ///< model error: rms deviation of the mean curve, less what seeds contribute to that [-]
+  double model = 0;   ///< model error: rms deviation of the mean curve, less the contribution of seed scatter [-]
   double scatter = 0; ///< standard deviation of a test from the mean curve, rms over the way; NaN of one test [-]
 };
 /// The mean curve is taken where all tests have points that count. NaN where there is no such way.

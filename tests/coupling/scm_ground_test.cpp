@@ -79,7 +79,7 @@ TEST(ScmGround, CarriesTheVehicleWithItsBooksClosed) {
   EXPECT_LT(ledger.dissipated.parts, ledger.dissipated.total() - energy.lost() + 1e-9);
 }
 
-TEST(ScmGround, TellsItsSurfaceAndStressesNow) {
+TEST(ScmGround, ReportsItsSurfaceAndStresses) {
   Simulation simulation(
       onSoil(), base::cpuExec(1), [](double, double) {}, {}, nullptr, cutOnce());
   const auto fieldsNow = [&] { return *simulation.actingGround()->fieldsNow(); };

@@ -130,7 +130,7 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// Whether runs that repeat have other axes than the step, of deformable soil.
+/// Returns true if the figure has error axes of deformable soil besides the step.
 bool hasSoilAxes(const CheckFigure& f) {
   return std::any_of(f.errors.begin(), f.errors.end(), [](const AxisError& e) {
     return e.axis == CheckAxis::nodeSpacing || e.axis == CheckAxis::parameter;

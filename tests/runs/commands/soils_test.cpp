@@ -74,7 +74,7 @@ TEST_F(SoilsOfUser, StandInWhatARunPrintsAndLeaves) {
   EXPECT_NE(contents(folder_ / "out/scene.toml").find("soil_hash = " + soil.at("hash").dump()), std::string::npos);
 }
 
-TEST_F(SoilsOfUser, HaveIntervalsOfTheirConstantsAndSaySoWhereTheseAreAssumed) {
+TEST_F(SoilsOfUser, HaveIntervalsOfTheirConstantsMarkedWhereAssumed) {
   const Outcome lete = call("soils lete_sand");
   EXPECT_NE(lete.out.find("0.793 +- 0.078 - (assumed): Wong"), std::string::npos) << lete.out;
   EXPECT_NE(lete.out.find("ln k and n correlate by 0.9"), std::string::npos) << lete.out;

@@ -59,7 +59,7 @@ TEST(Channels, OfTheLedgerReadEachItsOwnField) {
   EXPECT_FALSE(valuesOf(ledgerColumns(false), l).contains("ledger/impulse_residual")) << "of a mechanism";
 }
 
-TEST(Channels, OfDeformableSoilStandBesideThoseOfAllLedgers) {
+TEST(Channels, SoilEnergiesFollowThoseOfAllLedgers) {
   coupling::Ledger l;
   l.soil = {1, 2, 3, 4, 8, 5, 6, 7};
   l.dissipated.soil = l.soil.lost();

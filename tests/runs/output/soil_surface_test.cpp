@@ -120,7 +120,7 @@ TEST_F(SoilFrames, AreReadBackAndTakeThePlaceOfTheGroundInParaView) {
   EXPECT_GT(first, second) << "the undisturbed ground is drawn in the second frame alone";
 }
 
-TEST_F(SoilFrames, ThatAreDamagedAreAnInputError) {
+TEST_F(SoilFrames, DamagedDataAreAnInputError) {
   {
     support::Hdf5File file = support::Hdf5File::create(folder_ / "frames.h5");
     SoilSurface soil = soilSurface(rut(), level());
@@ -152,7 +152,7 @@ TEST(SoilResult, HasMapsOverTheTouchedAreaAndASectionBehindTheTracks) {
   EXPECT_GT(r.sectionOffset.back(), 0.3);
 }
 
-TEST(SoilResult, OfLargeAreasTakesEveryFewNodes) {
+TEST(SoilResult, LargeAreasKeepEverySecondNodeOrFewer) {
   coupling::GroundFields fields = rut();
   coupling::SoilNode far = fields.nodes.back();
   far.i = 6000, far.j = 3000;

@@ -50,7 +50,7 @@ TEST(GroundColours, RunFromSoilWithoutALoadToTheMaximum) {
   EXPECT_LT(GroundColours().mesh(*frame.soil).vertexColours[2].x, groundColour().x) << "pressed soil is darker";
 }
 
-TEST(GroundColours, OfVerticesAreSeenInThePicture) {
+TEST(GroundColours, ColoursOfVerticesAppearInThePicture) {
   const output::StoredFrame frame = square();
   RenderScene scene;
   scene.meshes.push_back(GroundColours(GroundQuantity::Pressure, {frame}, {}).mesh(*frame.soil));

@@ -103,7 +103,7 @@ TEST(Grounds, EverySceneOfAVehicleIsConverted) {
   EXPECT_GT(scenes, 10);
 }
 
-TEST(Grounds, OfASweepMayStandInItsLists) {
+TEST(Grounds, KeysOfASweepMayBeInItsLists) {
   const fs::path scene = shipped("scm_drive.toml");
   const SweepLists lists{{"terrain.depth=0.3,0.4", "terrain.grain_radius=0.05"}};
   const Words words = groundOverrides(scene, lists, {"run.threads=1"}, TerrainKind::granular);
@@ -141,7 +141,7 @@ TEST(Compare, DifferencesHaveTheScatterOfTheirSeeds) {
               1e-15);
 }
 
-TEST(Compare, VerdictsAreByTheLargerMean) {
+TEST(Compare, VerdictsReferToTheLargerMean) {
   EXPECT_EQ(groundVerdict({0.049, 0}, 1, 1.049, 5), "equal");
   EXPECT_EQ(groundVerdict({0.06, 0}, 1, 1.06, 5), "differs");
   EXPECT_EQ(groundVerdict({1.02, 0}, 20, 21.02, 5), "equal") << "less than 5 % of 21.02, more than of 20";
@@ -174,7 +174,7 @@ TEST(Compare, TablesHaveEveryPairOfGrounds) {
 
 class CompareRuns : public ProgramTest {};
 
-TEST_F(CompareRuns, OneFolderAGroundAndAgainNothing) {
+TEST_F(CompareRuns, HaveOneFolderAGroundAndAreNotRepeated) {
   CompareOptions options;
   options.grounds = {TerrainKind::rigid, TerrainKind::scm};
   options.fixed = {"run.duration=0.004", "output.picture=false", "output.plots=false", "output.frames=false",
