@@ -20,6 +20,8 @@ using scene::TerrainKind;
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// In the table to read; the files have all.
 constexpr const char* kShown[] = {"speed [m/s]",           "slip [-]",           "sinkage mean [m]",
                                   "sinkage max [m]",       "drive torque [N m]", "drive power [W]",
@@ -199,7 +201,6 @@ std::string comparisonCsv(const Comparison& all) {
 }
 
 nlohmann::ordered_json comparisonJson(const Comparison& all) {
-  using Json = nlohmann::ordered_json;
   const auto number = [](double v) { return std::isfinite(v) ? Json(v) : Json(); };
   const auto words = [&](std::size_t g) { return std::string(base::wordOf(all.grounds[g].ground)); };
   Json json;
