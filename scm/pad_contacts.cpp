@@ -120,7 +120,7 @@ void PadContacts::press(std::size_t pad, const contact::PartMotion& motion, doub
   const Pad& p = pads_[pad];
   const Pose pose{motion.rotation * p.along, motion.rotation * p.across, motion.toWorld(p.centre)};
   const Pieces pieces = pressNodes(pad, motion, pose, timeStep, energy);
-  shearPieces(pad, motion, pose, pieces, energy);
+  shearPieces(pad, motion, pose, pieces, timeStep, energy);
   if (p.grousers) resistAside(pad, motion, pose, energy);
   last.pose = pose, last.touches = load.pressed > 0;
   std::swap(last.contacts, now_[pad]);
@@ -153,22 +153,26 @@ PadContacts::Pieces PadContacts::pressNodes(std::size_t pad, const contact::Part
 }
 
 void PadContacts::shearPieces(std::size_t pad, const contact::PartMotion& motion, const Pose& pose,
-                              const Pieces& pieces, SoilEnergy& energy) {
+                              const Pieces& pieces, double timeStep, SoilEnergy& energy) {
   Last& last = last_[pad];
   PadLoad& load = loads_[pad];
-  const double K = loaded_.soil().shearDisplacement;
+  const double K = loaded_.soil().shearDisplacement, damping = shearDamping(loaded_.soil(), timeStep);
   std::array<double, kPieces> slipped{}; // shear displacement of the step [m]
   for (std::size_t k = 0; k < slipped.size(); ++k) {
     Shear& s = last.shear[k];
     const double pressed = pieces.pressed[k], touching = pieces.touching[k];
     const double before = last.strength[k], strength = strengths_[pad].of(touching, pressed);
     const Vec3d place = pressed > 0 ? pieces.moment[k] * (1 / pressed) : Vec3d{};
+    Vec3d damped;
     if (before > 0 && strength > 0) {
       s = turned(s, last.pose.u, last.pose.v, pose.u, pose.v);
       const double pu = dot(place, pose.u), pv = dot(place, pose.v);
       const Vec3d moved = pose.centre + place - (last.pose.centre + last.pose.u * pu + last.pose.v * pv);
       const double x = dot(moved, pose.u), y = dot(moved, pose.v);
+      const Shear former = s;
       const double loss = advance(s, x, y, K).loss;
+      damped = (pose.u * (s.x - former.x) + pose.v * (s.y - former.y)) * (damping * touching);
+      energy.damping += dot(damped, moved);
       slipped[k] = ::sqrt(x * x + y * y);
       addShear(energy, K, before, strength, s.square(), loss);
     } else {
@@ -176,7 +180,7 @@ void PadContacts::shearPieces(std::size_t pad, const contact::PartMotion& motion
       s = {};
     }
     last.strength[k] = strength, last.area[k] = touching;
-    const Vec3d force = (pose.u * s.x + pose.v * s.y) * -strength;
+    const Vec3d force = (pose.u * s.x + pose.v * s.y) * -strength - damped;
     load.force += force, load.torque += cross(pose.centre + place - motion.centre, force);
   }
   for (const Contact& c : now_[pad])

@@ -101,7 +101,7 @@ private:
   Pieces pressNodes(std::size_t pad, const contact::PartMotion& motion, const Pose& pose, double timeStep,
                     SoilEnergy& energy);
   void shearPieces(std::size_t pad, const contact::PartMotion& motion, const Pose& pose, const Pieces& pieces,
-                   SoilEnergy& energy);
+                   double timeStep, SoilEnergy& energy);
   void resistAside(std::size_t pad, const contact::PartMotion& motion, const Pose& pose, SoilEnergy& energy);
 
   SoilMap& map_;

@@ -17,7 +17,7 @@ struct SoilConstants {
   double unloadingStiffness{}, unloadingGrowth{}; ///< k_0 [N/m3] and A_u [N/m4] of k_u = k_0 + A_u z_u, as measured
   double elasticRatio =
       10;               ///< f [-], >= 1: k_u is at least f max(1, n) p_u / z_u, so a plate rebounds by z_u / f at most
-  double damping{};     ///< [Pa s/m] while soil is being compressed, >= 0
+  double damping{};     ///< [Pa s/m] of compression and shear deformation, >= 0
   double slipSinkage{}; ///< sinkage per shear displacement at constant pressure [-], >= 0
   double maximumSlipSinkage{}; ///< [m]
   double unitWeight{};         ///< [N/m3]
@@ -27,5 +27,12 @@ struct SoilConstants {
   /// Sinkage under a pressure [Pa] by virgin loading [m].
   double sinkageUnder(double pressure, double b) const { return base::pow(pressure / modulusAt(b), 1 / exponent); }
 };
+
+/// Damping stress over the change of s in a step [Pa]. It is R K ds/dt with the damping R, as the bristles of the LuGre
+/// model have it (Canudas de Wit and others 1995, IEEE Trans. Autom. Control 40:419): at most R times the speed of
+/// slip, never negative work, zero in steady slip. Without it a loaded body rocks and creeps on a slope that holds it.
+inline double shearDamping(const SoilConstants& soil, double timeStep) {
+  return soil.damping * soil.shearDisplacement / timeStep;
+}
 
 } // namespace grouser::scm

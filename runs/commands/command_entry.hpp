@@ -43,6 +43,7 @@ void addSweep(CLI::App& app, const Invocation& invocation);
 void addCheck(CLI::App& app, const Invocation& invocation);
 void addCompare(CLI::App& app, const Invocation& invocation);
 void addEvents(CLI::App& app, const Invocation& invocation);
+void addMap(CLI::App& app, const Invocation& invocation);
 void addPlan(CLI::App& app, const Invocation& invocation);
 void addBench(CLI::App& app, const Invocation& invocation);
 void addHash(CLI::App& app, const Invocation& invocation);

@@ -9,6 +9,7 @@ std::vector<CommandEntry> allCommands() {
           {"check", addCheck, RankUse::refused, "; --jobs lets several runs go at the same time"},
           {"compare", addCompare, RankUse::refused, "; --jobs lets several runs go at the same time"},
           {"events", addEvents, RankUse::refused, "; --jobs lets several runs go at the same time"},
+          {"map", addMap, RankUse::refused, "; --jobs lets several runs go at the same time"},
           {"bench", addBench, RankUse::shared},
           {"hash", addHash},
           {"study", addStudy, RankUse::refused},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/command_entry.hpp"
 
-#include "runs/campaigns/events/events.hpp"
+#include "runs/campaigns/events/mobility_map.hpp"
 #include "runs/session/output_times.hpp"
 #include "runs/support/option_checks.hpp"
 
@@ -13,68 +13,102 @@
 
 namespace grouser::commands {
 
+namespace {
+
+/// Vehicle, ground and beds, the call's share of the runs, and their folder.
+void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& defaultFolder) {
+  events::EventOptions& o = c.options;
+  app.add_option("--vehicle", o.vehicle, "a ready vehicle by name, or a vehicle file that ends in .toml")
+      ->capture_default_str();
+  app.add_option("--soil", o.soil, "rigid, or a soil by its name (`grouser soils`)")->capture_default_str();
+  app.add_option_function<std::string>(
+         "--ground", [&o](const std::string& word) { o.ground = base::valueOf<scene::TerrainKind>(word); },
+         "rigid, granular, or scm: deformable soil without grains; default: rigid with --soil rigid, else granular")
+      ->check(CLI::IsMember(base::wordsOf<scene::TerrainKind>()));
+  app.add_option("--speed", o.speed,
+                 "commanded [m/s], but twice that in acceleration; default: 1.2 of the light vehicle, others by the "
+                 "root of their pitch radius")
+      ->check(support::positive("a speed in metres a second"));
+  const events::BedCare &full = events::kFullCare, &quick = events::kQuickCare;
+  app.add_option("--seeds", o.seeds,
+                 fmt::format("beds of each level; default: {}; with --quick {}", full.seeds, quick.seeds))
+      ->check(support::wholeNumber(1, 1000));
+  app.add_option(
+         "--grain-radius", o.grainRadius,
+         fmt::format(
+             "mean radius of the bed's grains [m]; default: {:g} of them on the width of a pad; with --quick {:g}",
+             full.grainsOnPad, quick.grainsOnPad))
+      ->check(support::positive("a length in metres"));
+  app.add_option(
+         "--depth", o.depth,
+         fmt::format("of the bed [m]; default: {:g} widths of a pad; with --quick {:g}", full.depth, quick.depth))
+      ->check(support::positive("a length in metres"));
+  app.add_flag("--quick", o.quick,
+               "coarse and shallow beds, fewer levels and seeds: on sandy loam about an hour of 16 cores, see --plan");
+  app.add_option("--set", o.fixed, kSetHelp)->allow_extra_args(false);
+  app.add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
+  jobs::addPieceOptions(app, c.pieces);
+  app.get_option("--seconds")->description("no further run is begun after so many, 0: no limit");
+  app.add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
+      ->check(support::wholeNumber(1, 1024))
+      ->capture_default_str();
+  support::addOut(app, c.folder, "folder of the results; default: " + defaultFolder);
+  app.add_flag("--force", c.force, "run again what has been run, and overwrite what is in that folder");
+}
+
+void addLevels(CLI::App& app, events::EventOptions& o, const std::string& ofWhich) {
+  app.add_option("--levels", o.levels,
+                 ofWhich + ", separated by commas: tangents of slopes [-], heights, widths "
+                           "and radii [m]; default: by the vehicle's size and friction")
+      ->delimiter(',');
+}
+
+} // namespace
+
 void addEvents(CLI::App& app, const Invocation& invocation) {
   const auto command = std::make_shared<grouser::events::EventsCommand>();
   grouser::events::EventsCommand& c = *command;
   c.words = invocation.words, c.pieces.threads = 0;
-  events::EventOptions& o = c.options;
   CLI::App* events = app.add_subcommand(
       "events", "Standard mobility events of a vehicle on a ground: go or no-go, limits, figures with intervals");
-  events->add_option("--vehicle", o.vehicle, "a ready vehicle by name, or a vehicle file that ends in .toml")
-      ->capture_default_str();
-  events->add_option("--soil", o.soil, "rigid, or a soil by its name (`grouser soils`)")->capture_default_str();
   events
-      ->add_option_function<std::string>(
-          "--ground", [&o](const std::string& word) { o.ground = base::valueOf<scene::TerrainKind>(word); },
-          "rigid, granular, or scm: deformable soil without grains; default: rigid with --soil rigid, else granular")
-      ->check(CLI::IsMember(base::wordsOf<scene::TerrainKind>()));
-  events
-      ->add_option("--only", o.only,
+      ->add_option("--only", c.options.only,
                    fmt::format("events, separated by commas, of {}; default: all",
                                fmt::join(base::wordsOf<events::Event>(), ", ")))
       ->delimiter(',');
+  addLevels(*events, c.options, "of the one event that --only names");
+  addEventRuns(*events, c, "out/events_VEHICLE_SOIL, with scm out/events_VEHICLE_SOIL_scm");
+  events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
   events
-      ->add_option("--levels", o.levels,
-                   "of the one event that --only names, separated by commas: tangents of slopes [-], heights, widths "
-                   "and radii [m]; default: by the vehicle's size and friction")
+      ->add_option("--against", c.against,
+                   "folders of other `grouser events`, separated by commas, such as of the same soil on another "
+                   "ground: their figures beside these, differences with verdicts")
       ->delimiter(',');
   events
-      ->add_option("--speed", o.speed,
-                   "commanded [m/s], but twice that in acceleration; default: 1.2 of the light vehicle, others by the "
-                   "root of their pitch radius")
-      ->check(support::positive("a speed in metres a second"));
-  const events::BedCare &full = events::kFullCare, &quick = events::kQuickCare;
-  events
-      ->add_option("--seeds", o.seeds,
-                   fmt::format("beds of each level; default: {}; with --quick {}", full.seeds, quick.seeds))
-      ->check(support::wholeNumber(1, 1000));
-  events
-      ->add_option(
-          "--grain-radius", o.grainRadius,
-          fmt::format(
-              "mean radius of the bed's grains [m]; default: {:g} of them on the width of a pad; with --quick {:g}",
-              full.grainsOnPad, quick.grainsOnPad))
-      ->check(support::positive("a length in metres"));
-  events
-      ->add_option(
-          "--depth", o.depth,
-          fmt::format("of the bed [m]; default: {:g} widths of a pad; with --quick {:g}", full.depth, quick.depth))
-      ->check(support::positive("a length in metres"));
-  events->add_flag(
-      "--quick", o.quick,
-      "coarse and shallow beds, fewer levels and seeds: on sandy loam about an hour of 16 cores, see --plan");
-  events->add_option("--set", o.fixed, kSetHelp)->allow_extra_args(false);
-  events->add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
-  events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
-  jobs::addPieceOptions(*events, c.pieces);
-  events->get_option("--seconds")->description("no further run is begun after so many, 0: no limit");
-  events->add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
-      ->check(support::wholeNumber(1, 1024))
-      ->capture_default_str();
-  support::addOut(*events, c.folder,
-                  "folder of the results; default: out/events_VEHICLE_SOIL, with scm out/events_VEHICLE_SOIL_scm");
-  events->add_flag("--force", c.force, "run again what has been run, and overwrite what is in that folder");
+      ->add_option("--bar", c.percent,
+                   "with --against: percent of the larger mean (10 or 10%) within which verdicts call a figure "
+                   "equal; default: 5")
+      ->transform(support::percentSign())
+      ->check(support::positive("a share in percent"));
   events->callback([command] { events::eventsCommand(*command); });
+}
+
+void addMap(CLI::App& app, const Invocation& invocation) {
+  const auto command = std::make_shared<grouser::events::MapCommand>();
+  events::EventsCommand& c = command->events;
+  c.words = invocation.words, c.pieces.threads = 0;
+  c.options.only = {std::string(base::wordOf(events::Event::grade))}, c.options.onlyOption = "--event";
+  CLI::App* map = app.add_subcommand(
+      "map", "Go or no-go of a mobility event over its level and the values of a key, as a table and a picture");
+  map->add_option("--event", c.options.only[0], "that has levels (not acceleration, pivot_turn, motion_resistance)")
+      ->check(CLI::IsMember(base::wordsOf<events::Event>()))
+      ->capture_default_str();
+  addLevels(*map, c.options, "of the event, one axis of the map");
+  map->add_option("--axis", command->axis,
+                  "the other axis: key=value,value..., e.g. scm.cohesion=0,1000,2000 [Pa] or vehicle.adhesion=0,1")
+      ->required();
+  addEventRuns(*map, c, "out/map_VEHICLE_SOIL, with scm out/map_VEHICLE_SOIL_scm");
+  map->callback([command] { events::mapCommand(*command); });
 }
 
 } // namespace grouser::commands

@@ -263,8 +263,8 @@ EventPlan planEvents(const EventOptions& options) {
     }
   }
   if (plan.sweep.runs.empty())
-    throw InputError(
-        fmt::format("--only {}: {}", base::wordOf(plan.omitted.begin()->first), plan.omitted.begin()->second));
+    throw InputError(fmt::format("{} {}: {}", options.onlyOption, base::wordOf(plan.omitted.begin()->first),
+                                 plan.omitted.begin()->second));
   plan.sweep.scene = plan.sweep.runs.front().file;
   return plan;
 }

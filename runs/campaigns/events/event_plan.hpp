@@ -27,6 +27,7 @@ struct EventOptions {
   std::string soil = "rigid";               ///< rigid, or a soil by its name
   std::optional<scene::TerrainKind> ground; ///< empty: rigid for the soil "rigid", else granular
   std::vector<std::string> only;            ///< events; empty: all
+  std::string onlyOption = "--only";        ///< the option that names them, for messages
   std::vector<double> levels;               ///< of the single event in `only`; empty: its default levels
   std::vector<std::string> fixed;           ///< "key=value", of all runs
   std::optional<double> speed;              ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude

@@ -72,21 +72,8 @@ Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs:
   return judge(motion, planned.trial);
 }
 
-std::string goText(const EventRow& row) {
-  if (row.runs == 0) return row.pending > 0 ? "pending" : row.incomplete > 0 ? "incomplete" : "failed";
-  if (row.runs == 1) return row.gos ? "go" : "no-go";
-  return fmt::format("{} {}/{}", row.gos == row.runs ? "go" : row.gos == 0 ? "no-go" : "partly", row.gos, row.runs);
-}
-
 std::string levelCell(const EventRow& row) {
   return levelText(row.event).empty() ? "" : fmt::format("{:g}", row.level);
-}
-
-std::string limitText(const EventLimit& limit) {
-  if (limit.go && limit.noGo) return fmt::format("between {:g} and {:g}", *limit.go, *limit.noGo);
-  if (limit.go) return fmt::format("above {:g}", *limit.go);
-  if (limit.noGo) return fmt::format("below {:g}", *limit.noGo);
-  return "not known";
 }
 
 } // namespace
@@ -104,6 +91,24 @@ std::string EventRow::why() const {
     for (const RunVerdict& r : each)
       if (r.verdict == verdict) return r.why;
   return "";
+}
+
+std::string goText(const EventRow& row) {
+  if (row.runs == 0) return row.pending > 0 ? "pending" : row.incomplete > 0 ? "incomplete" : "failed";
+  if (row.runs == 1) return row.gos ? "go" : "no-go";
+  return fmt::format("{} {}/{}", row.gos == row.runs ? "go" : row.gos == 0 ? "no-go" : "partly", row.gos, row.runs);
+}
+
+std::string limitText(const EventLimit& limit) {
+  if (limit.go && limit.noGo) return fmt::format("between {:g} and {:g}", *limit.go, *limit.noGo);
+  if (limit.go) return fmt::format("above {:g}", *limit.go);
+  if (limit.noGo) return fmt::format("below {:g}", *limit.noGo);
+  return "not known";
+}
+
+std::string referenceText(const EventLimit& limit) {
+  if (!limit.reference) return "";
+  return fmt::format("{}: {}", limit.reference->text, *limit.agrees ? "agrees" : "does not agree");
 }
 
 std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
@@ -202,9 +207,7 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
   if (!limits.empty()) text += "\nlimits\n";
   for (const EventLimit& limit : limits)
     text += fmt::format("{:<18}{:<42}{:<26}{}\n", base::wordOf(limit.event), levelText(limit.event), limitText(limit),
-                        limit.reference
-                            ? fmt::format("{}: {}", limit.reference->text, *limit.agrees ? "agrees" : "does not agree")
-                            : "");
+                        referenceText(limit));
   return text;
 }
 
@@ -264,6 +267,8 @@ nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::
                               {"go", number(limit.go)},
                               {"no_go", number(limit.noGo)},
                               {"reference", limit.reference ? Json(limit.reference->text) : Json()},
+                              {"passes", limit.reference ? number(limit.reference->passes) : Json()},
+                              {"blocks", limit.reference ? number(limit.reference->blocks) : Json()},
                               {"agrees", limit.agrees ? Json(*limit.agrees) : Json()}});
   for (const auto& [event, why] : plan.omitted) json["left_out"][std::string(base::wordOf(event))] = why;
   return json;

@@ -64,6 +64,13 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
 /// Of the events that have more than one level.
 std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Course& course);
 
+/// "go", "partly 1/3", "pending": the verdict over all seeds.
+std::string goText(const EventRow& row);
+/// "between 0.4 and 0.5"
+std::string limitText(const EventLimit& limit);
+/// The closed form, and whether the runs agree with it; empty where there is none.
+std::string referenceText(const EventLimit& limit);
+
 /// Said of such runs, at the head and in the tables.
 inline constexpr const char* kShoesAlone =
     "soil meets the shoes alone, not the running gear: coarse stones would jam it (vehicle.soil_meets)";

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 /// `grouser events`: the standard mobility events of a vehicle on a ground.
 namespace grouser::events {
@@ -19,12 +20,15 @@ struct EventsCommand {
   bool force = false;        ///< run again what has been run, and overwrite the folder
   bool plan = false;         ///< say how long it would take, and run nothing
   bool films = false;
-  std::string words; ///< the whole command line
+  std::vector<std::string> against; ///< folders of other events, whose figures stand beside these
+  double percent = 5;               ///< of the larger mean, within which verdicts call two figures equal
+  std::string words;                ///< the whole command line
 };
 
-/// Runs what is missing, each run a process, and writes events.csv, events.json, events.txt and pictures of them; a run
-/// whose vehicle does not make it is a result. Throws base::InputError where a word is wrong, before anything is
-/// started, and base::SimulationError at the end where runs have failed for a cause that is not the vehicle's.
+/// Runs what is missing, each run a process, and writes events.csv, events.json, events.txt and pictures of them, and
+/// against.csv and against.txt with --against; a run whose vehicle does not make it is a result. Throws
+/// base::InputError where a word is wrong, before anything is started, and base::SimulationError at the end where runs
+/// have failed for a cause that is not the vehicle's.
 void eventsCommand(const EventsCommand& command);
 
 } // namespace grouser::events

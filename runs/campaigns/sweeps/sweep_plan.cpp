@@ -41,36 +41,12 @@ std::string trimmed(std::string_view text) {
 }
 
 Axis axisOf(const std::string& set) {
-  const std::size_t equals = equalsSign(set);
-  if (equals == std::string::npos || equals == 0)
-    throw InputError(fmt::format(
-        "--set {}: no value is given; write key=value,value..., e.g. --set driver.sprocket_speed=1,2", set));
-  Axis axis{set.substr(0, equals), {}};
-  if (axis.key == "output.folder")
+  const KeyValues given = keyValues(set, "--set", "driver.sprocket_speed=1,2");
+  if (given.key == "output.folder")
     throw InputError(fmt::format("--set {}: a sweep gives each run its folder; name that of all with --out", set));
-  const std::vector<std::string> values = splitValues(std::string_view(set).substr(equals + 1));
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i].empty())
-      throw InputError(fmt::format("--set {}: value {} of the list is empty; remove a comma", set, i + 1));
-    if (std::count(values.begin(), values.end(), values[i]) > 1)
-      throw InputError(fmt::format("--set {}: {} stands there twice; remove one", set, values[i]));
-    axis.points.push_back({values[i], {axis.key + "=" + values[i]}});
-  }
+  Axis axis{given.key, {}};
+  for (const std::string& value : given.values) axis.points.push_back({value, {axis.key + "=" + value}});
   return axis;
-}
-
-/// What every file system and shell takes as it is.
-std::string plainText(const std::string& text) {
-  std::string plain;
-  for (const char c : text) {
-    const bool isPlain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' || c == '_';
-    if (isPlain)
-      plain += c;
-    else if (!plain.empty() && plain.back() != '_')
-      plain += '_';
-  }
-  while (!plain.empty() && plain.back() == '_') plain.pop_back();
-  return plain;
 }
 
 /// Whether a folder may have this name: the sweep's own files and folders above it may not.
@@ -234,6 +210,34 @@ std::vector<std::string> splitValues(std::string_view list) {
   }
   values.push_back(trimmed(list.substr(begin)));
   return values;
+}
+
+KeyValues keyValues(const std::string& set, const std::string& option, const std::string& example) {
+  const std::size_t equals = equalsSign(set);
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(
+        fmt::format("{} {}: no value is given; write key=value,value..., e.g. {} {}", option, set, option, example));
+  KeyValues given{set.substr(0, equals), splitValues(std::string_view(set).substr(equals + 1))};
+  for (std::size_t i = 0; i < given.values.size(); ++i) {
+    if (given.values[i].empty())
+      throw InputError(fmt::format("{} {}: value {} of the list is empty; remove a comma", option, set, i + 1));
+    if (std::count(given.values.begin(), given.values.end(), given.values[i]) > 1)
+      throw InputError(fmt::format("{} {}: {} stands there twice; remove one", option, set, given.values[i]));
+  }
+  return given;
+}
+
+std::string plainText(const std::string& text) {
+  std::string plain;
+  for (const char c : text) {
+    const bool isPlain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' || c == '_';
+    if (isPlain)
+      plain += c;
+    else if (!plain.empty() && plain.back() != '_')
+      plain += '_';
+  }
+  while (!plain.empty() && plain.back() == '_') plain.pop_back();
+  return plain;
 }
 
 SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,

@@ -45,6 +45,18 @@ struct SweepPlan {
 /// Cuts at commas that stand outside quotes, brackets and braces: "[1, 2],[3, 4]" is two values.
 std::vector<std::string> splitValues(std::string_view list);
 
+/// A key with the values that a list gives it.
+struct KeyValues {
+  std::string key;
+  std::vector<std::string> values;
+};
+/// Key and values of "key=value,value...". Throws InputError, in the words of the command line's `option` with an
+/// `example`, where there is no key, no value, an empty value or one twice.
+KeyValues keyValues(const std::string& set, const std::string& option, const std::string& example);
+
+/// The characters of a text that every file system and shell accepts; an underscore for each run of others.
+std::string plainText(const std::string& text);
+
 /// The runs of `scene` over the product of all lists, every scene of them loaded and checked as `grouser plan` does. A
 /// key of --set with one value is fixed; where nothing has several, those with one are swept. `fixed` are overrides for
 /// all runs. Throws InputError for the first wrong value, for a key that is given twice, and for a sweep of nothing.

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/campaigns/events/mobility_map.hpp"
+
+#include "base/error.hpp"
+#include "runs/campaigns/events/event_forecast.hpp"
+#include "runs/campaigns/events/event_runs.hpp"
+#include "runs/output/plots.hpp"
+#include "runs/scene/scene_file.hpp"
+#include "runs/support/csv_cell.hpp"
+#include "runs/support/json_text.hpp"
+#include "runs/support/text_file.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace grouser::events {
+
+namespace fs = std::filesystem;
+using base::InputError;
+
+namespace {
+
+constexpr const char *kTable = "map.csv", *kJson = "map.json", *kText = "map.txt", *kPlot = "map.png";
+constexpr int kColumn = 12; // characters of a column of the table
+
+/// All runs of the map, column by column.
+sweeps::SweepPlan runsOf(const MobilityMap& map) {
+  sweeps::SweepPlan all;
+  all.scene = map.columns.front().plan.sweep.scene;
+  all.keys = map.columns.front().plan.sweep.keys;
+  all.keys.insert(all.keys.begin(), map.key);
+  for (const MapColumn& column : map.columns)
+    for (sweeps::SweepRun run : column.plan.sweep.runs) {
+      run.values.insert(run.values.begin(), column.value);
+      all.runs.push_back(std::move(run));
+    }
+  return all;
+}
+
+void judgeColumns(MobilityMap& map, const std::vector<sweeps::SweepOutcome>& outcomes, const fs::path& folder) {
+  auto next = outcomes.begin();
+  for (MapColumn& column : map.columns) {
+    const auto end = next + static_cast<std::ptrdiff_t>(column.plan.sweep.runs.size());
+    column.rows = eventRows(column.plan, {next, end}, folder);
+    next = end;
+  }
+}
+
+std::string mapCsv(const MobilityMap& map) {
+  std::string text;
+  for (const MapColumn& column : map.columns) {
+    std::istringstream lines(eventsCsv(column.rows));
+    std::string line;
+    std::getline(lines, line);
+    if (text.empty()) text = fmt::format("{},{}\n", support::csvCell(map.key), line);
+    while (std::getline(lines, line)) text += fmt::format("{},{}\n", support::csvCell(column.value), line);
+  }
+  return text;
+}
+
+nlohmann::ordered_json mapJson(const MobilityMap& map) {
+  nlohmann::ordered_json json = {{"event", base::wordOf(map.event)},
+                                 {"title", titleOf(map.event)},
+                                 {"level_is", levelText(map.event)},
+                                 {"key", map.key},
+                                 {"columns", nlohmann::ordered_json::array()}};
+  for (const MapColumn& column : map.columns) {
+    nlohmann::ordered_json entry = {{"value", column.value}};
+    entry.update(eventsJson(column.rows, eventLimits(column.rows, column.plan.course), column.plan));
+    json["columns"].push_back(entry);
+  }
+  return json;
+}
+
+/// The event's plan with the axis's key at a value. A fault of that key is named after --axis.
+EventPlan planColumn(const EventOptions& options, const std::string& key, const std::string& value) {
+  EventOptions ofColumn = options;
+  ofColumn.fixed.push_back(fmt::format("{}={}", key, value));
+  try {
+    return planEvents(ofColumn);
+  } catch (const InputError& error) {
+    const std::string fault = error.what(), set = "--set: " + key;
+    throw InputError(fault.starts_with(set) ? "--axis: " + fault.substr(7) : fault);
+  }
+}
+
+/// Of all columns together.
+std::vector<EventTime> timesOf(const MobilityMap& map, const fs::path& folder) {
+  std::vector<EventTime> sum;
+  for (const MapColumn& column : map.columns)
+    for (const EventTime& time : events::timesOf(column.plan, folder)) {
+      if (sum.empty()) sum.push_back({time.event, 0, 0, 0, 0});
+      sum[0].runs += time.runs, sum[0].here += time.here, sum[0].h200 += time.h200;
+      sum[0].grains = std::max(sum[0].grains, time.grains);
+    }
+  return sum;
+}
+
+} // namespace
+
+MobilityMap planMap(const EventOptions& options, const std::string& axis) {
+  if (options.only.size() != 1) throw InputError("map: takes one event; name it with --event");
+  MobilityMap map;
+  map.event = eventOf(options.only[0]);
+  if (levelText(map.event).empty())
+    throw InputError(fmt::format("--event {}: has no levels, which are one axis of the map; take e.g. {}",
+                                 options.only[0], base::wordOf(Event::grade)));
+  const sweeps::KeyValues values = sweeps::keyValues(axis, "--axis", "scm.cohesion=0,1000,2000");
+  map.key = values.key;
+  if (values.values.size() < 2)
+    throw InputError(fmt::format("--axis {}: a map has two values or more along each axis; --set sets one", axis));
+  for (const std::string& value : values.values) {
+    MapColumn column{value, planColumn(options, values.key, value), {}};
+    for (sweeps::SweepRun& run : column.plan.sweep.runs)
+      run.name = fmt::format("{}={},{}", sweeps::plainText(values.key), sweeps::plainText(column.value), run.name);
+    for (const MapColumn& other : map.columns)
+      if (sweeps::plainText(other.value) == sweeps::plainText(column.value))
+        throw InputError(fmt::format("--axis {}: {} and {} would have folders of the same name; write them otherwise",
+                                     axis, other.value, column.value));
+    if (column.plan.trials.size() < 2)
+      throw InputError(fmt::format("--levels: a map has two levels or more; {} has {} here", base::wordOf(map.event),
+                                   column.plan.trials.size()));
+    map.columns.push_back(std::move(column));
+  }
+  for (const MapColumn& column : map.columns)
+    if (column.plan.trials.size() != map.columns[0].plan.trials.size())
+      throw InputError("--levels: name them; those of the default differ from value to value of this axis");
+  return map;
+}
+
+std::string mapText(const MobilityMap& map) {
+  const std::vector<EventRow>& first = map.columns.front().rows;
+  std::string text =
+      fmt::format("{}: {} over {}\n{:>{}}", base::wordOf(map.event), levelText(map.event), map.key, "", kColumn);
+  for (const MapColumn& column : map.columns) text += fmt::format("{:>{}}", column.value, kColumn);
+  for (std::size_t i = first.size(); i-- > 0;) {
+    text += fmt::format("\n{:>{}}", fmt::format("{:g}", first[i].level), kColumn);
+    for (const MapColumn& column : map.columns) text += fmt::format("{:>{}}", goText(column.rows[i]), kColumn);
+  }
+  text += "\n\n";
+  for (const MapColumn& column : map.columns)
+    for (const EventLimit& limit : eventLimits(column.rows, column.plan.course))
+      text += fmt::format("{} = {:<10} {:<26}{}\n", map.key, column.value, limitText(limit), referenceText(limit));
+  return text;
+}
+
+void mapCommand(const MapCommand& command) {
+  const EventsCommand& events = command.events;
+  const fs::path folder = folderOf(events, "map");
+  const jobs::Recipe call = recipeOf(events, folder, command.axis);
+  checkFolder(events, folder, call);
+  MobilityMap map = planMap(optionsOfRuns(events), command.axis);
+  const sweeps::SweepPlan all = runsOf(map);
+  const EventPlan& first = map.columns.front().plan;
+  printHead(events, "map", first, all.runs.size());
+  if (events.plan) {
+    fmt::print("{}", timesText(timesOf(map, folder)));
+    return;
+  }
+  scene::printNotes(all.runs.front().scene);
+  const auto outcomes = doRuns(events, "map", all, folder, call);
+  if (outcomes.empty()) return;
+  judgeColumns(map, outcomes, folder);
+  const std::string text = mapText(map);
+  fmt::print("\n{}\n", text);
+  nlohmann::ordered_json json = headJson(events, first);
+  json.update(mapJson(map));
+  support::replaceTextFile(folder / kTable, mapCsv(map));
+  support::replaceTextFile(folder / kText, text);
+  support::replaceTextFile(folder / kJson, support::jsonText(json, 2) + "\n");
+  for (const char* name : {kTable, kText, kJson}) fmt::print("table     {}\n", (folder / name).string());
+  output::drawPicture("map.py", {folder / kJson}, folder / kPlot);
+  std::vector<EventRow> rows;
+  for (const MapColumn& column : map.columns) rows.insert(rows.end(), column.rows.begin(), column.rows.end());
+  refuseUnknown(rows, folder / kTable);
+}
+
+} // namespace grouser::events

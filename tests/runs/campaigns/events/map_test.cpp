@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `grouser map`: its runs, its table, and a map of two by two runs as a user calls it.
+#include "runs/campaigns/events/mobility_map.hpp"
+
+#include "base/error.hpp"
+#include "runs/scene/scene.hpp"
+#include "tests/runs/program_fixture.hpp"
+#include "tests/runs/shared_cache.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace grouser::events {
+
+using namespace test; // fixtures
+
+namespace {
+
+EventOptions slopesOfSand() {
+  EventOptions options;
+  options.soil = "lete_sand", options.ground = scene::TerrainKind::scm;
+  options.only = {"grade"}, options.onlyOption = "--event", options.levels = {0.6, 0.2};
+  return options;
+}
+
+std::string faultOf(const EventOptions& options, const std::string& axis) {
+  try {
+    planMap(options, axis);
+    return "";
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(MobilityMap, HasARunForEachLevelAndValue) {
+  const MobilityMap map = planMap(slopesOfSand(), "scm.c=0,2000,4e3");
+  ASSERT_EQ(map.columns.size(), 3u);
+  for (const MapColumn& column : map.columns) {
+    ASSERT_EQ(column.plan.trials.size(), 2u);
+    EXPECT_EQ(column.plan.trials[0].level, 0.2) << "from the easiest";
+    EXPECT_DOUBLE_EQ(column.plan.course.constants.cohesion, std::stod(column.value)) << "the closed form's too";
+  }
+  const sweeps::SweepRun& last = map.columns[2].plan.sweep.runs[1];
+  EXPECT_EQ(last.name, "scm.c=4e3,grade=0.6");
+  EXPECT_DOUBLE_EQ(*last.scene.scm->cohesion, 4000);
+}
+
+TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
+  EventOptions options = slopesOfSand();
+  EXPECT_EQ(faultOf(options, "scm.c=5"),
+            "--axis scm.c=5: a map has two values or more along each axis; --set sets one");
+  EXPECT_EQ(faultOf(options, "scm.c"),
+            "--axis scm.c: no value is given; write key=value,value..., e.g. --axis scm.cohesion=0,1000,2000");
+  EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 stands there twice; remove one");
+  EXPECT_EQ(faultOf(options, "scm.colour=1,2").find("--axis: scm.colour"), 0u) << faultOf(options, "scm.colour=1,2");
+  options.levels = {0.3};
+  EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--levels: a map has two levels or more; grade has 1 here");
+  options.levels = {}, options.only = {"pivot_turn"};
+  EXPECT_EQ(faultOf(options, "scm.c=5,6"),
+            "--event pivot_turn: has no levels, which are one axis of the map; take e.g. grade");
+  options.only = {"gap"};
+  EXPECT_EQ(faultOf(options, "scm.c=5,6").find("--event gap: between slabs"), 0u) << faultOf(options, "scm.c=5,6");
+}
+
+TEST(MobilityMap, TableHasTheHighestLevelOnTopAndTheLimitOfEachValue) {
+  MobilityMap map{"scm.c", Event::grade, {}};
+  for (const auto& [value, gos] : {std::pair{"0", std::pair{1, 0}}, {"4000", std::pair{1, 1}}}) {
+    MapColumn column;
+    column.value = value;
+    for (const auto& [level, go] : {std::pair{0.2, gos.first}, {0.6, gos.second}}) {
+      EventRow row;
+      row.event = Event::grade, row.level = level, row.runs = 1, row.gos = go;
+      column.rows.push_back(row);
+    }
+    map.columns.push_back(std::move(column));
+  }
+  EXPECT_EQ(mapText(map).substr(0, mapText(map).find("\n\n")), "grade: tan of the slope [-] over scm.c\n"
+                                                               "                       0        4000\n"
+                                                               "         0.6       no-go          go\n"
+                                                               "         0.2          go          go");
+  EXPECT_NE(mapText(map).find("scm.c = 0          between 0.2 and 0.6"), std::string::npos) << mapText(map);
+  EXPECT_NE(mapText(map).find("scm.c = 4000       above 0.6"), std::string::npos);
+}
+
+using MapProgram = ProgramTest;
+
+TEST_F(MapProgram, WritesItsTablesAndGoesOn) {
+  const std::string words = "map --levels 0.1,0.2 --axis spec.friction_ground=0.4,0.8 --set run.duration=0.7 --set "
+                            "driver.drive_start=0.46 --set vehicle.sphere_radius=0.04 --set output.picture=false "
+                            "--threads 1 --out out";
+  const Outcome first = call(words, withSharedCache());
+  ASSERT_EQ(first.code, 0) << first.errors;
+  const auto json = nlohmann::json::parse(contents(folder_ / "out" / "map.json"));
+  ASSERT_EQ(json["columns"].size(), 2u);
+  EXPECT_EQ(json["columns"][1]["value"], "0.8");
+  ASSERT_EQ(json["columns"][1]["rows"].size(), 2u);
+  EXPECT_EQ(json["columns"][1]["rows"][0]["verdict"], "no-go") << "it has no time for 5 m";
+  EXPECT_EQ(json["columns"][1]["limits"][0]["blocks"], 0.8) << "the friction of this value";
+  EXPECT_NE(contents(folder_ / "out" / "map.csv").find("0.4,grade,0.1,"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "map.png"));
+  const Outcome again = call(words);
+  EXPECT_EQ(again.code, 0) << again.errors;
+  EXPECT_NE(again.out.find("finished already"), std::string::npos) << again.out;
+  EXPECT_EQ(call(words + " --speed 1").code, 2) << "the folder holds runs of another call";
+}
+
+} // namespace
+
+} // namespace grouser::events
