@@ -34,6 +34,11 @@ void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& de
                  fmt::format("beds of each level; default: {}; with --quick {}", full.seeds, quick.seeds))
       ->check(support::wholeNumber(1, 1000));
   app.add_option(
+         "--draws", o.draws,
+         "with --ground scm: samples of the soil's constants, a run each at every level; default: 0, the nominal "
+         "constants")
+      ->check(support::wholeNumber(2, 1000));
+  app.add_option(
          "--grain-radius", o.grainRadius,
          fmt::format(
              "mean radius of the bed's grains [m]; default: {:g} of them on the width of a pad; with --quick {:g}",

@@ -91,6 +91,11 @@ def counted(number, one):
     return f"{number} {one}" + ("" if number == 1 else "s")
 
 
+def repeats(results):
+    """How many runs of events a level has: "3 seeds", "8 draws"."""
+    return counted(results["draws"], "draw") if results.get("draws") else counted(results["seeds"], "seed")
+
+
 def rows(path):
     """The rows of a table: [{column: text}]."""
     with open(path, newline="", encoding="utf-8") as file:

@@ -31,7 +31,7 @@ def draw(path):
         axis.set_ylabel(label)
         axis.set_xlabel("slip [-]")
         axis.set_xlim(left=0)
-    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {drawing.counted(results['seeds'], 'seed')}, commit {results['commit']}",
+    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {drawing.repeats(results)}, commit {results['commit']}",
                     fontsize=9)
     return figure
 

@@ -62,7 +62,7 @@ def draw(path):
     limits(axes[0], rows)
     for axis, name in zip(axes[1:], names):
         figure_of(axis, rows, name)
-    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {drawing.counted(results['seeds'], 'seed')}, commit {results['commit']}",
+    figure.suptitle(f"{results['vehicle']} on {results['soil']}, {drawing.repeats(results)}, commit {results['commit']}",
                     fontsize=9)
     return figure
 

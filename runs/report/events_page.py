@@ -62,7 +62,7 @@ def by_event(rows):
             for (_, title, level), of in found.items()]
 
 
-def figures(rows):
+def figures(rows, drawn):
     """A table an event: figures down, levels across."""
     inner = []
     for title, level, of in by_event(rows):
@@ -83,7 +83,8 @@ def figures(rows):
         across = [f"{row['level']:g}" if row["level"] is not None else "measured" for row in of]
         seeds = sorted({figure["runs"] for row in of for figure in row["figures"]})
         told = f"Levels: {esc(level)}. " if level else ""
-        told += f"\u00b1 half of the 95 % interval over {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
+        what = "interval in which 95 % of further draws of the constants lie, from" if drawn else "95 % interval over"
+        told += f"\u00b1 half of the {what} {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
             "One run each: no bars."
         told += definitions.note({grouser.series.split_unit(figure["name"])[0]: [known(figure["mean"])]
                                   for row in of for figure in row["figures"]})
@@ -137,14 +138,14 @@ def page(folder, options):
         pages.picture(folder / name, words) for name, words in (("pictures.png", "Every event"),
                                                                 ("events.png", "Figures over the levels"),
                                                                 ("drawbar.png", "Drawbar pull over slip"))))
-    made.section("numbers", "Figures", figures(rows))
+    made.section("numbers", "Figures", figures(rows, bool(events.get("draws"))))
     made.section("plots", "Plots", plots(made, rows))
     folders, faults = sweep_page.first_whole([runs_of(folder, row) for row in rows])
     damage.warn(made, faults)
     sweep_page.add_runs(made, folders, options, "The first run of each level.")
     made.section("provenance", "Where it comes from", facts([
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),
-        ("soil", esc(events.get("soil", ""))), ("seeds", esc(str(events.get("seeds", "")))),
+        ("soil", esc(events.get("soil", ""))), ("seeds", esc(str(events.get("seeds", "")))), ("draws", esc(str(events.get("draws", 0)))),
         ("speed", number(events.get("speed_m_s"), "m/s", "speed_m_s")),
         *((what, number(events[key], "m", key)) for what, key in (("grain radius", "grain_radius_m"),
                                                                   ("depth of beds", "bed_depth_m")) if events.get(key)),

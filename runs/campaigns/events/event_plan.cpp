@@ -136,10 +136,13 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
   return sets;
 }
 
-std::string runName(Event event, double level, int seed, bool seeded) {
+/// The key in which the runs of a level differ.
+std::string keyOfNumber(const EventPlan& plan) { return plan.draws > 0 ? "scm.constants_draw" : sweeps::kSeedKey; }
+
+std::string runName(Event event, double level, int number, const EventPlan& plan) {
   std::string name(base::wordOf(event));
   if (!levelText(event).empty()) name += fmt::format("={:g}", level);
-  if (seeded) name += fmt::format(",seed={}", seed);
+  if (plan.random()) name += fmt::format(",{}={}", plan.draws > 0 ? "draw" : "seed", number);
   return name;
 }
 
@@ -191,11 +194,11 @@ std::string inWordsOfTheUser(const std::string& fault, const EventOptions& optio
   return fmt::format("event {}: {}", base::wordOf(event), rest);
 }
 
-/// Loads the scene of a run and, with the first seed, checks it: another lays the same bed otherwise.
-void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial& planned, int seed) {
+/// Loads the scene of a run and, with the first seed or draw, checks it: another lays the same bed otherwise.
+void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial& planned, int number) {
   try {
     run.scene = setup::loadScene(run.file, run.overrides);
-    if (seed == 1) sweeps::checkScene(run.scene);
+    if (number == 1) sweeps::checkScene(run.scene);
   } catch (const InputError& fault) {
     throw InputError(inWordsOfTheUser(fault.what(), options, planned.event, planned.level));
   }
@@ -234,8 +237,11 @@ EventPlan planEvents(const EventOptions& options) {
   plan.vehicleFile = vehicleFile(options.vehicle);
   plan.course = courseOf(options, plan.vehicleFile, plan.grainRadius);
   plan.seeds = plan.course.granular() ? options.seeds.value_or(options.care().seeds) : 1;
+  plan.draws = options.draws;
+  if (plan.draws > 0 && !plan.course.deformable())
+    throw InputError("--draws: samples the constants of deformable soil; set --ground scm, or remove it");
   const std::vector<std::string> common = commonOf(options, plan);
-  plan.sweep.keys = {"event", sweeps::kSeedKey};
+  plan.sweep.keys = {"event", keyOfNumber(plan)};
   for (const Event event : events) {
     if (const std::string why = omission(event, plan.course); !why.empty()) {
       plan.omitted[event] = why;
@@ -245,16 +251,16 @@ EventPlan planEvents(const EventOptions& options) {
         options.levels.empty() ? levelsOf(event, plan.course, options.quick) : fromTheEasiest(event, options.levels);
     for (const double level : levels) {
       PlannedTrial planned{event, level, trialOf(event, level, plan.course), {}};
-      for (int seed = 1; seed <= plan.seeds; ++seed) {
+      for (int number = 1; number <= std::max(plan.seeds, plan.draws); ++number) {
         sweeps::SweepRun run;
         run.file = sceneOf(event);
-        run.name = runName(event, level, seed, plan.course.granular());
+        run.name = runName(event, level, number, plan);
         run.overrides = common;
         for (const std::string& set : planned.trial.overrides) sweeps::putOverride(run.overrides, set);
-        if (plan.course.granular()) run.overrides.push_back(fmt::format("{}={}", sweeps::kSeedKey, seed));
+        if (plan.random()) run.overrides.push_back(fmt::format("{}={}", keyOfNumber(plan), number));
         for (const std::string& set : options.fixed) sweeps::putOverride(run.overrides, set);
-        run.values = {fmt::format("{}={:g}", base::wordOf(event), level), fmt::format("{}", seed)};
-        load(run, options, planned, seed);
+        run.values = {fmt::format("{}={:g}", base::wordOf(event), level), fmt::format("{}", number)};
+        load(run, options, planned, number);
         run.expectedEnd = expectedEnd(planned, run.scene.run.duration);
         planned.runs.push_back(plan.sweep.runs.size());
         plan.sweep.runs.push_back(std::move(run));

@@ -34,6 +34,7 @@ struct EventOptions {
   std::optional<double> grainRadius;        ///< in the middle of the distribution [m]
   std::optional<double> depth;              ///< of the bed [m]
   std::optional<int> seeds;                 ///< of a bed; empty: those of the care
+  int draws = 0;                            ///< samples of the constants of deformable soil; 0: the nominal ones
   bool quick = false;
   bool frames = false; ///< for films
   const BedCare& care() const { return quick ? kQuickCare : kFullCare; }
@@ -49,7 +50,7 @@ struct PlannedTrial {
   Event event{};
   double level = 0;
   Trial trial;
-  std::vector<std::size_t> runs; ///< of the plan, one a seed
+  std::vector<std::size_t> runs; ///< of the plan, one a seed or draw
 };
 
 struct EventPlan {
@@ -57,11 +58,13 @@ struct EventPlan {
   std::string vehicleFile; ///< as the runs take it
   double grainRadius = 0;  ///< [m]; 0 without grains
   int seeds = 1;           ///< one without grains, as nothing is random
+  int draws = 0;           ///< samples of the constants of deformable soil, a run each
   sweeps::SweepPlan sweep; ///< all runs; each names its scene
   std::vector<PlannedTrial> trials;
-  std::map<Event, std::string> omitted; ///< of those that were asked for: why
-  bool shoesAlone() const;              ///< the soil meets the shoes alone, not the running gear
-  std::string groundText() const;       ///< "rigid", "lete_sand", "lete_sand (deformable soil)"
+  std::map<Event, std::string> omitted;                          ///< of those that were asked for: why
+  bool random() const { return course.granular() || draws > 0; } ///< runs of a level differ
+  bool shoesAlone() const;        ///< the soil meets the shoes alone, not the running gear
+  std::string groundText() const; ///< "rigid", "lete_sand", "lete_sand (deformable soil)"
 };
 
 /// Reads the vehicle and the soil, and loads and checks the scene of every run as `grouser plan` does. Throws

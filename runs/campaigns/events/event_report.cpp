@@ -41,11 +41,14 @@ public:
     if (!values_.contains(name)) order_.push_back(name);
     values_[name].push_back(value);
   }
-  std::vector<FigureOverSeeds> figures() const {
+  /// `drawn`: with the interval in which the value of one more draw lies, instead of that of the mean.
+  std::vector<FigureOverSeeds> figures(bool drawn) const {
     std::vector<FigureOverSeeds> all;
     for (const std::string& name : order_) {
       const std::vector<double>& v = values_.at(name);
-      all.push_back({name, static_cast<int>(v.size()), jobs::interval95(v)});
+      support::Estimate estimate = jobs::interval95(v);
+      if (drawn) estimate.halfWidth *= std::sqrt(static_cast<double>(v.size()) + 1);
+      all.push_back({name, static_cast<int>(v.size()), estimate});
     }
     return all;
   }
@@ -145,7 +148,7 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
       if (row.picture.empty() && fs::exists(at / "picture.png", error))
         row.picture = (fs::path(plan.sweep.runs[run].name) / "picture.png").string();
     }
-    row.figures = gathered.figures();
+    row.figures = gathered.figures(plan.draws > 0);
     rows.push_back(std::move(row));
   }
   return rows;

@@ -18,7 +18,9 @@ namespace grouser::events {
 struct FigureOverSeeds {
   std::string name; ///< with its unit
   int runs = 0;
-  support::Estimate estimate; ///< mean with the half width of its 95 % interval, infinite for one run
+  /// Mean with the half width of its 95 % interval over seeds; over draws, of the interval in which one more lies.
+  /// Infinite for one run.
+  support::Estimate estimate;
 };
 
 /// What one run says.

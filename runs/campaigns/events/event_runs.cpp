@@ -65,6 +65,7 @@ jobs::Recipe recipeOf(const EventsCommand& command, const fs::path& folder, cons
                                  {"frames", o.frames}};
   // Without this key: the ground that the soil implies.
   if (groundOf(o) == scene::TerrainKind::scm) call["ground"] = base::wordOf(scene::TerrainKind::scm);
+  if (o.draws > 0) call["draws"] = o.draws;
   if (!axis.empty()) call["axis"] = axis;
   return {folder / "call.json", support::jsonText(call, 2) + "\n"};
 }
@@ -91,6 +92,9 @@ void printHead(const EventsCommand& command, const std::string& what, const Even
     fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {}{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
                base::counted(plan.seeds, "seed"), command.options.quick ? "; coarse" : "");
+  if (plan.draws > 0)
+    fmt::print("          {} of the soil's constants: +- is the interval in which 95 % of further draws lie\n",
+               base::counted(plan.draws, "draw"));
   if (plan.shoesAlone()) fmt::print("          {}\n", kShoesAlone);
   for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
   fmt::print("          {}\n", base::counted(runs, "run"));
@@ -106,6 +110,7 @@ nlohmann::ordered_json headJson(const EventsCommand& command, const EventPlan& p
           {"ground", base::wordOf(plan.course.ground)},
           {"quick", command.options.quick},
           {"seeds", plan.seeds},
+          {"draws", plan.draws},
           {"speed_m_s", plan.course.speed},
           {"grain_radius_m", plan.grainRadius},
           {"bed_depth_m", plan.course.depth},

@@ -69,7 +69,7 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
 void writeAgainst(const EventsCommand& command, const EventPlan& plan, const std::vector<EventRow>& rows,
                   const std::vector<OtherEvents>& others, const fs::path& folder) {
   if (others.empty()) return;
-  const std::vector<LevelFigure> here = figuresOf(rows, plan.course.granular());
+  const std::vector<LevelFigure> here = figuresOf(rows, plan.random());
   std::string csv, text;
   for (const OtherEvents& other : others) {
     const std::vector<FigureBeside> both = besides(here, other, command.percent);

@@ -32,7 +32,7 @@ std::string cell(const support::Estimate& e) {
 /// The figures of a file of results. Throws nlohmann::json::exception where it has another form.
 OtherEvents parsed(const nlohmann::json& json) {
   OtherEvents other;
-  const bool random = json.at("ground") == base::wordOf(scene::TerrainKind::granular);
+  const bool random = json.at("ground") == base::wordOf(scene::TerrainKind::granular) || json.value("draws", 0) > 0;
   other.vehicle = json.at("vehicle");
   other.ground = fmt::format("{} ({})", json.at("soil").get<std::string>(), json.at("ground").get<std::string>());
   for (const auto& row : json.at("rows")) {

@@ -10,7 +10,7 @@
 /// Figures of a set of events beside those of another, such as of the same soil as grains.
 namespace grouser::events {
 
-/// The mean of a figure over the runs of a level. Without seeds its interval is 0.
+/// The mean of a figure over the runs of a level. Without seeds and draws its interval is 0.
 struct LevelFigure {
   Event event{};
   double level = 0;
@@ -38,7 +38,7 @@ struct FigureBeside {
 /// What both have, in the order of `here`.
 std::vector<FigureBeside> besides(const std::vector<LevelFigure>& here, const OtherEvents& other, double percent);
 
-/// The figures of these rows. `random`: the ground has seeds.
+/// The figures of these rows. `random`: with seeds or draws.
 std::vector<LevelFigure> figuresOf(const std::vector<EventRow>& rows, bool random);
 
 std::string besidesText(const std::vector<FigureBeside>& figures, const std::string& here, const OtherEvents& other,

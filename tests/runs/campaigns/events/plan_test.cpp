@@ -140,6 +140,19 @@ TEST(EventPlan, OnDeformableSoilHasOneRunALevelAndNoGrains) {
   EXPECT_DOUBLE_EQ(planEvents(options).course.constants.cohesion, 500);
 }
 
+TEST(EventPlan, HasARunForEachDrawOfTheConstants) {
+  EventOptions options;
+  options.soil = "lete_sand", options.ground = scene::TerrainKind::scm, options.draws = 3;
+  options.only = {"grade"}, options.levels = {0.2, 0.4};
+  const EventPlan plan = planEvents(options);
+  ASSERT_EQ(plan.sweep.runs.size(), 6u);
+  EXPECT_EQ(plan.sweep.runs[4].name, "grade=0.4,draw=2");
+  EXPECT_EQ(plan.sweep.runs[4].scene.scm->constantsDraw, 2);
+  EXPECT_TRUE(plan.random());
+  options.ground = scene::TerrainKind::granular;
+  EXPECT_THROW(planEvents(options), base::InputError);
+}
+
 TEST(EventPlan, ObstaclesReachIntoDeformableSoil) {
   Course course;
   course.shape = boxShape(0, 0.4), course.shape.padWidth = 0.28, course.speed = 1, course.soil = "lete_sand";
