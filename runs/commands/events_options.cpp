@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/command_entry.hpp"
 
+#include "runs/campaigns/events/events.hpp"
 #include "runs/campaigns/events/mobility_map.hpp"
 #include "runs/session/output_times.hpp"
 #include "runs/support/option_checks.hpp"

@@ -32,7 +32,9 @@ base::Table<Scm> scmTable() {
   t.add("elastic_ratio", &S::elasticRatio, "-", "minimum unloading slope over the secant slope p / z of loading")
       .atLeast(1)
       .atMost(1e3);
-  t.add("damping", &S::damping, "Pa s/m", "pressure per speed of compression, and R of the shear stress R K ds/dt").atLeast(0).atMost(1e7);
+  t.add("damping", &S::damping, "Pa s/m", "pressure per speed of compression, and R of the shear stress R K ds/dt")
+      .atLeast(0)
+      .atMost(1e7);
   t.add("slip_sinkage", &S::slipSinkage, "-",
         "sinkage per shear displacement at constant pressure; default: 3 z / L with the sinkage z at the mean pressure "
         "of "

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runs/campaigns/events/event_report.hpp"
-#include "runs/campaigns/events/events.hpp"
+#include "runs/jobs/pieces.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,6 +12,20 @@
 
 /// Runs of events, for all commands that have some.
 namespace grouser::events {
+
+/// What a call asks for, of events or of a map of one.
+struct EventsCommand {
+  EventOptions options;
+  jobs::PieceOptions pieces; ///< resume, part, seconds, device, threads
+  std::string folder;        ///< empty: as folderOf() has it
+  int jobs = 1;              ///< runs at the same time
+  bool force = false;        ///< run again what has been run, and overwrite the folder
+  bool plan = false;         ///< say how long it would take, and run nothing
+  bool films = false;
+  std::vector<std::string> against; ///< folders of other events, whose figures stand beside these
+  double percent = 5;               ///< of the larger mean, within which verdicts call two figures equal
+  std::string words;                ///< the whole command line
+};
 
 /// The folder of the results: --out, or out/WHAT_VEHICLE_SOIL with _scm on deformable soil and _quick on coarse beds.
 std::filesystem::path folderOf(const EventsCommand& command, const std::string& what);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "runs/campaigns/events/event_report.hpp"
-#include "runs/campaigns/events/events.hpp"
+#include "runs/campaigns/events/event_runs.hpp"
 
 #include <string>
 #include <vector>
