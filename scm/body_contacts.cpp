@@ -91,7 +91,7 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
   BodyLoad& load = loads_[body];
   load = {};
   const SoilConstants& soil = loaded_.soil();
-  const double K = soil.shearDisplacement, h = map_.spacing(), damping = shearDamping(soil, timeStep);
+  const double K = soil.shearDisplacement, h = map_.spacing();
   FormerContacts<Contact> former(last.contacts);
   const auto ended = [&](const Contact& c) {
     release(c, energy), releaseShear(energy, K, c.strength * c.face, norm2(c.shear));
@@ -132,7 +132,8 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
       loaded_.slip(c.loaded, slipped);
     }
     addShear(energy, K, strengthBefore, strength, norm2(c.shear), loss);
-    const Vec3d damped = (c.shear - turned) * (damping * c.face);
+    const Vec3d change = c.shear - turned;
+    const Vec3d damped = change * shearDamping(soil, timeStep, c.face, strength, norm(change));
     energy.damping += dot(damped, slip);
     const Vec3d force = c.shear * -strength - damped;
     load.force += force, load.torque += cross(place - motion.centre, force);

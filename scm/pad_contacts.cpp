@@ -156,7 +156,7 @@ void PadContacts::shearPieces(std::size_t pad, const contact::PartMotion& motion
                               const Pieces& pieces, double timeStep, SoilEnergy& energy) {
   Last& last = last_[pad];
   PadLoad& load = loads_[pad];
-  const double K = loaded_.soil().shearDisplacement, damping = shearDamping(loaded_.soil(), timeStep);
+  const double K = loaded_.soil().shearDisplacement;
   std::array<double, kPieces> slipped{}; // shear displacement of the step [m]
   for (std::size_t k = 0; k < slipped.size(); ++k) {
     Shear& s = last.shear[k];
@@ -170,8 +170,9 @@ void PadContacts::shearPieces(std::size_t pad, const contact::PartMotion& motion
       const Vec3d moved = pose.centre + place - (last.pose.centre + last.pose.u * pu + last.pose.v * pv);
       const double x = dot(moved, pose.u), y = dot(moved, pose.v);
       const Shear former = s;
-      const double loss = advance(s, x, y, K).loss;
-      damped = (pose.u * (s.x - former.x) + pose.v * (s.y - former.y)) * (damping * touching);
+      const double loss = advance(s, x, y, K).loss, du = s.x - former.x, dv = s.y - former.y;
+      const double change = ::sqrt(du * du + dv * dv);
+      damped = (pose.u * du + pose.v * dv) * shearDamping(loaded_.soil(), timeStep, touching, strength, change);
       energy.damping += dot(damped, moved);
       slipped[k] = ::sqrt(x * x + y * y);
       addShear(energy, K, before, strength, s.square(), loss);

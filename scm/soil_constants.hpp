@@ -28,11 +28,14 @@ struct SoilConstants {
   double sinkageUnder(double pressure, double b) const { return base::pow(pressure / modulusAt(b), 1 / exponent); }
 };
 
-/// Damping stress over the change of s in a step [Pa]. It is R K ds/dt with the damping R, as the bristles of the LuGre
-/// model have it (Canudas de Wit and others 1995, IEEE Trans. Autom. Control 40:419): at most R times the speed of
-/// slip, never negative work, zero in steady slip. Without it a loaded body rocks and creeps on a slope that holds it.
-inline double shearDamping(const SoilConstants& soil, double timeStep) {
-  return soil.damping * soil.shearDisplacement / timeStep;
+/// Damping force over the change of s in a step [N], on an area in contact [m2] with a shear strength [N]: R K ds/dt
+/// with the damping R, as the bristles of the LuGre model have it (Canudas de Wit and others 1995, IEEE Trans. Autom.
+/// Control 40:419), at most 1 % of the strength. Its work is never negative, and it vanishes in steady slip. Without it
+/// a loaded body on a slope that holds it rocks, and creeps with each cycle.
+inline double shearDamping(const SoilConstants& soil, double timeStep, double area, double strength, double change) {
+  constexpr double kMost = 0.01; // keeps Janosi's law within 1 % at any speed
+  const double damping = soil.damping * soil.shearDisplacement / timeStep * area;
+  return damping * change > kMost * strength ? kMost * strength / change : damping;
 }
 
 } // namespace grouser::scm
