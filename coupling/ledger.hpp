@@ -56,7 +56,7 @@ inline constexpr SoilEnergyEntry kSoilEnergies[] = {
     {"compaction", "plastic sinkage", &scm::SoilEnergy::compaction},
     {"shear", "plastic shear", &scm::SoilEnergy::shear},
     {"slip_sinkage", "sinkage by shear", &scm::SoilEnergy::slipSinkage},
-    {"damping", "damping during compression", &scm::SoilEnergy::damping},
+    {"damping", "damping of compression and shear", &scm::SoilEnergy::damping},
     {"edges", "elastic energy of soil that leaves a shoe or body, or loses contact; negative where soil enters",
      &scm::SoilEnergy::edges},
     {"coupling", "change of the elastic shear energy with the pressure", &scm::SoilEnergy::coupling},

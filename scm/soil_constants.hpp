@@ -28,14 +28,14 @@ struct SoilConstants {
   double sinkageUnder(double pressure, double b) const { return base::pow(pressure / modulusAt(b), 1 / exponent); }
 };
 
-/// Damping force over the change of s in a step [N], on an area in contact [m2] with a shear strength [N]: R K ds/dt
-/// with the damping R, as the bristles of the LuGre model have it (Canudas de Wit and others 1995, IEEE Trans. Autom.
-/// Control 40:419), at most 1 % of the strength. Its work is never negative, and it vanishes in steady slip. Without it
-/// a loaded body on a slope that holds it rocks, and creeps with each cycle.
+/// Damping force of shear over the size of the change of s in a step [N], on an area in contact [m2] with a shear
+/// strength [N]: R K ds/dt with the damping R, as the bristles of the LuGre model have it (Canudas de Wit and others
+/// 1995, IEEE Trans. Autom. Control 40:419), at most 1 % of the strength. Its work is never negative, and it vanishes
+/// in steady slip. Without it a loaded body on a slope that holds it rocks, and creeps with each cycle.
 inline double shearDamping(const SoilConstants& soil, double timeStep, double area, double strength, double change) {
-  constexpr double kMost = 0.01; // keeps Janosi's law within 1 % at any speed
+  constexpr double kMaxShare = 0.01; // of the strength; binds above 10 mm/s of slip for common soils
   const double damping = soil.damping * soil.shearDisplacement / timeStep * area;
-  return damping * change > kMost * strength ? kMost * strength / change : damping;
+  return damping * change > kMaxShare * strength ? kMaxShare * strength / change : damping;
 }
 
 } // namespace grouser::scm

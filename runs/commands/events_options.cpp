@@ -87,8 +87,8 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
   events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
   events
       ->add_option("--against", c.against,
-                   "folders of other `grouser events`, separated by commas, such as of the same soil on another "
-                   "ground: their figures beside these, differences with verdicts")
+                   "folders of results of other `grouser events`, separated by commas, e.g. of the same soil as "
+                   "grains: differences with verdicts")
       ->delimiter(',');
   events
       ->add_option("--bar", c.percent,
@@ -106,12 +106,12 @@ void addMap(CLI::App& app, const Invocation& invocation) {
   c.options.only = {std::string(base::wordOf(events::Event::grade))}, c.options.onlyOption = "--event";
   CLI::App* map = app.add_subcommand(
       "map", "Go or no-go of a mobility event over its level and the values of a key, as a table and a picture");
-  map->add_option("--event", c.options.only[0], "that has levels (not acceleration, pivot_turn, motion_resistance)")
+  map->add_option("--event", c.options.only[0], "event with levels (not acceleration, pivot_turn, motion_resistance)")
       ->check(CLI::IsMember(base::wordsOf<events::Event>()))
       ->capture_default_str();
-  addLevels(*map, c.options, "of the event, one axis of the map");
+  addLevels(*map, c.options, "levels of the event, the first axis");
   map->add_option("--axis", command->axis,
-                  "the other axis: key=value,value..., e.g. scm.cohesion=0,1000,2000 [Pa] or vehicle.adhesion=0,1")
+                  "key and values of the second axis: key=value,value..., e.g. scm.c=0,1000,2000 [Pa]")
       ->required();
   addEventRuns(*map, c, "out/map_VEHICLE_SOIL, with scm out/map_VEHICLE_SOIL_scm");
   map->callback([command] { events::mapCommand(*command); });

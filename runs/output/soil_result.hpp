@@ -74,7 +74,7 @@ inline constexpr SoilConstantField kSoilConstants[] = {
     {{"terrain/soil/elastic_ratio", "-",
       "ratio of the unloading slope to p / z at the end of virgin loading, at least"},
      &scm::SoilConstants::elasticRatio},
-    {{"terrain/soil/damping", "Pa s/m", "during compression"}, &scm::SoilConstants::damping},
+    {{"terrain/soil/damping", "Pa s/m", "of compression and shear"}, &scm::SoilConstants::damping},
     {{"terrain/soil/slip_sinkage", "-", "sinkage per shear displacement at constant pressure"},
      &scm::SoilConstants::slipSinkage},
     {{"terrain/soil/maximum_slip_sinkage", "m", "limit of slip sinkage"}, &scm::SoilConstants::maximumSlipSinkage},

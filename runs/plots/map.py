@@ -37,8 +37,13 @@ def column_of(column):
     return sorted(column["rows"], key=lambda row: row["level"])
 
 
+def plain(word):
+    """Without the signs of mathematics."""
+    return word.replace("$", r"\$")
+
+
 def band(column, levels):
-    """Highest level that is a go and lowest that is none, within the levels of the map."""
+    """The hardest level that is a go and the easiest that is none, within the levels of the map (easiest first)."""
     limit = column["limits"][0] if column["limits"] else {"go": None, "no_go": None}
     if limit["go"] is None and limit["no_go"] is None:
         return math.nan, math.nan
@@ -57,7 +62,8 @@ def draw(path):
     levels = [row["level"] for row in column_of(columns[0])]
     figure = drawing.Figure(figsize=(8.0, 5.5))
     axis = figure.subplots()
-    shares = [[speed(column_of(column)[i], results["speed_m_s"]) for column in columns] for i in range(len(levels))]
+    axis.grid(False)
+    shares = [[speed(column_of(column)[i], column["speed_m_s"]) for column in columns] for i in range(len(levels))]
     cells = axis.pcolormesh(edges(places), edges(levels), shares, cmap="YlGn", vmin=0, vmax=1)
     figure.colorbar(cells, ax=axis, label="speed / commanded speed [-]")
     for place, column in zip(places, columns):
@@ -66,7 +72,8 @@ def draw(path):
             axis.plot(place, row["level"], mark, color=colour, markersize=8, markeredgewidth=2)
             if not mark:
                 axis.text(place, row["level"], row["verdict"], ha="center", va="center", fontsize=7)
-    bands = [band(column, levels) for column in columns]
+    easiest_first = [row["level"] for row in columns[0]["rows"]]
+    bands = [band(column, easiest_first) for column in columns]
     axis.fill_between(places, [low for low, _ in bands], [high for _, high in bands], color="#3060a0", alpha=0.25,
                       label="limit between go and no-go")
     axis.plot(places, [(low + high) / 2 for low, high in bands], color="#3060a0")
@@ -78,11 +85,12 @@ def draw(path):
         if any(row["verdict"].startswith(verdict) for column in columns for row in column["rows"]):
             axis.plot([], [], mark, color=colour, markeredgewidth=2, label=verdict)
     axis.set_ylim(edges(levels)[0], max([edges(levels)[-1], *(1.05 * b for b in blocks if b is not None)]))
-    axis.set_xlabel(results["key"])
+    margin = 0.04 * (places[-1] - places[0])
+    axis.set_xlim(places[0] - margin, places[-1] + margin)
+    axis.set_xlabel(plain(results["key"]))
     axis.set_ylabel(results["level_is"])
     if not values:
-        axis.set_xticks(places, [column["value"] for column in columns])
-    axis.grid(False)
+        axis.set_xticks(places, [plain(column["value"]) for column in columns])
     drawing.legend_above(axis, columns=5)
     figure.suptitle(f"{results['title']}: {results['vehicle']} on {results['soil']}, ground {results['ground']}, "
                     f"commit {results['commit']}", fontsize=9)

@@ -32,7 +32,8 @@ base::Table<Scm> scmTable() {
   t.add("elastic_ratio", &S::elasticRatio, "-", "minimum unloading slope over the secant slope p / z of loading")
       .atLeast(1)
       .atMost(1e3);
-  t.add("damping", &S::damping, "Pa s/m", "pressure per speed of compression, and R of the shear stress R K ds/dt")
+  t.add("damping", &S::damping, "Pa s/m",
+        "pressure per speed of compression, and R of the shear stress R K ds/dt (1 % of the strength at most)")
       .atLeast(0)
       .atMost(1e7);
   t.add("slip_sinkage", &S::slipSinkage, "-",

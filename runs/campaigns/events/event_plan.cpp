@@ -27,7 +27,7 @@ using base::InputError;
 
 namespace {
 
-constexpr const char* kRigid = "rigid";
+constexpr const char *kRigid = "rigid", *kDrawKey = "scm.constants_draw";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
 constexpr double kFewOnPad = 6;         // grains on the width of a pad; of four tracks skip teeth (docs/events.md)
 constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
@@ -137,7 +137,7 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
 }
 
 /// The key in which the runs of a level differ.
-std::string keyOfNumber(const EventPlan& plan) { return plan.draws > 0 ? "scm.constants_draw" : sweeps::kSeedKey; }
+std::string keyOfNumber(const EventPlan& plan) { return plan.draws > 0 ? kDrawKey : sweeps::kSeedKey; }
 
 std::string runName(Event event, double level, int number, const EventPlan& plan) {
   std::string name(base::wordOf(event));
@@ -240,6 +240,9 @@ EventPlan planEvents(const EventOptions& options) {
   plan.draws = options.draws;
   if (plan.draws > 0 && !plan.course.deformable())
     throw InputError("--draws: samples the constants of deformable soil; set --ground scm, or remove it");
+  for (const std::string& set : options.fixed)
+    if (plan.draws > 0 && sweeps::keyOf(set) == kDrawKey)
+      throw InputError(fmt::format("--set {}: --draws sets this key; leave one of them out", set));
   const std::vector<std::string> common = commonOf(options, plan);
   plan.sweep.keys = {"event", keyOfNumber(plan)};
   for (const Event event : events) {

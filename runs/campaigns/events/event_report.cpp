@@ -41,14 +41,14 @@ public:
     if (!values_.contains(name)) order_.push_back(name);
     values_[name].push_back(value);
   }
-  /// `drawn`: with the interval in which the value of one more draw lies, instead of that of the mean.
+  /// `drawn`: with the interval that holds one further draw with 95 % probability, instead of that of the mean.
   std::vector<FigureOverSeeds> figures(bool drawn) const {
     std::vector<FigureOverSeeds> all;
     for (const std::string& name : order_) {
       const std::vector<double>& v = values_.at(name);
       support::Estimate estimate = jobs::interval95(v);
       if (drawn) estimate.halfWidth *= std::sqrt(static_cast<double>(v.size()) + 1);
-      all.push_back({name, static_cast<int>(v.size()), estimate});
+      all.push_back({name, static_cast<int>(v.size()), v, estimate});
     }
     return all;
   }
@@ -75,14 +75,12 @@ Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs:
   return judge(motion, planned.trial);
 }
 
-std::string levelCell(const EventRow& row) {
-  return levelText(row.event).empty() ? "" : fmt::format("{:g}", row.level);
-}
-
 } // namespace
 
+std::string EventRow::doubtOfMean(const std::string& figure) const { return isOfSteadyPart(figure) ? doubt : ""; }
+
 std::string EventRow::doubtOf(const FigureOverSeeds& figure) const {
-  if (!doubt.empty() && isOfSteadyPart(figure.name)) return doubt;
+  if (const std::string why = doubtOfMean(figure.name); !why.empty()) return why;
   return jobs::isInconclusive(figure.estimate) ? "interval wider than the value" : "";
 }
 
@@ -101,6 +99,8 @@ std::string goText(const EventRow& row) {
   if (row.runs == 1) return row.gos ? "go" : "no-go";
   return fmt::format("{} {}/{}", row.gos == row.runs ? "go" : row.gos == 0 ? "no-go" : "partly", row.gos, row.runs);
 }
+
+std::string levelCell(Event event, double level) { return levelText(event).empty() ? "" : fmt::format("{:g}", level); }
 
 std::string limitText(const EventLimit& limit) {
   if (limit.go && limit.noGo) return fmt::format("between {:g} and {:g}", *limit.go, *limit.noGo);
@@ -190,7 +190,8 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
                        const EventPlan& plan) {
   std::string text;
   for (const EventRow& row : rows) {
-    text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row), goText(row), row.why());
+    text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row.event, row.level), goText(row),
+                        row.why());
     if (row.unknown > 0)
       text += fmt::format("{:<18}{} of its runs failed for a cause that is not the vehicle's\n", "", row.unknown);
     if (row.incomplete > 0)
@@ -214,12 +215,15 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
   return text;
 }
 
-std::string eventsCsv(const std::vector<EventRow>& rows) {
-  std::string text = "event,level,level is,runs,go,why,figure,runs with it,mean,half width,inconclusive\n";
+std::string eventsCsv(const std::vector<EventRow>& rows, const std::pair<std::string, std::string>& first) {
+  const auto led = [](const std::string& cell) { return cell.empty() ? "" : support::csvCell(cell) + ","; };
+  std::string text =
+      led(first.first) + "event,level,level is,runs,go,why,figure,runs with it,mean,half width,inconclusive\n";
   for (const EventRow& row : rows) {
     const std::string head =
-        fmt::format("{},{},{},{},{},{}", base::wordOf(row.event), levelCell(row),
-                    support::csvCell(levelText(row.event)), row.runs, row.gos, support::csvCell(row.why()));
+        led(first.second) + fmt::format("{},{},{},{},{},{}", base::wordOf(row.event), levelCell(row.event, row.level),
+                                        support::csvCell(levelText(row.event)), row.runs, row.gos,
+                                        support::csvCell(row.why()));
     if (row.figures.empty()) text += head + ",,,,,\n";
     for (const FigureOverSeeds& f : row.figures)
       text +=
@@ -258,8 +262,10 @@ nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::
     for (const FigureOverSeeds& f : row.figures)
       entry["figures"].push_back({{"name", f.name},
                                   {"runs", f.runs},
+                                  {"values", f.values},
                                   {"mean", f.estimate.value},
                                   {"half_width", number(f.estimate.halfWidth)},
+                                  {"doubt", row.doubtOfMean(f.name)},
                                   {"inconclusive", !row.doubtOf(f).empty()}});
     json["rows"].push_back(entry);
   }

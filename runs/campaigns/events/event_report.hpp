@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// The table of a set of events.
@@ -18,7 +19,9 @@ namespace grouser::events {
 struct FigureOverSeeds {
   std::string name; ///< with its unit
   int runs = 0;
-  /// Mean with the half width of its 95 % interval over seeds; over draws, of the interval in which one more lies.
+  std::vector<double> values; ///< of the runs
+  /// Mean with the half width of its 95 % interval over seeds; over draws, of the interval that holds one further draw
+  /// with 95 % probability.
   /// Infinite for one run.
   support::Estimate estimate;
 };
@@ -44,6 +47,8 @@ struct EventRow {
   std::string doubt;   ///< why those of the steady part are inconclusive; empty where they are not
   std::string picture; ///< of the first run, from the folder; empty where there is none
 
+  /// Why the means of the steady part say nothing of a figure; empty where they do, or it is none of them.
+  std::string doubtOfMean(const std::string& figure) const;
   /// Why a figure is inconclusive; empty where it is sound.
   std::string doubtOf(const FigureOverSeeds& figure) const;
   /// Of the first run that is no go, since that decides; else of the first that has ended, and of drawbar pulls their
@@ -68,6 +73,8 @@ std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Cou
 
 /// "go", "partly 1/3", "pending": the verdict over all seeds.
 std::string goText(const EventRow& row);
+/// "0.4"; empty where the event has no levels.
+std::string levelCell(Event event, double level);
 /// "between 0.4 and 0.5"
 std::string limitText(const EventLimit& limit);
 /// The closed form, and whether the runs agree with it; empty where there is none.
@@ -79,8 +86,8 @@ inline constexpr const char* kShoesAlone =
 
 /// Both tables to read.
 std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);
-/// A row for each level and figure, with its runs, mean and half width.
-std::string eventsCsv(const std::vector<EventRow>& rows);
+/// A row for each level and figure, with its runs, mean and half width. `first`: name and cell of a leading column.
+std::string eventsCsv(const std::vector<EventRow>& rows, const std::pair<std::string, std::string>& first = {});
 /// Everything, with the keys that each level sets.
 nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits,
                                   const EventPlan& plan);

@@ -67,7 +67,7 @@ jobs::Recipe recipeOf(const EventsCommand& command, const fs::path& folder, cons
   if (groundOf(o) == scene::TerrainKind::scm) call["ground"] = base::wordOf(scene::TerrainKind::scm);
   if (o.draws > 0) call["draws"] = o.draws;
   if (!axis.empty()) call["axis"] = axis;
-  return {folder / "call.json", support::jsonText(call, 2) + "\n"};
+  return {folder / (axis.empty() ? "call.json" : "map_call.json"), support::jsonText(call, 2) + "\n"};
 }
 
 void checkFolder(const EventsCommand& command, const fs::path& folder, const jobs::Recipe& call) {
@@ -93,7 +93,8 @@ void printHead(const EventsCommand& command, const std::string& what, const Even
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
                base::counted(plan.seeds, "seed"), command.options.quick ? "; coarse" : "");
   if (plan.draws > 0)
-    fmt::print("          {} of the soil's constants: +- is the interval in which 95 % of further draws lie\n",
+    fmt::print("          {} of the soil's constants: +- is half of the interval that holds one further draw with 95 % "
+               "probability\n",
                base::counted(plan.draws, "draw"));
   if (plan.shoesAlone()) fmt::print("          {}\n", kShoesAlone);
   for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
@@ -134,7 +135,7 @@ std::vector<sweeps::SweepOutcome> doRuns(const EventsCommand& command, const std
   return {};
 }
 
-void refuseUnknown(const std::vector<EventRow>& rows, const fs::path& table) {
+void throwOnUnknownFailures(const std::vector<EventRow>& rows, const fs::path& table) {
   int unknown = 0;
   std::size_t runs = 0;
   for (const EventRow& row : rows) unknown += row.unknown, runs += row.each.size();

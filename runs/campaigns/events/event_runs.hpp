@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-/// Runs of events, for all commands that have some.
+/// Runs of events, shared by `grouser events` and `grouser map`.
 namespace grouser::events {
 
-/// What a call asks for, of events or of a map of one.
+/// Options of a call of events, or of a map of one event.
 struct EventsCommand {
   EventOptions options;
   jobs::PieceOptions pieces; ///< resume, part, seconds, device, threads
@@ -30,10 +30,10 @@ struct EventsCommand {
 /// The folder of the results: --out, or out/WHAT_VEHICLE_SOIL with _scm on deformable soil and _quick on coarse beds.
 std::filesystem::path folderOf(const EventsCommand& command, const std::string& what);
 
-/// What the user asks for, with the device and threads of the call, and frames for films.
+/// The options of the runs: those of the user, with the device and threads of the call, and frames for films.
 EventOptions optionsOfRuns(const EventsCommand& command);
 
-/// call.json: all that decides which runs there are. `axis`: of a map.
+/// call.json, of a map map_call.json: all that decides which runs there are. `axis`: of a map.
 jobs::Recipe recipeOf(const EventsCommand& command, const std::filesystem::path& folder, const std::string& axis = "");
 
 /// Throws base::InputError where the folder holds something else than runs of this call.
@@ -51,6 +51,6 @@ std::vector<sweeps::SweepOutcome> doRuns(const EventsCommand& command, const std
                                          const jobs::Recipe& call);
 
 /// Throws base::SimulationError where runs have failed for a cause that is not the vehicle's. `table`: that names them.
-void refuseUnknown(const std::vector<EventRow>& rows, const std::filesystem::path& table);
+void throwOnUnknownFailures(const std::vector<EventRow>& rows, const std::filesystem::path& table);
 
 } // namespace grouser::events

@@ -66,20 +66,20 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
   output::drawPicture("event_pictures.py", {folder / kJson}, folder / kPictures);
 }
 
-void writeAgainst(const EventsCommand& command, const EventPlan& plan, const std::vector<EventRow>& rows,
-                  const std::vector<OtherEvents>& others, const fs::path& folder) {
+void writeAgainst(const EventsCommand& command, const EventSet& here, const std::vector<EventSet>& others) {
+  std::error_code absent;
+  for (const char* name : {kAgainst, kAgainstText}) fs::remove(here.folder / name, absent); // of an earlier call
   if (others.empty()) return;
-  const std::vector<LevelFigure> here = figuresOf(rows, plan.random());
   std::string csv, text;
-  for (const OtherEvents& other : others) {
-    const std::vector<FigureBeside> both = besides(here, other, command.percent);
-    csv += besidesCsv(both, other, csv.empty());
-    text += besidesText(both, std::string(base::wordOf(plan.course.ground)), other, command.percent) + "\n";
+  for (const EventSet& other : others) {
+    const std::vector<FigureDifference> differences = differencesFrom(here, other, command.percent);
+    csv += differencesCsv(differences, other, csv.empty());
+    text += differencesText(differences, here, other, command.percent) + "\n";
   }
   fmt::print("{}", text);
-  support::replaceTextFile(folder / kAgainst, csv);
-  support::replaceTextFile(folder / kAgainstText, text);
-  for (const char* name : {kAgainst, kAgainstText}) fmt::print("table     {}\n", (folder / name).string());
+  support::replaceTextFile(here.folder / kAgainst, csv);
+  support::replaceTextFile(here.folder / kAgainstText, text);
+  for (const char* name : {kAgainst, kAgainstText}) fmt::print("table     {}\n", (here.folder / name).string());
 }
 
 } // namespace
@@ -89,8 +89,8 @@ void eventsCommand(const EventsCommand& command) {
   const fs::path folder = folderOf(command, "events");
   const jobs::Recipe call = recipeOf(command, folder);
   checkFolder(command, folder, call);
-  std::vector<OtherEvents> others;
-  for (const std::string& other : command.against) others.push_back(readOtherEvents(other));
+  std::vector<EventSet> others;
+  for (const std::string& other : command.against) others.push_back(readEventSet(other));
   const EventPlan plan = planEvents(options);
   if (command.films && !command.plan && command.pieces.part.empty()) render::checkFilmProgram("--films");
   printHead(command, "events", plan, plan.sweep.runs.size());
@@ -103,9 +103,9 @@ void eventsCommand(const EventsCommand& command) {
   if (outcomes.empty()) return;
   const std::vector<EventRow> rows = eventRows(plan, outcomes, folder);
   writeTables(command, plan, rows, folder);
-  writeAgainst(command, plan, rows, others, folder);
+  writeAgainst(command, eventSet(folder, command.options.vehicle, plan, rows), others);
   if (command.films) makeFilms(plan, folder);
-  refuseUnknown(rows, folder / kText);
+  throwOnUnknownFailures(rows, folder / kText);
 }
 
 } // namespace grouser::events

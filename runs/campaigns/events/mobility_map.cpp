@@ -14,7 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <sstream>
+#include <set>
+#include <utility>
 
 namespace grouser::events {
 
@@ -24,7 +25,13 @@ using base::InputError;
 namespace {
 
 constexpr const char *kTable = "map.csv", *kJson = "map.json", *kText = "map.txt", *kPlot = "map.png";
-constexpr int kColumn = 12; // characters of a column of the table
+/// Keys that the options of the command set, or that tell runs of one result apart.
+constexpr std::pair<const char*, const char*> kOfOptions[] = {{"terrain.material", "name the soil by --soil"},
+                                                              {"terrain.kind", "name the ground by --ground"},
+                                                              {"run.seed", "set the number by --seeds"},
+                                                              {"scm.constants_draw", "set the number by --draws"},
+                                                              {"run.threads", "use --threads"},
+                                                              {"run.device", "use --device"}};
 
 /// All runs of the map, column by column.
 sweeps::SweepPlan runsOf(const MobilityMap& map) {
@@ -52,11 +59,8 @@ void judgeColumns(MobilityMap& map, const std::vector<sweeps::SweepOutcome>& out
 std::string mapCsv(const MobilityMap& map) {
   std::string text;
   for (const MapColumn& column : map.columns) {
-    std::istringstream lines(eventsCsv(column.rows));
-    std::string line;
-    std::getline(lines, line);
-    if (text.empty()) text = fmt::format("{},{}\n", support::csvCell(map.key), line);
-    while (std::getline(lines, line)) text += fmt::format("{},{}\n", support::csvCell(column.value), line);
+    const std::string csv = eventsCsv(column.rows, {map.key, column.value});
+    text += text.empty() ? csv : csv.substr(csv.find('\n') + 1);
   }
   return text;
 }
@@ -68,7 +72,7 @@ nlohmann::ordered_json mapJson(const MobilityMap& map) {
                                  {"key", map.key},
                                  {"columns", nlohmann::ordered_json::array()}};
   for (const MapColumn& column : map.columns) {
-    nlohmann::ordered_json entry = {{"value", column.value}};
+    nlohmann::ordered_json entry = {{"value", column.value}, {"speed_m_s", column.plan.course.speed}};
     entry.update(eventsJson(column.rows, eventLimits(column.rows, column.plan.course), column.plan));
     json["columns"].push_back(entry);
   }
@@ -82,21 +86,43 @@ EventPlan planColumn(const EventOptions& options, const std::string& key, const 
   try {
     return planEvents(ofColumn);
   } catch (const InputError& error) {
-    const std::string fault = error.what(), set = "--set: " + key;
-    throw InputError(fault.starts_with(set) ? "--axis: " + fault.substr(7) : fault);
+    const std::string fault = error.what();
+    const std::size_t named = fault.find(key), begin = fault.find(": ");
+    const bool ofKey = named != std::string::npos && begin != std::string::npos && begin < named;
+    throw InputError(ofKey ? fmt::format("--axis {}={}: {}", key, value, fault.substr(begin + 2)) : fault);
   }
 }
 
-/// Of all columns together.
-std::vector<EventTime> timesOf(const MobilityMap& map, const fs::path& folder) {
-  std::vector<EventTime> sum;
+void refuseKey(const std::string& axis, const std::string& key) {
+  for (const auto& [other, remedy] : kOfOptions)
+    if (key == other) throw InputError(fmt::format("--axis {}: a map has one of these; {}", axis, remedy));
+  if (key.starts_with("output."))
+    throw InputError(fmt::format("--axis {}: keys of [output] change no verdict; use --set", axis));
+}
+
+/// Throws where two runs would have one folder.
+void checkNames(const MobilityMap& map, const std::string& axis) {
+  std::set<std::string> names;
   for (const MapColumn& column : map.columns)
-    for (const EventTime& time : events::timesOf(column.plan, folder)) {
-      if (sum.empty()) sum.push_back({time.event, 0, 0, 0, 0});
-      sum[0].runs += time.runs, sum[0].here += time.here, sum[0].h200 += time.h200;
-      sum[0].grains = std::max(sum[0].grains, time.grains);
-    }
-  return sum;
+    for (const sweeps::SweepRun& run : column.plan.sweep.runs)
+      if (!names.insert(run.name).second)
+        throw InputError(
+            fmt::format("--axis {}: two runs would be named {}; write values and levels with fewer digits, "
+                        "each once",
+                        axis, run.name));
+}
+
+bool sameLevels(const EventPlan& a, const EventPlan& b) {
+  return std::equal(a.trials.begin(), a.trials.end(), b.trials.begin(), b.trials.end(),
+                    [](const PlannedTrial& x, const PlannedTrial& y) { return x.level == y.level; });
+}
+
+/// The times of all columns: each as the first.
+std::vector<EventTime> timesOf(const MobilityMap& map, const fs::path& folder) {
+  std::vector<EventTime> times = events::timesOf(map.columns.front().plan, folder);
+  const auto columns = static_cast<int>(map.columns.size());
+  for (EventTime& time : times) time.runs *= columns, time.here *= columns, time.h200 *= columns;
+  return times;
 }
 
 } // namespace
@@ -108,37 +134,40 @@ MobilityMap planMap(const EventOptions& options, const std::string& axis) {
   if (levelText(map.event).empty())
     throw InputError(fmt::format("--event {}: has no levels, which are one axis of the map; take e.g. {}",
                                  options.only[0], base::wordOf(Event::grade)));
-  const sweeps::KeyValues values = sweeps::keyValues(axis, "--axis", "scm.cohesion=0,1000,2000");
+  const sweeps::KeyValues values = sweeps::keyValues(axis, "--axis", "scm.c=0,1000,2000");
   map.key = values.key;
   if (values.values.size() < 2)
     throw InputError(fmt::format("--axis {}: a map has two values or more along each axis; --set sets one", axis));
+  refuseKey(axis, map.key);
   for (const std::string& value : values.values) {
     MapColumn column{value, planColumn(options, values.key, value), {}};
     for (sweeps::SweepRun& run : column.plan.sweep.runs)
       run.name = fmt::format("{}={},{}", sweeps::plainText(values.key), sweeps::plainText(column.value), run.name);
-    for (const MapColumn& other : map.columns)
-      if (sweeps::plainText(other.value) == sweeps::plainText(column.value))
-        throw InputError(fmt::format("--axis {}: {} and {} would have folders of the same name; write them otherwise",
-                                     axis, other.value, column.value));
     if (column.plan.trials.size() < 2)
       throw InputError(fmt::format("--levels: a map has two levels or more; {} has {} here", base::wordOf(map.event),
                                    column.plan.trials.size()));
+    if (!map.columns.empty() && !sameLevels(column.plan, map.columns.front().plan))
+      throw InputError("--levels: name them; those of the default differ from value to value of this axis");
     map.columns.push_back(std::move(column));
   }
-  for (const MapColumn& column : map.columns)
-    if (column.plan.trials.size() != map.columns[0].plan.trials.size())
-      throw InputError("--levels: name them; those of the default differ from value to value of this axis");
+  checkNames(map, axis);
   return map;
 }
 
 std::string mapText(const MobilityMap& map) {
   const std::vector<EventRow>& first = map.columns.front().rows;
+  std::size_t width = 10;
+  for (const MapColumn& column : map.columns) {
+    width = std::max(width, column.value.size() + 2);
+    for (const EventRow& row : column.rows) width = std::max(width, goText(row).size() + 2);
+  }
+  const auto cell = [width](const std::string& word) { return fmt::format("{:>{}}", word, width); };
   std::string text =
-      fmt::format("{}: {} over {}\n{:>{}}", base::wordOf(map.event), levelText(map.event), map.key, "", kColumn);
-  for (const MapColumn& column : map.columns) text += fmt::format("{:>{}}", column.value, kColumn);
+      fmt::format("{}: {} over {}\n{}", base::wordOf(map.event), levelText(map.event), map.key, cell(""));
+  for (const MapColumn& column : map.columns) text += cell(column.value);
   for (std::size_t i = first.size(); i-- > 0;) {
-    text += fmt::format("\n{:>{}}", fmt::format("{:g}", first[i].level), kColumn);
-    for (const MapColumn& column : map.columns) text += fmt::format("{:>{}}", goText(column.rows[i]), kColumn);
+    text += "\n" + cell(fmt::format("{:g}", first[i].level));
+    for (const MapColumn& column : map.columns) text += cell(goText(column.rows[i]));
   }
   text += "\n\n";
   for (const MapColumn& column : map.columns)
@@ -175,7 +204,7 @@ void mapCommand(const MapCommand& command) {
   output::drawPicture("map.py", {folder / kJson}, folder / kPlot);
   std::vector<EventRow> rows;
   for (const MapColumn& column : map.columns) rows.insert(rows.end(), column.rows.begin(), column.rows.end());
-  refuseUnknown(rows, folder / kTable);
+  throwOnUnknownFailures(rows, folder / kTable);
 }
 
 } // namespace grouser::events

@@ -27,11 +27,11 @@ struct MobilityMap {
   std::vector<MapColumn> columns;
 };
 
-/// Plans the event for each value. Throws base::InputError for an event without levels, for less than two values, and
-/// as planEvents() does.
+/// Plans the event for each value. Throws base::InputError for an event without levels, for fewer than two levels or
+/// values, for levels that differ between values, for keys that options set, and as planEvents() does.
 MobilityMap planMap(const EventOptions& options, const std::string& axis);
 
-/// A table of verdicts, the highest level first, then the limit of each value with its closed form.
+/// A table of verdicts, the hardest level first, then the limit of each value with its closed form.
 std::string mapText(const MobilityMap& map);
 
 /// Runs what is missing, and writes map.txt, map.csv, map.json and map.png. Throws as eventsCommand() does.

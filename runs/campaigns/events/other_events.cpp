@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 
 namespace grouser::events {
 
@@ -19,101 +18,131 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-std::string levelCell(const LevelFigure& figure) {
-  return levelText(figure.event).empty() ? "" : fmt::format("{:g}", figure.level);
-}
-
-std::string cell(const support::Estimate& e) {
-  return e.halfWidth == 0 || !std::isfinite(e.halfWidth) ? fmt::format("{:.4g}", e.value) : jobs::valueText(e);
-}
+constexpr const char* kInconclusive = "inconclusive";
 
 /// The figures of a file of results. Throws nlohmann::json::exception where it has another form.
-OtherEvents parsed(const nlohmann::json& json) {
-  OtherEvents other;
-  const bool random = json.at("ground") == base::wordOf(scene::TerrainKind::granular) || json.value("draws", 0) > 0;
-  other.vehicle = json.at("vehicle");
-  other.ground = fmt::format("{} ({})", json.at("soil").get<std::string>(), json.at("ground").get<std::string>());
+EventSet parsed(const nlohmann::json& json) {
+  EventSet set;
+  set.vehicle = json.at("vehicle"), set.soil = json.at("soil"), set.ground = json.at("ground");
+  set.speed = json.at("speed_m_s");
+  set.seeded = set.ground == base::wordOf(scene::TerrainKind::granular), set.drawn = json.at("draws") > 0;
   for (const auto& row : json.at("rows")) {
     const auto event = base::valueOf<Event>(row.at("event").get<std::string>());
     if (!event) continue;
-    const double level = row.at("level").is_null() ? 0 : row.at("level").get<double>();
     for (const auto& f : row.at("figures"))
-      other.figures.push_back({*event,
-                               level,
-                               f.at("name"),
-                               {f.at("mean"), !random                        ? 0
-                                              : f.at("half_width").is_null() ? kInfinite
-                                                                             : f.at("half_width").get<double>()}});
+      set.figures.push_back({*event, row.at("level").is_null() ? 0 : row.at("level").get<double>(), f.at("name"),
+                             f.at("values").get<std::vector<double>>(), static_cast<int>(row.at("each").size()),
+                             !f.at("doubt").get<std::string>().empty()});
   }
-  return other;
+  return set;
 }
+
+/// Mean with its interval: of one further draw where the constants are drawn.
+support::Estimate estimateOf(const EventSet& set, const LevelFigure& figure) {
+  support::Estimate e = jobs::interval95(figure.values);
+  if (!set.seeded && !set.drawn) e.halfWidth = 0;
+  if (set.drawn) e.halfWidth *= std::sqrt(static_cast<double>(figure.values.size()) + 1);
+  return e;
+}
+
+std::string countText(const LevelFigure& figure) {
+  return static_cast<int>(figure.values.size()) == figure.planned
+             ? fmt::format("{}", figure.planned)
+             : fmt::format("{} of {}", figure.values.size(), figure.planned);
+}
+
+std::string nameOf(const EventSet& set) { return fmt::format("{} on {} ({})", set.vehicle, set.soil, set.ground); }
 
 } // namespace
 
-OtherEvents readOtherEvents(const fs::path& folder) {
+EventSet eventSet(const fs::path& folder, const std::string& vehicle, const EventPlan& plan,
+                  const std::vector<EventRow>& rows) {
+  EventSet set{folder,
+               vehicle,
+               plan.course.rigid() ? "rigid" : plan.course.soil,
+               std::string(base::wordOf(plan.course.ground)),
+               plan.course.speed,
+               plan.course.granular(),
+               plan.draws > 0,
+               {}};
+  for (const EventRow& row : rows)
+    for (const FigureOverSeeds& f : row.figures)
+      set.figures.push_back({row.event, row.level, f.name, f.values, static_cast<int>(row.each.size()),
+                             !row.doubtOfMean(f.name).empty()});
+  return set;
+}
+
+EventSet readEventSet(const fs::path& folder) {
   const fs::path file = folder / "events.json";
   std::error_code error;
   if (!fs::is_regular_file(file, error))
-    throw base::InputError(fmt::format("--against {}: holds no events.json; name the folder of a `grouser events` that "
-                                       "has ended",
+    throw base::InputError(fmt::format("--against {}: holds no events.json; name the folder of results of `grouser "
+                                       "events`",
                                        folder.string()));
   try {
     std::ifstream in(file);
-    OtherEvents other = parsed(nlohmann::json::parse(in));
-    other.folder = folder;
-    return other;
+    EventSet set = parsed(nlohmann::json::parse(in));
+    set.folder = folder;
+    return set;
   } catch (const nlohmann::json::exception& fault) {
-    throw base::InputError(fmt::format("--against {}: {} is damaged ({}); run these events again", folder.string(),
-                                       file.string(), fault.what()));
+    throw base::InputError(fmt::format("--against {}: {} is damaged or of an earlier version ({}); repeat the call "
+                                       "that wrote it",
+                                       folder.string(), file.string(), fault.what()));
   }
 }
 
-std::vector<LevelFigure> figuresOf(const std::vector<EventRow>& rows, bool random) {
-  std::vector<LevelFigure> all;
-  for (const EventRow& row : rows)
-    for (const FigureOverSeeds& f : row.figures)
-      all.push_back({row.event, row.level, f.name, {f.estimate.value, random ? f.estimate.halfWidth : 0}});
-  return all;
-}
-
-std::vector<FigureBeside> besides(const std::vector<LevelFigure>& here, const OtherEvents& other, double percent) {
-  std::vector<FigureBeside> all;
-  for (const LevelFigure& mine : here) {
+std::vector<FigureDifference> differencesFrom(const EventSet& here, const EventSet& other, double percent) {
+  std::vector<FigureDifference> all;
+  for (const LevelFigure& mine : here.figures) {
     const auto found = std::find_if(other.figures.begin(), other.figures.end(), [&mine](const LevelFigure& f) {
       return f.event == mine.event && std::fabs(f.level - mine.level) < 1e-9 && f.name == mine.name;
     });
-    if (found == other.figures.end()) continue;
-    const support::Estimate &a = found->estimate, &b = mine.estimate;
-    const support::Estimate difference{b.value - a.value, std::hypot(a.halfWidth, b.halfWidth)};
-    all.push_back({mine, *found, difference, sweeps::groundVerdict(difference, a.value, b.value, percent)});
+    if (found == other.figures.end() || mine.values.empty() || found->values.empty()) continue;
+    FigureDifference d{mine, *found, estimateOf(here, mine), estimateOf(other, *found), {}, {}};
+    const support::Estimate &a = d.ofOther, &b = d.ofHere;
+    d.difference = here.seeded && other.seeded
+                       ? jobs::unpairedChange(found->values, mine.values)
+                       : support::Estimate{b.value - a.value, std::hypot(a.halfWidth, b.halfWidth)};
+    d.verdict = mine.doubtful || found->doubtful ? kInconclusive
+                                                 : sweeps::groundVerdict(d.difference, a.value, b.value, percent);
+    all.push_back(std::move(d));
   }
   return all;
 }
 
-std::string besidesText(const std::vector<FigureBeside>& figures, const std::string& here, const OtherEvents& other,
-                        double percent) {
-  std::string text = fmt::format("beside {}: {} on {}; equal: within {:g} % of the larger mean\n",
-                                 other.folder.string(), other.vehicle, other.ground, percent);
-  if (figures.empty()) return text + "no event, level and figure in common\n";
-  text += fmt::format("{:<18}{:<7}{:<46}{:>22}{:>22}{:>22}\n", "event", "level", "figure", here, "other", "difference");
-  for (const FigureBeside& f : figures)
-    text += fmt::format("{:<18}{:<7}{:<46}{:>22}{:>22}{:>22}  {}\n", base::wordOf(f.here.event), levelCell(f.here),
-                        f.here.name, cell(f.here.estimate), cell(f.other.estimate), cell(f.difference), f.verdict);
+std::string differencesText(const std::vector<FigureDifference>& differences, const EventSet& here,
+                            const EventSet& other, double percent) {
+  std::string text = fmt::format("{}\ncompared with {}: {}; equal: within {:g} % of the larger mean\n", nameOf(here),
+                                 other.folder.string(), nameOf(other), percent);
+  for (const auto& [what, a, b] :
+       {std::tuple{"vehicle", here.vehicle, other.vehicle},
+        {"soil", here.soil, other.soil},
+        {"commanded speed [m/s]", fmt::format("{:g}", here.speed), fmt::format("{:g}", other.speed)}})
+    if (a != b) text += fmt::format("WARNING: {}: {} here, {} there\n", what, a, b);
+  if (differences.empty()) return text + "no event, level and figure in common\n";
+  text += fmt::format("{:<18}{:<7}{:<46}{:>22}{:>5}{:>22}{:>8}{:>22}\n", "event", "level", "figure", here.ground,
+                      "runs", other.ground, "runs", "difference");
+  for (const FigureDifference& d : differences)
+    text +=
+        fmt::format("{:<18}{:<7}{:<46}{:>22}{:>5}{:>22}{:>8}{:>22}  {}\n", base::wordOf(d.here.event),
+                    levelCell(d.here.event, d.here.level), d.here.name, sweeps::figureText(d.ofHere), countText(d.here),
+                    sweeps::figureText(d.ofOther), countText(d.other), sweeps::figureText(d.difference), d.verdict);
   return text;
 }
 
-std::string besidesCsv(const std::vector<FigureBeside>& figures, const OtherEvents& other, bool head) {
-  std::string text = head ? "other folder,other ground,event,level,figure,mean,half width,other mean,other half width,"
-                            "difference,half width of the difference,verdict\n"
+std::string differencesCsv(const std::vector<FigureDifference>& differences, const EventSet& other, bool head) {
+  std::string text = head ? "other folder,other vehicle,other soil,other ground,event,level,figure,mean,half width,"
+                            "runs,other mean,other half width,other runs,difference,half width of the difference,"
+                            "verdict\n"
                           : "";
-  for (const FigureBeside& f : figures) {
-    text += fmt::format("{},{},{},{},{}", support::csvCell(other.folder.string()), support::csvCell(other.ground),
-                        base::wordOf(f.here.event), levelCell(f.here), support::csvCell(f.here.name));
-    for (const support::Estimate& e : {f.here.estimate, f.other.estimate, f.difference})
-      text += fmt::format(",{},{}", support::csvCell(e.value), support::csvCell(e.halfWidth));
-    text += "," + f.verdict + "\n";
+  for (const FigureDifference& d : differences) {
+    text += fmt::format("{},{},{},{},{},{},{}", support::csvCell(other.folder.string()),
+                        support::csvCell(other.vehicle), other.soil, other.ground, base::wordOf(d.here.event),
+                        levelCell(d.here.event, d.here.level), support::csvCell(d.here.name));
+    for (const auto& [e, f] : {std::pair{&d.ofHere, &d.here}, {&d.ofOther, &d.other}})
+      text += fmt::format(",{},{},{}", support::csvCell(e->value), support::csvCell(e->halfWidth), f->values.size());
+    text += fmt::format(",{},{},{}\n", support::csvCell(d.difference.value), support::csvCell(d.difference.halfWidth),
+                        d.verdict);
   }
   return text;
 }

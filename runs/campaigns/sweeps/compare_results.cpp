@@ -112,12 +112,12 @@ std::string whyNone(const Comparison& all, const GroundResult& ground) {
   return ground.ended > 0 ? "its runs end before the drive is up to speed; raise run.duration" : "no run has ended";
 }
 
+} // namespace
+
 std::string figureText(const support::Estimate& e) {
   if (!std::isfinite(e.value)) return "-";
   return e.halfWidth == 0 || !std::isfinite(e.halfWidth) ? fmt::format("{:.4g}", e.value) : jobs::valueText(e);
 }
-
-} // namespace
 
 support::Estimate groundDifference(const GroundResult& a, const GroundResult& b, std::size_t column) {
   const support::Estimate &x = a.figures[column], &y = b.figures[column];

@@ -47,6 +47,9 @@ support::Estimate groundDifference(const GroundResult& a, const GroundResult& b,
 /// Verdict on a difference by the bar `percent` of the larger of both means.
 std::string groundVerdict(const support::Estimate& difference, double a, double b, double percent);
 
+/// "12.3 +- 0.4"; four digits without an interval, "-" without a value.
+std::string figureText(const support::Estimate& e);
+
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                         const std::vector<scene::TerrainKind>& grounds, double percent,
                         const std::filesystem::path& folder);

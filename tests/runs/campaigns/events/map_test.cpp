@@ -50,9 +50,18 @@ TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   EXPECT_EQ(faultOf(options, "scm.c=5"),
             "--axis scm.c=5: a map has two values or more along each axis; --set sets one");
   EXPECT_EQ(faultOf(options, "scm.c"),
-            "--axis scm.c: no value is given; write key=value,value..., e.g. --axis scm.cohesion=0,1000,2000");
+            "--axis scm.c: no value is given; write key=value,value..., e.g. --axis scm.c=0,1000,2000");
   EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 stands there twice; remove one");
-  EXPECT_EQ(faultOf(options, "scm.colour=1,2").find("--axis: scm.colour"), 0u) << faultOf(options, "scm.colour=1,2");
+  EXPECT_EQ(faultOf(options, "scm.colour=1,2").find("--axis scm.colour=1: unknown key scm.colour"), 0u)
+      << faultOf(options, "scm.colour=1,2");
+  EXPECT_NE(faultOf(options, "scm.c=0,0").find("stands there twice"), std::string::npos);
+  EXPECT_NE(faultOf(options, "terrain.material=dry_sand,lete_sand").find("name the soil by --soil"), std::string::npos);
+  options.levels = {0.3, 0.3000000001};
+  EXPECT_NE(faultOf(options, "scm.c=5,6").find("two runs would be named scm.c=5,grade=0.3"), std::string::npos);
+  EventOptions rigid;
+  rigid.only = {"grade"};
+  EXPECT_EQ(faultOf(rigid, "spec.contact.friction_ground=0.4,0.8"),
+            "--levels: name them; those of the default differ from value to value of this axis");
   options.levels = {0.3};
   EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--levels: a map has two levels or more; grade has 1 here");
   options.levels = {}, options.only = {"pivot_turn"};
@@ -75,9 +84,9 @@ TEST(MobilityMap, TableHasTheHighestLevelOnTopAndTheLimitOfEachValue) {
     map.columns.push_back(std::move(column));
   }
   EXPECT_EQ(mapText(map).substr(0, mapText(map).find("\n\n")), "grade: tan of the slope [-] over scm.c\n"
-                                                               "                       0        4000\n"
-                                                               "         0.6       no-go          go\n"
-                                                               "         0.2          go          go");
+                                                               "                   0      4000\n"
+                                                               "       0.6     no-go        go\n"
+                                                               "       0.2        go        go");
   EXPECT_NE(mapText(map).find("scm.c = 0          between 0.2 and 0.6"), std::string::npos) << mapText(map);
   EXPECT_NE(mapText(map).find("scm.c = 4000       above 0.6"), std::string::npos);
 }
@@ -85,9 +94,10 @@ TEST(MobilityMap, TableHasTheHighestLevelOnTopAndTheLimitOfEachValue) {
 using MapProgram = ProgramTest;
 
 TEST_F(MapProgram, WritesItsTablesAndGoesOn) {
-  const std::string words = "map --levels 0.1,0.2 --axis spec.friction_ground=0.4,0.8 --set run.duration=0.7 --set "
-                            "driver.drive_start=0.46 --set vehicle.sphere_radius=0.04 --set output.picture=false "
-                            "--threads 1 --out out";
+  const std::string words =
+      "map --levels 0.1,0.2 --axis spec.contact.friction_ground=0.4,0.8 --set run.duration=0.7 --set "
+      "driver.drive_start=0.46 --set vehicle.sphere_radius=0.04 --set output.picture=false "
+      "--threads 1 --out out";
   const Outcome first = call(words, withSharedCache());
   ASSERT_EQ(first.code, 0) << first.errors;
   const auto json = nlohmann::json::parse(contents(folder_ / "out" / "map.json"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures of events beside those of another ground.
+// Differences between sets of events, with verdicts.
 #include "runs/campaigns/events/other_events.hpp"
 
 #include "base/error.hpp"
@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 namespace grouser::events {
@@ -15,54 +16,87 @@ using namespace test; // fixtures
 
 namespace {
 
-constexpr const char* kGranular = R"({"vehicle": "light_tracked", "soil": "lete_sand", "ground": "granular", "rows": [
-  {"event": "drawbar", "level": 0.2, "figures": [
-    {"name": "drawbar pull [N]", "mean": 18000, "half_width": 3000},
-    {"name": "slip [-]", "mean": 0.2, "half_width": 0.001},
-    {"name": "motion resistance [N]", "mean": 4000, "half_width": null}]},
-  {"event": "pivot_turn", "level": null, "figures": [
-    {"name": "rate over commanded [-]", "mean": 0.8, "half_width": 0.04}]}]})";
+constexpr const char* kGranular = R"({"vehicle": "light_tracked", "soil": "lete_sand", "ground": "granular", "draws": 0,
+  "speed_m_s": 1.2, "rows": [
+  {"event": "drawbar", "level": 0.2, "each": [1, 2, 3], "figures": [
+    {"name": "drawbar pull [N]", "values": [17000, 18000, 19000], "doubt": ""},
+    {"name": "slip [-]", "values": [0.2, 0.2005, 0.1995], "doubt": ""},
+    {"name": "speed [m/s]", "values": [0.96, 0.961, 0.959], "doubt": "few teeth"},
+    {"name": "motion resistance [N]", "values": [4000], "doubt": ""}]},
+  {"event": "pivot_turn", "level": null, "each": [1, 2, 3], "figures": [
+    {"name": "rate over commanded [-]", "values": [0.79, 0.80, 0.81], "doubt": ""}]}]})";
 
-using OtherEventsFile = ProgramTest;
+using EventSetFile = ProgramTest;
 
-OtherEvents granular(const std::filesystem::path& folder) {
+EventSet granular(const std::filesystem::path& folder) {
   std::ofstream(folder / "events.json") << kGranular;
-  return readOtherEvents(folder);
+  return readEventSet(folder);
 }
 
-TEST_F(OtherEventsFile, GivesDifferencesWithVerdicts) {
-  const OtherEvents other = granular(folder_);
-  EXPECT_EQ(other.ground, "lete_sand (granular)");
-  const std::vector<LevelFigure> here = {{Event::drawbar, 0.2, "drawbar pull [N]", {24000, 0}},
-                                         {Event::drawbar, 0.2, "slip [-]", {0.201, 0}},
-                                         {Event::drawbar, 0.2, "motion resistance [N]", {4100, 0}},
-                                         {Event::drawbar, 0.4, "drawbar pull [N]", {26000, 0}},
-                                         {Event::pivotTurn, 0, "rate over commanded [-]", {0.83, 0.03}}};
-  const std::vector<FigureBeside> both = besides(here, other, 5);
-  ASSERT_EQ(both.size(), 4u) << "no pull at 40 % slip in the other";
-  EXPECT_EQ(both[0].difference.value, 6000);
-  EXPECT_EQ(both[0].difference.halfWidth, 3000);
-  EXPECT_EQ(both[0].verdict, "differs");
-  EXPECT_EQ(both[1].verdict, "equal");
-  EXPECT_EQ(both[2].verdict, "inconclusive") << "one seed has no interval";
-  EXPECT_DOUBLE_EQ(both[3].difference.halfWidth, 0.05) << "root of the sum of both squares";
-  EXPECT_EQ(both[3].verdict, "inconclusive");
-  EXPECT_NE(besidesCsv(both, other, true).find("drawbar,0.2,drawbar pull [N],24000,0,18000,3000,6000,3000,differs\n"),
-            std::string::npos)
-      << besidesCsv(both, other, true);
-  EXPECT_EQ(besides(here, other, 60)[0].verdict, "equal") << "the bar";
+EventSet deformable() {
+  EventSet set{"", "light_tracked", "lete_sand", "scm", 1.2, false, false, {}};
+  set.figures = {{Event::drawbar, 0.2, "drawbar pull [N]", {24000}, 1, false},
+                 {Event::drawbar, 0.2, "slip [-]", {0.201}, 1, false},
+                 {Event::drawbar, 0.2, "speed [m/s]", {0.96}, 1, false},
+                 {Event::drawbar, 0.2, "motion resistance [N]", {4100}, 1, false},
+                 {Event::drawbar, 0.4, "drawbar pull [N]", {26000}, 1, false},
+                 {Event::pivotTurn, 0, "rate over commanded [-]", {0.83}, 1, false}};
+  return set;
 }
 
-TEST_F(OtherEventsFile, RefusesFoldersWithoutResults) {
+TEST_F(EventSetFile, GivesDifferencesWithVerdicts) {
+  const EventSet other = granular(folder_);
+  const std::vector<FigureDifference> all = differencesFrom(deformable(), other, 5);
+  ASSERT_EQ(all.size(), 5u) << "no pull at 40 % slip in the other";
+  EXPECT_EQ(all[0].difference.value, 6000);
+  EXPECT_NEAR(all[0].difference.halfWidth, 4.3027 * 1000 / std::sqrt(3), 1) << "Student's interval of three seeds";
+  EXPECT_EQ(all[0].verdict, "differs");
+  EXPECT_EQ(all[1].verdict, "equal");
+  EXPECT_EQ(all[2].verdict, "inconclusive") << "too little driven";
+  EXPECT_EQ(all[3].verdict, "inconclusive") << "one seed has no interval";
+  EXPECT_EQ(all[4].verdict, "inconclusive") << "the interval crosses the bar";
+  EXPECT_EQ(differencesFrom(deformable(), other, 60)[0].verdict, "equal") << "the bar";
+  const std::string text = differencesText(all, deformable(), other, 5);
+  EXPECT_NE(text.find("1 of 3"), std::string::npos) << "the resistance has one run: " << text;
+  EXPECT_EQ(text.find("WARNING"), std::string::npos) << text;
+  EXPECT_NE(differencesCsv(all, other, true).find("drawbar,0.2,drawbar pull [N],24000,0,1,18000,"), std::string::npos)
+      << differencesCsv(all, other, true);
+}
+
+TEST_F(EventSetFile, TwoSeededSetsHaveWelchsInterval) {
+  EventSet here = granular(folder_);
+  here.figures[0].values = {19000, 20000, 21000};
+  const FigureDifference d = differencesFrom(here, granular(folder_), 5)[0];
+  EXPECT_EQ(d.difference.value, 2000);
+  EXPECT_NEAR(d.difference.halfWidth, 2.7764 * 1000 * std::sqrt(2.0 / 3), 1) << "four degrees of freedom";
+}
+
+TEST_F(EventSetFile, DrawsCountWithTheIntervalOfOneMore) {
+  EventSet here = deformable();
+  here.drawn = true, here.figures[0].values = {23000, 24000, 25000}, here.figures[0].planned = 3;
+  const FigureDifference d = differencesFrom(here, granular(folder_), 5)[0];
+  EXPECT_NEAR(d.ofHere.halfWidth, 4.3027 * 1000 * std::sqrt(1 + 1.0 / 3), 1);
+  EXPECT_NEAR(d.difference.halfWidth, 4.3027 * 1000 * std::sqrt(1 + 2.0 / 3), 1);
+}
+
+TEST_F(EventSetFile, WarnsOfOtherVehiclesAndSpeeds) {
+  EventSet here = deformable();
+  here.vehicle = "robot", here.speed = 0.7;
+  const std::string text = differencesText({}, here, granular(folder_), 5);
+  EXPECT_NE(text.find("WARNING: vehicle: robot here, light_tracked there"), std::string::npos) << text;
+  EXPECT_NE(text.find("WARNING: commanded speed [m/s]: 0.7 here, 1.2 there"), std::string::npos) << text;
+}
+
+TEST_F(EventSetFile, RefusesFoldersWithoutResults) {
   const auto fault = [this]() -> std::string {
     try {
-      readOtherEvents(folder_);
+      readEventSet(folder_);
       return "";
     } catch (const base::InputError& error) {
       return error.what();
     }
   };
-  EXPECT_NE(fault().find("holds no events.json; name the folder of a `grouser events`"), std::string::npos) << fault();
+  EXPECT_NE(fault().find("holds no events.json; name the folder of results"), std::string::npos) << fault();
   std::ofstream(folder_ / "events.json") << R"({"vehicle": 3)";
   EXPECT_NE(fault().find("is damaged"), std::string::npos) << fault();
   const Outcome o = call("events --only acceleration --against nowhere --out out");

@@ -149,7 +149,9 @@ TEST(EventPlan, HasARunForEachDrawOfTheConstants) {
   EXPECT_EQ(plan.sweep.runs[4].name, "grade=0.4,draw=2");
   EXPECT_EQ(plan.sweep.runs[4].scene.scm->constantsDraw, 2);
   EXPECT_TRUE(plan.random());
-  options.ground = scene::TerrainKind::granular;
+  options.fixed = {"scm.constants_draw=1"};
+  EXPECT_THROW(planEvents(options), base::InputError) << "three runs of one draw";
+  options.fixed = {}, options.ground = scene::TerrainKind::granular;
   EXPECT_THROW(planEvents(options), base::InputError);
 }
 
