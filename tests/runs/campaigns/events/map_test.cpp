@@ -95,8 +95,9 @@ using MapProgram = ProgramTest;
 
 TEST_F(MapProgram, WritesItsTablesAndGoesOn) {
   const std::string words =
-      "map --levels 0.1,0.2 --axis spec.contact.friction_ground=0.4,0.8 --set run.duration=0.7 --set "
-      "driver.drive_start=0.46 --set vehicle.sphere_radius=0.04 --set output.picture=false "
+      "map --levels 0.1,0.2 --axis spec.contact.friction_ground=0.4,0.8 --speed 2.4 --set run.duration=0.7 --set "
+      "driver.drive_start=0.46 --set driver.drive_ramp=0.02 --set vehicle.sphere_radius=0.04 --set "
+      "output.picture=false "
       "--threads 1 --out out";
   const Outcome first = call(words, withSharedCache());
   ASSERT_EQ(first.code, 0) << first.errors;
@@ -111,7 +112,7 @@ TEST_F(MapProgram, WritesItsTablesAndGoesOn) {
   const Outcome again = call(words);
   EXPECT_EQ(again.code, 0) << again.errors;
   EXPECT_NE(again.out.find("finished already"), std::string::npos) << again.out;
-  EXPECT_EQ(call(words + " --speed 1").code, 2) << "the folder holds runs of another call";
+  EXPECT_EQ(call(words + " --quick").code, 2) << "the folder holds runs of another call";
 }
 
 } // namespace
