@@ -80,7 +80,7 @@ Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs:
 std::string EventRow::doubtOfMean(const std::string& figure) const { return isOfSteadyPart(figure) ? doubt : ""; }
 
 std::string EventRow::doubtOf(const FigureOverSeeds& figure) const {
-  if (const std::string why = doubtOfMean(figure.name); !why.empty()) return why;
+  if (std::string why = doubtOfMean(figure.name); !why.empty()) return why;
   return jobs::isInconclusive(figure.estimate) ? "interval wider than the value" : "";
 }
 

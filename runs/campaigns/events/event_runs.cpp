@@ -127,8 +127,8 @@ std::vector<sweeps::SweepOutcome> doRuns(const EventsCommand& command, const std
   sweep.force = command.force, sweep.failuresStay = true, sweep.shared = !command.pieces.part.empty();
   fs::create_directories(folder);
   call.keep();
-  const auto outcomes = sweeps::runMissing(partOf(plan, command.pieces.share()), sweep, what,
-                                           [](const std::vector<sweeps::SweepOutcome>&) {});
+  auto outcomes = sweeps::runMissing(partOf(plan, command.pieces.share()), sweep, what,
+                                     [](const std::vector<sweeps::SweepOutcome>&) {});
   if (command.pieces.part.empty()) return outcomes;
   fmt::print("part      {} of the runs; a call with --resume and without --part writes the tables\n",
              command.pieces.part);

@@ -24,7 +24,7 @@ using base::InputError;
 
 namespace {
 
-constexpr const char *kTable = "map.csv", *kJson = "map.json", *kText = "map.txt", *kPlot = "map.png";
+constexpr const char *kMapTable = "map.csv", *kMapJson = "map.json", *kMapText = "map.txt", *kMapPlot = "map.png";
 /// Keys that the options of the command set, or that tell runs of one result apart.
 constexpr std::pair<const char*, const char*> kOfOptions[] = {{"terrain.material", "name the soil by --soil"},
                                                               {"terrain.kind", "name the ground by --ground"},
@@ -197,14 +197,14 @@ void mapCommand(const MapCommand& command) {
   fmt::print("\n{}\n", text);
   nlohmann::ordered_json json = headJson(events, first);
   json.update(mapJson(map));
-  support::replaceTextFile(folder / kTable, mapCsv(map));
-  support::replaceTextFile(folder / kText, text);
-  support::replaceTextFile(folder / kJson, support::jsonText(json, 2) + "\n");
-  for (const char* name : {kTable, kText, kJson}) fmt::print("table     {}\n", (folder / name).string());
-  output::drawPicture("map.py", {folder / kJson}, folder / kPlot);
+  support::replaceTextFile(folder / kMapTable, mapCsv(map));
+  support::replaceTextFile(folder / kMapText, text);
+  support::replaceTextFile(folder / kMapJson, support::jsonText(json, 2) + "\n");
+  for (const char* name : {kMapTable, kMapText, kMapJson}) fmt::print("table     {}\n", (folder / name).string());
+  output::drawPicture("map.py", {folder / kMapJson}, folder / kMapPlot);
   std::vector<EventRow> rows;
   for (const MapColumn& column : map.columns) rows.insert(rows.end(), column.rows.begin(), column.rows.end());
-  throwOnUnknownFailures(rows, folder / kTable);
+  throwOnUnknownFailures(rows, folder / kMapTable);
 }
 
 } // namespace grouser::events
