@@ -17,7 +17,7 @@ struct SoilConstants {
   double unloadingStiffness{}, unloadingGrowth{}; ///< k_0 [N/m3] and A_u [N/m4] of k_u = k_0 + A_u z_u, as measured
   double elasticRatio =
       10;               ///< f [-], >= 1: k_u is at least f max(1, n) p_u / z_u, so a plate rebounds by z_u / f at most
-  double damping{};     ///< [Pa s/m] of compression and shear deformation, >= 0
+  double damping{};     ///< [Pa s/m] of compression and shear, >= 0
   double slipSinkage{}; ///< sinkage per shear displacement at constant pressure [-], >= 0
   double maximumSlipSinkage{}; ///< [m]
   double unitWeight{};         ///< [N/m3]
@@ -28,12 +28,13 @@ struct SoilConstants {
   double sinkageUnder(double pressure, double b) const { return base::pow(pressure / modulusAt(b), 1 / exponent); }
 };
 
-/// Damping force of shear over the size of the change of s in a step [N], on an area in contact [m2] with a shear
-/// strength [N]: R K ds/dt with the damping R, as the bristles of the LuGre model have it (Canudas de Wit and others
-/// 1995, IEEE Trans. Autom. Control 40:419), at most 1 % of the strength. Its work is never negative, and it vanishes
-/// in steady slip. Without it a loaded body on a slope that holds it rocks, and creeps with each cycle.
+/// Shear damping coefficient [N] of a contact with area [m2] and shear strength [N]: the damping force is this times
+/// the change of s in the step, `change` its magnitude. R K ds/dt with the damping R, the bristle damping of the LuGre
+/// model (Canudas de Wit et al. 1995, IEEE Trans. Autom. Control 40:419), limited to 1 % of the strength. It dissipates
+/// in any motion, and is zero in steady slip. Without it, a loaded body below its holding limit oscillates and ratchets
+/// downhill.
 inline double shearDamping(const SoilConstants& soil, double timeStep, double area, double strength, double change) {
-  constexpr double kMaxShare = 0.01; // of the strength; binds above 10 mm/s of slip for common soils
+  constexpr double kMaxShare = 0.01; // maximum damping force over shear strength
   const double damping = soil.damping * soil.shearDisplacement / timeStep * area;
   return damping * change > kMaxShare * strength ? kMaxShare * strength / change : damping;
 }

@@ -16,7 +16,7 @@ namespace grouser::commands {
 
 namespace {
 
-/// Vehicle, ground and beds, the call's share of the runs, and their folder.
+/// Options for vehicle, ground, beds, execution and results, common to `events` and `map`.
 void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& defaultFolder) {
   events::EventOptions& o = c.options;
   app.add_option("--vehicle", o.vehicle, "a ready vehicle by name, or a vehicle file that ends in .toml")

@@ -37,6 +37,12 @@ support::Estimate interval(std::span<const double> values, double miss) {
   return {m.mean, support::student(m.freedom, miss) * std::sqrt(m.variance)};
 }
 
+support::Estimate predictionInterval(std::span<const double> values, double miss) {
+  support::Estimate estimate = interval(values, miss);
+  estimate.halfWidth *= std::sqrt(static_cast<double>(values.size()) + 1);
+  return estimate;
+}
+
 support::Estimate interval95(std::span<const double> values) { return interval(values, 0.05); }
 
 support::Estimate unpairedChange(std::span<const double> a, std::span<const double> b) {

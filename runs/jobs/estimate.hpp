@@ -13,6 +13,8 @@ namespace grouser::jobs {
 support::Estimate interval95(std::span<const double> values);
 /// The same where the interval is to miss the mean with this chance, in (0, 1).
 support::Estimate interval(std::span<const double> values, double miss);
+/// Prediction interval: mean, and the half width of the interval that misses one further value with this chance.
+support::Estimate predictionInterval(std::span<const double> values, double miss);
 
 /// mean b - mean a with its 95 % half width, from samples of their own: Welch's interval, with the degrees of freedom
 /// of Satterthwaite rounded down; infinite where either has fewer than two values.

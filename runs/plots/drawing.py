@@ -92,7 +92,7 @@ def counted(number, one):
 
 
 def repeats(results):
-    """How many runs of events a level has: "3 seeds", "8 draws"."""
+    """Number of runs per level of events: "3 seeds", "8 draws"."""
     return counted(results["draws"], "draw") if results.get("draws") else counted(results["seeds"], "seed")
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mobility map: map.py MAP.json FILE.png
 
-Go or no-go of an event over its level and the values of a key, the mean speed of each cell in shares of the commanded
-one, the limit between go and no-go, and the level above which the closed form allows none.
+Go or no-go of an event over its level and the values of a key. Cells: mean speed over commanded speed. Band: limit
+between go and no-go. Dashed line: upper bound by the closed form.
 """
 import json
 import math
@@ -14,7 +14,7 @@ SPEED = "speed [m/s]"
 
 
 def numbers(words):
-    """The values as numbers; None where one is a word."""
+    """Values as numbers, or None if any is not numeric."""
     try:
         return [float(word) for word in words]
     except ValueError:
@@ -22,7 +22,7 @@ def numbers(words):
 
 
 def edges(centres):
-    """Bounds of cells around these centres, half of the way to the next."""
+    """Cell edges midway between the centres."""
     middles = [(a + b) / 2 for a, b in zip(centres, centres[1:])]
     return [2 * centres[0] - middles[0], *middles, 2 * centres[-1] - middles[-1]]
 
@@ -33,17 +33,17 @@ def speed(row, commanded):
 
 
 def column_of(column):
-    """Its rows, the lowest level first."""
+    """Rows of a column by increasing level."""
     return sorted(column["rows"], key=lambda row: row["level"])
 
 
 def plain(word):
-    """Without the signs of mathematics."""
+    """Text with mathtext escaped."""
     return word.replace("$", r"\$")
 
 
 def band(column, levels):
-    """The hardest level that is a go and the easiest that is none, within the levels of the map (easiest first)."""
+    """Hardest go and easiest no-go, or the ends of the levels, which are sorted from easiest to hardest."""
     limit = column["limits"][0] if column["limits"] else {"go": None, "no_go": None}
     if limit["go"] is None and limit["no_go"] is None:
         return math.nan, math.nan
@@ -80,7 +80,7 @@ def draw(path):
     blocks = [column["limits"][0]["blocks"] if column["limits"] else None for column in columns]
     if any(block is not None for block in blocks):
         axis.plot(places, [math.nan if block is None else block for block in blocks], "--", color="black",
-                  label="closed form: none above")
+                  label="upper bound (closed form)")
     for verdict, (mark, colour) in MARKS.items():
         if any(row["verdict"].startswith(verdict) for column in columns for row in column["rows"]):
             axis.plot([], [], mark, color=colour, markeredgewidth=2, label=verdict)

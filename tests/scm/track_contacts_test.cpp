@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two tracks of pads on soil: forces at all headings, moments of a turn, and a loaded pad parked on a slope.
+// Two tracks of pads on soil: independence of the heading, yaw moments, and a loaded pad parked on a slope.
 #include "scm/soil_contacts.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace grouser::scm::track_contacts {
 namespace {
 
-constexpr int kShoes = 13;                                                                 // of a track on the ground
+constexpr int kShoes = 13; // shoes per track in ground contact
 constexpr double kLength = 1.85, kBreadth = 0.28, kGauge = 1.9, kPitch = kLength / kShoes; // [m]
 constexpr double kPressure = 47.5e3;                                                       // [Pa]
 constexpr double kSinkage = 0.00240673;                                                    // [m] at kPressure
@@ -26,7 +26,7 @@ double strength() { return lete().cohesion + kPressure * lete().friction; }
 
 terrain::SurfaceJet level(double, double) { return {}; }
 
-/// Pads of two tracks without gaps, all on one part whose origin lies midway between the tracks.
+/// Pads of two tracks without gaps, on one part with its origin midway between the tracks.
 std::vector<Pad> twoTracks() {
   std::vector<Pad> pads;
   for (const double y : {-0.5 * kGauge, 0.5 * kGauge})
@@ -94,7 +94,7 @@ TEST(TrackContacts, MomentOfATurnOnTheSpotIsTheSumOfTheShearOfAllShoes) {
     m = at({0, 0, -kSinkage}, 1e-3 * k);
     contacts.step(&m);
   }
-  // Each place slips on a circle about the middle, and its shear lags by atan(K / radius).
+  // Each point slips on a circle about the centre; its shear lags by atan(K / radius).
   double expected = 0;
   constexpr int kCells = 400;
   for (int i = 0; i < kCells; ++i)
@@ -135,8 +135,8 @@ TEST(TrackContacts, DampingOfShearFadesWithTheSlipAndIsAHundredthOfTheStrengthAt
   }
 }
 
-/// A pad under a weight that comes up within a second, on a slope on which it needs `share` of its shear strength.
-/// Returns its speed down the slope after 10 s, as a mean over the last second [m/s].
+/// Loaded pad on a slope that mobilises `share` of its shear strength; the load ramps up within 1 s. Returns the mean
+/// downhill speed between 9 and 10 s [m/s].
 double speedParked(double share, double timeStep) {
   SoilMap map(0.034, level);
   SoilConstants soil = lete();

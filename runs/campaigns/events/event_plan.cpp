@@ -27,7 +27,7 @@ using base::InputError;
 
 namespace {
 
-constexpr const char *kRigid = "rigid", *kDrawKey = "scm.constants_draw";
+constexpr const char* kRigid = "rigid";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
 constexpr double kFewOnPad = 6;         // grains on the width of a pad; of four tracks skip teeth (docs/events.md)
 constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
@@ -136,8 +136,8 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
   return sets;
 }
 
-/// The key in which the runs of a level differ.
-std::string keyOfNumber(const EventPlan& plan) { return plan.draws > 0 ? kDrawKey : sweeps::kSeedKey; }
+/// Key that distinguishes the runs of a level.
+std::string keyOfNumber(const EventPlan& plan) { return plan.draws > 0 ? sweeps::kDrawKey : sweeps::kSeedKey; }
 
 std::string runName(Event event, double level, int number, const EventPlan& plan) {
   std::string name(base::wordOf(event));
@@ -194,7 +194,7 @@ std::string inWordsOfTheUser(const std::string& fault, const EventOptions& optio
   return fmt::format("event {}: {}", base::wordOf(event), rest);
 }
 
-/// Loads the scene of a run and, with the first seed or draw, checks it: another lays the same bed otherwise.
+/// Loads the scene of a run. Checks it for the first seed or draw only, as the others differ in a random number.
 void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial& planned, int number) {
   try {
     run.scene = setup::loadScene(run.file, run.overrides);
@@ -239,10 +239,10 @@ EventPlan planEvents(const EventOptions& options) {
   plan.seeds = plan.course.granular() ? options.seeds.value_or(options.care().seeds) : 1;
   plan.draws = options.draws;
   if (plan.draws > 0 && !plan.course.deformable())
-    throw InputError("--draws: samples the constants of deformable soil; set --ground scm, or remove it");
+    throw InputError("--draws: requires deformable soil; set --ground scm, or remove it");
   for (const std::string& set : options.fixed)
-    if (plan.draws > 0 && sweeps::keyOf(set) == kDrawKey)
-      throw InputError(fmt::format("--set {}: --draws sets this key; leave one of them out", set));
+    if (plan.draws > 0 && sweeps::keyOf(set) == sweeps::kDrawKey)
+      throw InputError(fmt::format("--set {}: mutually exclusive with --draws; remove one", set));
   const std::vector<std::string> common = commonOf(options, plan);
   plan.sweep.keys = {"event", keyOfNumber(plan)};
   for (const Event event : events) {

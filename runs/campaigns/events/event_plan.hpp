@@ -27,14 +27,14 @@ struct EventOptions {
   std::string soil = "rigid";               ///< rigid, or a soil by its name
   std::optional<scene::TerrainKind> ground; ///< empty: rigid for the soil "rigid", else granular
   std::vector<std::string> only;            ///< events; empty: all
-  std::string onlyOption = "--only";        ///< the option that names them, for messages
+  std::string onlyOption = "--only";        ///< command-line option of `only`, for messages
   std::vector<double> levels;               ///< of the single event in `only`; empty: its default levels
   std::vector<std::string> fixed;           ///< "key=value", of all runs
   std::optional<double> speed;              ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
   std::optional<double> grainRadius;        ///< in the middle of the distribution [m]
   std::optional<double> depth;              ///< of the bed [m]
   std::optional<int> seeds;                 ///< of a bed; empty: those of the care
-  int draws = 0;                            ///< samples of the constants of deformable soil; 0: the nominal ones
+  int draws = 0;                            ///< samples of the soil constants, one run each; 0: nominal constants
   bool quick = false;
   bool frames = false; ///< for films
   const BedCare& care() const { return quick ? kQuickCare : kFullCare; }
@@ -50,7 +50,7 @@ struct PlannedTrial {
   Event event{};
   double level = 0;
   Trial trial;
-  std::vector<std::size_t> runs; ///< of the plan, one a seed or draw
+  std::vector<std::size_t> runs; ///< indices of its runs in the plan, one per seed or draw
 };
 
 struct EventPlan {
@@ -58,12 +58,12 @@ struct EventPlan {
   std::string vehicleFile; ///< as the runs take it
   double grainRadius = 0;  ///< [m]; 0 without grains
   int seeds = 1;           ///< one without grains, as nothing is random
-  int draws = 0;           ///< samples of the constants of deformable soil, a run each
+  int draws = 0;           ///< samples of the soil constants, one run each
   sweeps::SweepPlan sweep; ///< all runs; each names its scene
   std::vector<PlannedTrial> trials;
-  std::map<Event, std::string> omitted;                          ///< of those that were asked for: why
-  bool random() const { return course.granular() || draws > 0; } ///< runs of a level differ
-  bool shoesAlone() const;        ///< the soil meets the shoes alone, not the running gear
+  std::map<Event, std::string> omitted;                          ///< requested events without runs, with the reason
+  bool random() const { return course.granular() || draws > 0; } ///< whether the runs of a level scatter
+  bool shoesAlone() const;                                       ///< soil contact: track shoes only
   std::string groundText() const; ///< "rigid", "lete_sand", "lete_sand (deformable soil)"
 };
 

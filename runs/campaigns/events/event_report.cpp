@@ -41,14 +41,12 @@ public:
     if (!values_.contains(name)) order_.push_back(name);
     values_[name].push_back(value);
   }
-  /// `drawn`: with the interval that holds one further draw with 95 % probability, instead of that of the mean.
+  /// `drawn`: prediction intervals of one further draw instead of confidence intervals of the mean.
   std::vector<FigureOverSeeds> figures(bool drawn) const {
     std::vector<FigureOverSeeds> all;
     for (const std::string& name : order_) {
       const std::vector<double>& v = values_.at(name);
-      support::Estimate estimate = jobs::interval95(v);
-      if (drawn) estimate.halfWidth *= std::sqrt(static_cast<double>(v.size()) + 1);
-      all.push_back({name, static_cast<int>(v.size()), v, estimate});
+      all.push_back({name, v, drawn ? jobs::predictionInterval(v, 0.05) : jobs::interval95(v)});
     }
     return all;
   }
@@ -203,7 +201,7 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
           base::counted(row.pending, "of its runs is still to be done", "of its runs are still to be done"));
     for (const FigureOverSeeds& f : row.figures)
       text += fmt::format("{:<18}  {:<50} {}{}\n", "", f.name,
-                          f.runs > 1 ? jobs::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
+                          f.values.size() > 1 ? jobs::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
                           row.doubtOf(f).empty() ? "" : "  inconclusive");
   }
   for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);
@@ -226,9 +224,9 @@ std::string eventsCsv(const std::vector<EventRow>& rows, const std::pair<std::st
                                         support::csvCell(row.why()));
     if (row.figures.empty()) text += head + ",,,,,\n";
     for (const FigureOverSeeds& f : row.figures)
-      text +=
-          fmt::format("{},{},{},{},{},{}\n", head, support::csvCell(f.name), f.runs, support::csvCell(f.estimate.value),
-                      support::csvCell(f.estimate.halfWidth), support::csvCell(row.doubtOf(f)));
+      text += fmt::format("{},{},{},{},{},{}\n", head, support::csvCell(f.name), f.values.size(),
+                          support::csvCell(f.estimate.value), support::csvCell(f.estimate.halfWidth),
+                          support::csvCell(row.doubtOf(f)));
   }
   return text;
 }
@@ -261,7 +259,7 @@ nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::
     entry["figures"] = Json::array();
     for (const FigureOverSeeds& f : row.figures)
       entry["figures"].push_back({{"name", f.name},
-                                  {"runs", f.runs},
+                                  {"runs", f.values.size()},
                                   {"values", f.values},
                                   {"mean", f.estimate.value},
                                   {"half_width", number(f.estimate.halfWidth)},

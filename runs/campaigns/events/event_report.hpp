@@ -17,12 +17,10 @@
 namespace grouser::events {
 
 struct FigureOverSeeds {
-  std::string name; ///< with its unit
-  int runs = 0;
-  std::vector<double> values; ///< of the runs
-  /// Mean with the half width of its 95 % interval over seeds; over draws, of the interval that holds one further draw
-  /// with 95 % probability.
-  /// Infinite for one run.
+  std::string name;           ///< with its unit
+  std::vector<double> values; ///< of the runs that have it
+  /// Mean with the half width of its 95 % confidence interval over seeds, or of the 95 % prediction interval of one
+  /// further draw; infinite for one run.
   support::Estimate estimate;
 };
 
@@ -47,9 +45,9 @@ struct EventRow {
   std::string doubt;   ///< why those of the steady part are inconclusive; empty where they are not
   std::string picture; ///< of the first run, from the folder; empty where there is none
 
-  /// Why the means of the steady part say nothing of a figure; empty where they do, or it is none of them.
+  /// Reason why a steady-part mean is inconclusive; empty if it is valid, or no steady-part mean.
   std::string doubtOfMean(const std::string& figure) const;
-  /// Why a figure is inconclusive; empty where it is sound.
+  /// Reason why a figure is inconclusive; empty if it is valid.
   std::string doubtOf(const FigureOverSeeds& figure) const;
   /// Of the first run that is no go, since that decides; else of the first that has ended, and of drawbar pulls their
   /// mean.
@@ -73,11 +71,11 @@ std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Cou
 
 /// "go", "partly 1/3", "pending": the verdict over all seeds.
 std::string goText(const EventRow& row);
-/// "0.4"; empty where the event has no levels.
+/// "0.4"; empty for an event without levels.
 std::string levelCell(Event event, double level);
 /// "between 0.4 and 0.5"
 std::string limitText(const EventLimit& limit);
-/// The closed form, and whether the runs agree with it; empty where there is none.
+/// Closed form, and whether the runs agree with it; empty without a closed form.
 std::string referenceText(const EventLimit& limit);
 
 /// Said of such runs, at the head and in the tables.
@@ -86,7 +84,7 @@ inline constexpr const char* kShoesAlone =
 
 /// Both tables to read.
 std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);
-/// A row for each level and figure, with its runs, mean and half width. `first`: name and cell of a leading column.
+/// One row per level and figure, with its runs, mean and half width. `first`: name and value of a leading column.
 std::string eventsCsv(const std::vector<EventRow>& rows, const std::pair<std::string, std::string>& first = {});
 /// Everything, with the keys that each level sets.
 nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits,

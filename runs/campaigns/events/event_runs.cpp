@@ -19,10 +19,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The runs of a part.
+/// Plan with the runs of this part only.
 sweeps::SweepPlan partOf(const sweeps::SweepPlan& whole, const jobs::Part& part) {
-  sweeps::SweepPlan some = whole;
-  some.runs.clear();
+  sweeps::SweepPlan some{whole.scene, whole.keys, {}};
   for (std::size_t i = 0; i < whole.runs.size(); ++i)
     if (part.has(i)) some.runs.push_back(whole.runs[i]);
   return some;
@@ -63,7 +62,7 @@ jobs::Recipe recipeOf(const EventsCommand& command, const fs::path& folder, cons
                                  {"seeds", given(o.seeds)},
                                  {"quick", o.quick},
                                  {"frames", o.frames}};
-  // Without this key: the ground that the soil implies.
+  // The default ground of a soil has no entry.
   if (groundOf(o) == scene::TerrainKind::scm) call["ground"] = base::wordOf(scene::TerrainKind::scm);
   if (o.draws > 0) call["draws"] = o.draws;
   if (!axis.empty()) call["axis"] = axis;

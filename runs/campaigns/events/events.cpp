@@ -68,7 +68,7 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
 
 void writeAgainst(const EventsCommand& command, const EventSet& here, const std::vector<EventSet>& others) {
   std::error_code absent;
-  for (const char* name : {kAgainst, kAgainstText}) fs::remove(here.folder / name, absent); // of an earlier call
+  for (const char* name : {kAgainst, kAgainstText}) fs::remove(here.folder / name, absent); // left by an earlier call
   if (others.empty()) return;
   std::string csv, text;
   for (const EventSet& other : others) {

@@ -6,10 +6,10 @@
 /// `grouser events`: the standard mobility events of a vehicle on a ground.
 namespace grouser::events {
 
-/// Runs what is missing, each run a process, and writes events.csv, events.json, events.txt and pictures of them, and
-/// against.csv and against.txt with --against; a run whose vehicle does not make it is a result. Throws
-/// base::InputError where a word is wrong, before anything is started, and base::SimulationError at the end where runs
-/// have failed for a cause that is not the vehicle's.
+/// Performs the missing runs, each in a process, and writes events.csv, events.json, events.txt and pictures, with
+/// --against also against.csv and against.txt. A no-go is a result, not an error. Throws base::InputError for invalid
+/// options before any run starts, and base::SimulationError at the end if runs failed for a reason unrelated to the
+/// vehicle.
 void eventsCommand(const EventsCommand& command);
 
 } // namespace grouser::events

@@ -25,15 +25,12 @@ using base::InputError;
 namespace {
 
 constexpr const char *kMapTable = "map.csv", *kMapJson = "map.json", *kMapText = "map.txt", *kMapPlot = "map.png";
-/// Keys that the options of the command set, or that tell runs of one result apart.
-constexpr std::pair<const char*, const char*> kOfOptions[] = {{"terrain.material", "name the soil by --soil"},
-                                                              {"terrain.kind", "name the ground by --ground"},
-                                                              {"run.seed", "set the number by --seeds"},
-                                                              {"scm.constants_draw", "set the number by --draws"},
-                                                              {"run.threads", "use --threads"},
-                                                              {"run.device", "use --device"}};
+/// Keys that a command-line option sets, with that option.
+constexpr std::pair<const char*, const char*> kOfOptions[] = {
+    {"terrain.material", "use --soil"}, {"terrain.kind", "use --ground"}, {sweeps::kSeedKey, "use --seeds"},
+    {sweeps::kDrawKey, "use --draws"},  {"run.threads", "use --threads"}, {"run.device", "use --device"}};
 
-/// All runs of the map, column by column.
+/// Runs of all columns in one plan.
 sweeps::SweepPlan runsOf(const MobilityMap& map) {
   sweeps::SweepPlan all;
   all.scene = map.columns.front().plan.sweep.scene;
@@ -79,7 +76,7 @@ nlohmann::ordered_json mapJson(const MobilityMap& map) {
   return json;
 }
 
-/// The event's plan with the axis's key at a value. A fault of that key is named after --axis.
+/// Plan of the event for one value of the axis. Errors about the key name --axis.
 EventPlan planColumn(const EventOptions& options, const std::string& key, const std::string& value) {
   EventOptions ofColumn = options;
   ofColumn.fixed.push_back(fmt::format("{}={}", key, value));
@@ -95,21 +92,20 @@ EventPlan planColumn(const EventOptions& options, const std::string& key, const 
 
 void refuseKey(const std::string& axis, const std::string& key) {
   for (const auto& [other, remedy] : kOfOptions)
-    if (key == other) throw InputError(fmt::format("--axis {}: a map has one of these; {}", axis, remedy));
+    if (key == other) throw InputError(fmt::format("--axis {}: an option sets this key; {}", axis, remedy));
   if (key.starts_with("output."))
-    throw InputError(fmt::format("--axis {}: keys of [output] change no verdict; use --set", axis));
+    throw InputError(fmt::format("--axis {}: keys of [output] do not affect verdicts; use --set", axis));
 }
 
-/// Throws where two runs would have one folder.
+/// Throws if two runs have the same folder name.
 void checkNames(const MobilityMap& map, const std::string& axis) {
   std::set<std::string> names;
   for (const MapColumn& column : map.columns)
     for (const sweeps::SweepRun& run : column.plan.sweep.runs)
       if (!names.insert(run.name).second)
-        throw InputError(
-            fmt::format("--axis {}: two runs would be named {}; write values and levels with fewer digits, "
-                        "each once",
-                        axis, run.name));
+        throw InputError(fmt::format("--axis {}: duplicate run name {}; set values and levels that differ in "
+                                     "six digits",
+                                     axis, run.name));
 }
 
 bool sameLevels(const EventPlan& a, const EventPlan& b) {
@@ -117,7 +113,7 @@ bool sameLevels(const EventPlan& a, const EventPlan& b) {
                     [](const PlannedTrial& x, const PlannedTrial& y) { return x.level == y.level; });
 }
 
-/// The times of all columns: each as the first.
+/// Estimated run time of all columns, from that of the first.
 std::vector<EventTime> timesOf(const MobilityMap& map, const fs::path& folder) {
   std::vector<EventTime> times = events::timesOf(map.columns.front().plan, folder);
   const auto columns = static_cast<int>(map.columns.size());
@@ -128,26 +124,24 @@ std::vector<EventTime> timesOf(const MobilityMap& map, const fs::path& folder) {
 } // namespace
 
 MobilityMap planMap(const EventOptions& options, const std::string& axis) {
-  if (options.only.size() != 1) throw InputError("map: takes one event; name it with --event");
+  if (options.only.size() != 1) throw InputError("map: requires exactly one event; set --event");
   MobilityMap map;
   map.event = eventOf(options.only[0]);
   if (levelText(map.event).empty())
-    throw InputError(fmt::format("--event {}: has no levels, which are one axis of the map; take e.g. {}",
-                                 options.only[0], base::wordOf(Event::grade)));
+    throw InputError(
+        fmt::format("--event {}: has no levels to map; use e.g. {}", options.only[0], base::wordOf(Event::grade)));
   const sweeps::KeyValues values = sweeps::keyValues(axis, "--axis", "scm.c=0,1000,2000");
   map.key = values.key;
   if (values.values.size() < 2)
-    throw InputError(fmt::format("--axis {}: a map has two values or more along each axis; --set sets one", axis));
+    throw InputError(fmt::format("--axis {}: needs at least two values; use --set for a single one", axis));
   refuseKey(axis, map.key);
   for (const std::string& value : values.values) {
     MapColumn column{value, planColumn(options, values.key, value), {}};
     for (sweeps::SweepRun& run : column.plan.sweep.runs)
       run.name = fmt::format("{}={},{}", sweeps::plainText(values.key), sweeps::plainText(column.value), run.name);
-    if (column.plan.trials.size() < 2)
-      throw InputError(fmt::format("--levels: a map has two levels or more; {} has {} here", base::wordOf(map.event),
-                                   column.plan.trials.size()));
+    if (column.plan.trials.size() < 2) throw InputError("--levels: a map needs at least two levels");
     if (!map.columns.empty() && !sameLevels(column.plan, map.columns.front().plan))
-      throw InputError("--levels: name them; those of the default differ from value to value of this axis");
+      throw InputError("--levels: required, as the default levels differ between the values of --axis");
     map.columns.push_back(std::move(column));
   }
   checkNames(map, axis);

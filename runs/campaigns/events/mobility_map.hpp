@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-/// `grouser map`: go or no-go of an event over its level and the values of a key.
+/// Go/no-go map of an event over its level and the values of a key (`grouser map`).
 namespace grouser::events {
 
 struct MapCommand {
-  EventsCommand events; ///< of the single event in options.only
+  EventsCommand events; ///< options.only has the single event
   std::string axis;     ///< "key=value,value..."
 };
 
-/// The runs of one value of the axis: a column of the map.
+/// One column of the map: the runs of one value of the key.
 struct MapColumn {
   std::string value;
-  EventPlan plan; ///< names of its runs begin with key and value
+  EventPlan plan; ///< names of its runs start with key and value
   std::vector<EventRow> rows;
 };
 
@@ -27,14 +27,14 @@ struct MobilityMap {
   std::vector<MapColumn> columns;
 };
 
-/// Plans the event for each value. Throws base::InputError for an event without levels, for fewer than two levels or
-/// values, for levels that differ between values, for keys that options set, and as planEvents() does.
+/// Plans the event for each value. Throws base::InputError for an event without levels, fewer than two levels or
+/// values, levels that differ between values, or a key that an option sets; otherwise as planEvents().
 MobilityMap planMap(const EventOptions& options, const std::string& axis);
 
-/// A table of verdicts, the hardest level first, then the limit of each value with its closed form.
+/// Table of verdicts, hardest level first, and the limit for each value with its closed form.
 std::string mapText(const MobilityMap& map);
 
-/// Runs what is missing, and writes map.txt, map.csv, map.json and map.png. Throws as eventsCommand() does.
+/// Performs the missing runs, and writes map.txt, map.csv, map.json and map.png. Throws as eventsCommand().
 void mapCommand(const MapCommand& command);
 
 } // namespace grouser::events

@@ -20,12 +20,12 @@ namespace {
 
 constexpr const char* kInconclusive = "inconclusive";
 
-/// The figures of a file of results. Throws nlohmann::json::exception where it has another form.
+/// Parses events.json. Throws nlohmann::json::exception for an unexpected format.
 EventSet parsed(const nlohmann::json& json) {
   EventSet set;
   set.vehicle = json.at("vehicle"), set.soil = json.at("soil"), set.ground = json.at("ground");
   set.speed = json.at("speed_m_s");
-  set.seeded = set.ground == base::wordOf(scene::TerrainKind::granular), set.drawn = json.at("draws") > 0;
+  set.drawn = json.at("draws") > 0;
   for (const auto& row : json.at("rows")) {
     const auto event = base::valueOf<Event>(row.at("event").get<std::string>());
     if (!event) continue;
@@ -37,12 +37,10 @@ EventSet parsed(const nlohmann::json& json) {
   return set;
 }
 
-/// Mean with its interval: of one further draw where the constants are drawn.
+/// Mean with its confidence interval, or with the prediction interval of one further draw.
 support::Estimate estimateOf(const EventSet& set, const LevelFigure& figure) {
-  support::Estimate e = jobs::interval95(figure.values);
-  if (!set.seeded && !set.drawn) e.halfWidth = 0;
-  if (set.drawn) e.halfWidth *= std::sqrt(static_cast<double>(figure.values.size()) + 1);
-  return e;
+  if (set.drawn) return jobs::predictionInterval(figure.values, 0.05);
+  return set.seeded() ? jobs::interval95(figure.values) : support::Estimate{figure.values.front(), 0};
 }
 
 std::string countText(const LevelFigure& figure) {
@@ -55,6 +53,8 @@ std::string nameOf(const EventSet& set) { return fmt::format("{} on {} ({})", se
 
 } // namespace
 
+bool EventSet::seeded() const { return ground == base::wordOf(scene::TerrainKind::granular); }
+
 EventSet eventSet(const fs::path& folder, const std::string& vehicle, const EventPlan& plan,
                   const std::vector<EventRow>& rows) {
   EventSet set{folder,
@@ -62,7 +62,6 @@ EventSet eventSet(const fs::path& folder, const std::string& vehicle, const Even
                plan.course.rigid() ? "rigid" : plan.course.soil,
                std::string(base::wordOf(plan.course.ground)),
                plan.course.speed,
-               plan.course.granular(),
                plan.draws > 0,
                {}};
   for (const EventRow& row : rows)
@@ -76,8 +75,8 @@ EventSet readEventSet(const fs::path& folder) {
   const fs::path file = folder / "events.json";
   std::error_code error;
   if (!fs::is_regular_file(file, error))
-    throw base::InputError(fmt::format("--against {}: holds no events.json; name the folder of results of `grouser "
-                                       "events`",
+    throw base::InputError(fmt::format("--against {}: contains no events.json; set the result folder of a "
+                                       "`grouser events`",
                                        folder.string()));
   try {
     std::ifstream in(file);
@@ -100,7 +99,7 @@ std::vector<FigureDifference> differencesFrom(const EventSet& here, const EventS
     if (found == other.figures.end() || mine.values.empty() || found->values.empty()) continue;
     FigureDifference d{mine, *found, estimateOf(here, mine), estimateOf(other, *found), {}, {}};
     const support::Estimate &a = d.ofOther, &b = d.ofHere;
-    d.difference = here.seeded && other.seeded
+    d.difference = here.seeded() && other.seeded()
                        ? jobs::unpairedChange(found->values, mine.values)
                        : support::Estimate{b.value - a.value, std::hypot(a.halfWidth, b.halfWidth)};
     d.verdict = mine.doubtful || found->doubtful ? kInconclusive

@@ -6,6 +6,7 @@
 #include "runs/campaigns/sweeps/bed_sides.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/scene_check.hpp"
+#include "runs/campaigns/sweeps/sweep_plan.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/setup/grain_count.hpp"
@@ -222,7 +223,7 @@ private:
 
   void addDraws(int draws) {
     if (draws == 0) return;
-    const auto drawn = [](int number) { return fmt::format("scm.constants_draw={}", number); };
+    const auto drawn = [](int number) { return fmt::format("{}={}", kDrawKey, number); };
     if (!scene_.deformable())
       throw base::InputError(
           fmt::format("--draws {}: the scene has no deformable soil, whose constants it draws; remove "

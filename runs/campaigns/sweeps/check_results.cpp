@@ -191,8 +191,7 @@ private:
         samples.push_back(std::accumulate(change.begin(), change.end(), 0.0) / static_cast<double>(change.size()));
     }
     if (samples.size() < 2) return;
-    support::Estimate scatter = jobs::interval(samples, asked_.levels.change); // interval of the mean
-    scatter.halfWidth *= std::sqrt(static_cast<double>(samples.size()) + 1);
+    const support::Estimate scatter = jobs::predictionInterval(samples, asked_.levels.change);
     add({CheckAxis::parameter,
          scatter,
          std::nullopt,

@@ -47,7 +47,7 @@ support::Estimate groundDifference(const GroundResult& a, const GroundResult& b,
 /// Verdict on a difference by the bar `percent` of the larger of both means.
 std::string groundVerdict(const support::Estimate& difference, double a, double b, double percent);
 
-/// "12.3 +- 0.4"; four digits without an interval, "-" without a value.
+/// Value with its half width ("12.3 +- 0.4"); four digits if the half width is zero or infinite; "-" for NaN.
 std::string figureText(const support::Estimate& e);
 
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,

@@ -21,8 +21,9 @@ struct SweepLists {
   int seeds = 0; ///< each combination with run.seed 1 to so many; 0: as the scene says
 };
 
-inline constexpr const char* kCaseKey = "case";     ///< stands for the cases among the keys of a sweep
-inline constexpr const char* kSeedKey = "run.seed"; ///< over its values means and intervals are taken
+inline constexpr const char* kCaseKey = "case";               ///< stands for the cases among the keys of a sweep
+inline constexpr const char* kSeedKey = "run.seed";           ///< over its values means and intervals are taken
+inline constexpr const char* kDrawKey = "scm.constants_draw"; ///< sample of the soil constants
 
 /// One run of a sweep.
 struct SweepRun {
@@ -45,16 +46,16 @@ struct SweepPlan {
 /// Cuts at commas that stand outside quotes, brackets and braces: "[1, 2],[3, 4]" is two values.
 std::vector<std::string> splitValues(std::string_view list);
 
-/// A key with the values that a list gives it.
+/// A key with a list of values.
 struct KeyValues {
   std::string key;
   std::vector<std::string> values;
 };
-/// Key and values of "key=value,value...". Throws InputError, in the words of the command line's `option` with an
-/// `example`, where there is no key, no value, an empty value or one twice.
+/// Parses "key=value,value...". Throws InputError for a missing key, a missing or empty value, or a duplicate value;
+/// the message names the command-line `option` and shows `example`.
 KeyValues keyValues(const std::string& set, const std::string& option, const std::string& example);
 
-/// The characters of a text that every file system and shell accepts; an underscore for each run of others.
+/// Replaces each run of characters that are unsafe in folder names by an underscore.
 std::string plainText(const std::string& text);
 
 /// The runs of `scene` over the product of all lists, every scene of them loaded and checked as `grouser plan` does. A

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser map`: its runs, its table, and a map of two by two runs as a user calls it.
+// `grouser map`: plan, errors, table, and a 2 x 2 map from the command line.
 #include "runs/campaigns/events/mobility_map.hpp"
 
 #include "base/error.hpp"
@@ -47,26 +47,25 @@ TEST(MobilityMap, HasARunForEachLevelAndValue) {
 
 TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   EventOptions options = slopesOfSand();
-  EXPECT_EQ(faultOf(options, "scm.c=5"),
-            "--axis scm.c=5: a map has two values or more along each axis; --set sets one");
+  EXPECT_EQ(faultOf(options, "scm.c=5"), "--axis scm.c=5: needs at least two values; use --set for a single one");
   EXPECT_EQ(faultOf(options, "scm.c"),
             "--axis scm.c: no value is given; write key=value,value..., e.g. --axis scm.c=0,1000,2000");
   EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 stands there twice; remove one");
   EXPECT_EQ(faultOf(options, "scm.colour=1,2").find("--axis scm.colour=1: unknown key scm.colour"), 0u)
       << faultOf(options, "scm.colour=1,2");
   EXPECT_NE(faultOf(options, "scm.c=0,0").find("stands there twice"), std::string::npos);
-  EXPECT_NE(faultOf(options, "terrain.material=dry_sand,lete_sand").find("name the soil by --soil"), std::string::npos);
+  EXPECT_NE(faultOf(options, "terrain.material=dry_sand,lete_sand").find("an option sets this key; use --soil"),
+            std::string::npos);
   options.levels = {0.3, 0.3000000001};
-  EXPECT_NE(faultOf(options, "scm.c=5,6").find("two runs would be named scm.c=5,grade=0.3"), std::string::npos);
+  EXPECT_NE(faultOf(options, "scm.c=5,6").find("duplicate run name scm.c=5,grade=0.3"), std::string::npos);
   EventOptions rigid;
   rigid.only = {"grade"};
   EXPECT_EQ(faultOf(rigid, "spec.contact.friction_ground=0.4,0.8"),
-            "--levels: name them; those of the default differ from value to value of this axis");
+            "--levels: required, as the default levels differ between the values of --axis");
   options.levels = {0.3};
-  EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--levels: a map has two levels or more; grade has 1 here");
+  EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--levels: a map needs at least two levels");
   options.levels = {}, options.only = {"pivot_turn"};
-  EXPECT_EQ(faultOf(options, "scm.c=5,6"),
-            "--event pivot_turn: has no levels, which are one axis of the map; take e.g. grade");
+  EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--event pivot_turn: has no levels to map; use e.g. grade");
   options.only = {"gap"};
   EXPECT_EQ(faultOf(options, "scm.c=5,6").find("--event gap: between slabs"), 0u) << faultOf(options, "scm.c=5,6");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Differences between sets of events, with verdicts.
+// Comparison of sets of events, with verdicts.
 #include "runs/campaigns/events/other_events.hpp"
 
 #include "base/error.hpp"
@@ -34,7 +34,7 @@ EventSet granular(const std::filesystem::path& folder) {
 }
 
 EventSet deformable() {
-  EventSet set{"", "light_tracked", "lete_sand", "scm", 1.2, false, false, {}};
+  EventSet set{"", "light_tracked", "lete_sand", "scm", 1.2, false, {}};
   set.figures = {{Event::drawbar, 0.2, "drawbar pull [N]", {24000}, 1, false},
                  {Event::drawbar, 0.2, "slip [-]", {0.201}, 1, false},
                  {Event::drawbar, 0.2, "speed [m/s]", {0.96}, 1, false},
@@ -96,12 +96,12 @@ TEST_F(EventSetFile, RefusesFoldersWithoutResults) {
       return error.what();
     }
   };
-  EXPECT_NE(fault().find("holds no events.json; name the folder of results"), std::string::npos) << fault();
+  EXPECT_NE(fault().find("contains no events.json; set the result folder"), std::string::npos) << fault();
   std::ofstream(folder_ / "events.json") << R"({"vehicle": 3)";
   EXPECT_NE(fault().find("is damaged"), std::string::npos) << fault();
   const Outcome o = call("events --only acceleration --against nowhere --out out");
   EXPECT_EQ(o.code, 2);
-  EXPECT_EQ(o.error().find("--against nowhere: holds no events.json"), 0u) << o.errors;
+  EXPECT_EQ(o.error().find("--against nowhere: contains no events.json"), 0u) << o.errors;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
