@@ -22,10 +22,11 @@ std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
   return commands;
 }
 
-/// Text as roff takes it: nothing in it is a request or an escape.
+/// Text in roff, without requests and escapes of its own. A line may break behind a comma of a long list of words.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
+    if (c != ' ' && out.ends_with(',')) out += "\\:";
     if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n')) out += "\\&";
     if (c == '\\')
       out += "\\e";
