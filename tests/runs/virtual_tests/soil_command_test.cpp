@@ -218,9 +218,10 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
       std::string("soil --calibrate targets.toml --out found --seeds 1 --large-seeds 1") + kSmallest + kLongSteps;
   words.replace(words.find("20000"), 5, "30000"); // half of what is wanted, which is within the tolerance
   const auto record = [&] { return nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")); };
-  ASSERT_EQ(call(words + " --seconds 1e-3").code, 0);
+  // Within so short a time no test begins, on any machine.
+  ASSERT_EQ(call(words + " --seconds 1e-9").code, 0);
   EXPECT_EQ(record().at("status"), "unfinished");
-  ASSERT_EQ(call(words + " --seconds 1e-3").code, 0) << "the same call goes on";
+  ASSERT_EQ(call(words + " --seconds 1e-9").code, 0) << "the same call goes on";
   EXPECT_EQ(record().at("missing").at("trial"), "shear_1");
   const Outcome o = call(words + " --resume --jobs 2");
   ASSERT_EQ(o.code, 0) << o.errors;
