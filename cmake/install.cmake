@@ -40,7 +40,7 @@ install(DIRECTORY ${manual}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR}
 
 # The libraries: `find_package(grouser)` and the target grouser::grouser, for the headers <grouser/...>. Those of the
 # rooms, which may change at any time, lie below <grouser/internal/...>: grouser::internal finds them.
-set(rooms base contact spheredecomp multibody terrain scm vehicle coupling)
+set(rooms base contact fluid spheredecomp multibody terrain scm vehicle coupling)
 set(program_rooms support scene setup storage output render session)
 set(targets grouser_flags grouser_api)
 foreach(room ${rooms} ${program_rooms})

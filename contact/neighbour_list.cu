@@ -3,6 +3,7 @@
 
 #include "base/algorithms.hpp"
 #include "base/error.hpp"
+#include "contact/cell_sort.hpp"
 #include "contact/neighbour_rows.cuh"
 #include "contact/neighbour_search.cuh"
 
@@ -42,48 +43,18 @@ int timesFiner(std::int64_t diameter, std::int64_t smallest) {
   return std::clamp(static_cast<int>(std::min<double>(ratio, kMost)), 1, kMost);
 }
 
-/// Places are 32-bit numbers, also those that are read behind the last.
-void checkPlaces(std::uint64_t places, std::size_t grains) {
-  if (places + kSlotsRead >= std::uint64_t{1} << 32)
-    throw base::SimulationError("the neighbour lists of " + std::to_string(grains) + " grains have " +
-                                std::to_string(places) + " places, 2^32 or more; use more ranks, or a smaller skin");
-}
-
 } // namespace
 
 NeighbourList::NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                              const base::Period& period, std::int64_t smallest)
     : exec_(exec), diameter_(diameter), skin_(skin), finer_(timesFiner(diameter, smallest)), period_(period),
       width_(width), count_(exec), start_(exec), slot_(exec), reach_(exec), history_(exec), touching_(exec), id_(exec),
-      order_(exec), cellStart_(exec), slotAt_(exec), bounds_(exec, 6) {}
+      order_(exec), cellStart_(exec), slotAt_(exec) {}
 
 void NeighbourList::sort(const Position* position, std::size_t count, const std::uint32_t* rowOf) {
   sorted_ = count;
-  const auto n = static_cast<std::int64_t>(count);
-  order_.resize(count);
-  base::Array<std::uint64_t> key(exec_, count);
-  // A few grains far away must not make the grid huge: widen its cells until it fits.
-  const double most = 16.0 * static_cast<double>(count) + 1e6;
-  grid_.period = period_;
-  for (std::int64_t edge = (diameter_ + skin_ + finer_ - 1) / finer_;; edge *= 2) {
-    grid_.setEdge(edge);
-    bounds_.zero();
-    base::forEach(exec_, "find grid bounds", sharesOf(n), FindBounds<CellGrid>{grid_, position, n, bounds_.data()});
-    const std::vector<std::uint32_t> b = bounds_.toHost();
-    double all = 1;
-    for (int a = 0; a < 3; ++a) {
-      const auto k = static_cast<std::size_t>(a);
-      if (!period_.along(a)) grid_.low[a] = ~b[k], grid_.cells[a] = b[k + 3] - grid_.low[a] + 1;
-      all *= grid_.cells[a];
-    }
-    if (all <= most) break;
-  }
-  base::forEach(exec_, "assign cell keys", n, AssignKeys<CellGrid>{grid_, position, key.data()});
-  base::iota(exec_, order_.data(), count);
-  base::sortByKey(exec_, key.data(), order_.data(), count);
-  const std::int64_t cells = static_cast<std::int64_t>(grid_.cells.x) * grid_.cells.y * grid_.cells.z;
-  cellStart_.resize(static_cast<std::size_t>(cells) + 1);
-  base::forEach(exec_, "mark cell starts", n + 1, MarkStarts{key.data(), n, cells, cellStart_.data()});
+  grid_ = fittedGrid(exec_, position, count, (diameter_ + skin_ + finer_ - 1) / finer_, period_);
+  sortByCell(exec_, grid_, position, count, order_, cellStart_);
   if (!exec_.onCpu()) groupByContacts(rowOf);
 }
 
@@ -120,25 +91,6 @@ base::Array<std::uint32_t> NeighbourList::largestNear(const RadiiInW& radii) con
   return largest;
 }
 
-std::uint32_t NeighbourList::layRows() {
-  const std::size_t n = count_.size();
-  start_.resize(n);
-  if (exec_.onCpu()) {
-    stride_ = 1;
-    checkPlaces(base::sum(exec_, count_.data(), n), n);
-    return base::exclusiveScan(exec_, count_.data(), start_.data(), n);
-  }
-  stride_ = kSlice;
-  const std::size_t slices = (n + kSlice - 1) / kSlice;
-  base::Array<std::uint32_t> longest(exec_, slices);
-  base::forEach(exec_, "measure slices", static_cast<std::int64_t>(slices),
-                LongestOfSlice{count_.data(), static_cast<std::int64_t>(n), longest.data()});
-  checkPlaces(base::sum(exec_, longest.data(), slices) * kSlice, n);
-  const std::uint32_t places = base::exclusiveScan(exec_, longest.data(), longest.data(), slices);
-  base::forEach(exec_, "lay rows", static_cast<std::int64_t>(n), StartInSlice{longest.data(), start_.data()});
-  return places * kSlice;
-}
-
 void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins,
                           const RadiiInW& radii) {
   const auto n = static_cast<std::int64_t>(sorted_);
@@ -169,7 +121,9 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   base::forEach(exec_, "count neighbours", n, CountNear{near, count_.data()});
   const std::uint32_t most = base::maximum(exec_, count_.data(), sorted_);
   checkLength(most, !radii.sphere);
-  const std::size_t places = layRows() + kSlotsRead;
+  const RowLayout layout = layRows(exec_, count_, start_, kSlotsRead);
+  stride_ = layout.stride;
+  const std::size_t places = layout.places + kSlotsRead;
   // More than is needed now, so that not every rebuild allocates.
   const auto width = static_cast<std::size_t>(width_);
   if (places > slot_.size())

@@ -76,9 +76,6 @@ private:
   /// The largest radius near each cell of a fine grid.
   base::Array<std::uint32_t> largestNear(const RadiiInW& radii) const;
   void groupByContacts(const std::uint32_t* rowOf);
-  /// Gives the rows of `count_` neighbours their starts. Returns the places of all of them. Throws SimulationError
-  /// where they are too many to be numbered.
-  std::uint32_t layRows();
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;
@@ -92,7 +89,7 @@ private:
   base::Array<std::uint64_t> touching_;
   base::Array<std::uint32_t> id_; ///< by slot, as at the build
   std::int64_t stride_{1}, maskWords_{1};
-  base::Array<std::uint32_t> order_, cellStart_, slotAt_, bounds_;
+  base::Array<std::uint32_t> order_, cellStart_, slotAt_;
   CellGrid grid_;
 };
 

@@ -39,6 +39,15 @@ std::string kindOf(const std::string& run) { return run.substr(0, run.rfind('_')
 
 } // namespace
 
+void addDeviceOptions(CLI::App& app, std::string& device, int& threads) {
+  app.add_option("--device", device, "auto, cpu or cuda")
+      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+      ->capture_default_str();
+  app.add_option("--threads", threads, "CPU threads, 0 for all; the answer does not depend on it")
+      ->check(support::wholeNumber(0, 1024))
+      ->capture_default_str();
+}
+
 void addPieceOptions(CLI::App& app, PieceOptions& o) {
   app.add_flag(
       "--resume", o.resume,
@@ -52,12 +61,7 @@ void addPieceOptions(CLI::App& app, PieceOptions& o) {
   app.add_option("--seconds", o.seconds,
                  "no further run is begun that would end after so many, by how long the last one took; 0: no end")
       ->check(support::notNegative("a time in seconds"));
-  app.add_option("--device", o.device, "auto, cpu or cuda")
-      ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-      ->capture_default_str();
-  app.add_option("--threads", o.threads, "CPU threads, 0 for all; the answer does not depend on it")
-      ->check(support::wholeNumber(0, 1024))
-      ->capture_default_str();
+  addDeviceOptions(app, o.device, o.threads);
 }
 
 Part PieceOptions::share() const { return partOf(part).value_or(Part{}); }

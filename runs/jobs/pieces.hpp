@@ -32,6 +32,8 @@ struct PieceOptions {
   Part share() const; ///< as `part` says
 };
 void addPieceOptions(CLI::App& app, PieceOptions& options);
+/// --device and --threads alone.
+void addDeviceOptions(CLI::App& app, std::string& device, int& threads);
 
 /// A file in a folder of runs that says what they depend on: a call that has the same text goes on with them.
 class Recipe {

@@ -9,7 +9,7 @@ from cpp_outline import without_comments
 SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
 SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and what begins with #!
 OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html', '.mp4'}
-TOPS = ['base', 'contact', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle', 'coupling', 'assets', 'api', 'runs',
+TOPS = ['base', 'contact', 'fluid', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle', 'coupling', 'assets', 'api', 'runs',
         'tests', 'docs', 'cmake', 'python']
 GENERATED = {'grouser_commit.hpp'}  # written by the build
 UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')  # no part of the tree

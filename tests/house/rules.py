@@ -12,6 +12,7 @@ from references import commits, links, long_tests, mutants, prose
 LIBRARIES = {
     'base': set(),
     'contact': {'base'},
+    'fluid': {'base', 'contact'},
     'spheredecomp': {'base'},
     'multibody': {'base'},
     'terrain': {'base', 'contact'},

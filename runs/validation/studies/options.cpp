@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/support/option_checks.hpp"
 #include "runs/support/stop_signals.hpp"
+#include "runs/validation/studies/fluid_cases.hpp"
 #include "runs/validation/studies/option_parts.hpp"
 
 namespace grouser::studies {
@@ -231,6 +232,17 @@ void addFeatures(CLI::App& study, FeaturesCommand& c) {
   doStudy(*app, c, studyFeaturesCommand, quick);
 }
 
+void addFluid(CLI::App& study, FluidCommand& c) {
+  CLI::App* app = study.add_subcommand(
+      "fluid", "Flows of the particle fluid whose solution is known: error and order in spacing against run time");
+  std::string names;
+  for (const FluidCase& known : fluidCases()) names += (names.empty() ? "" : ", ") + known.name;
+  app->add_option("--cases", c.cases, "names, separated by commas, of " + names + "; default: all")->delimiter(',');
+  jobs::addDeviceOptions(*app, c.device, c.threads);
+  addPlace(*app, c.place, "fluid", "without the finest spacing");
+  doStudy(*app, c, studyFluidCommand, {});
+}
+
 } // namespace
 
 void addGrainStudies(CLI::App& study, GrainStudies& studies) {
@@ -242,6 +254,7 @@ void addGrainStudies(CLI::App& study, GrainStudies& studies) {
   addCollapse(study, studies.collapse);
   addShear(study, studies.shear);
   addFeatures(study, studies.features);
+  addFluid(study, studies.fluid);
 }
 
 } // namespace grouser::studies

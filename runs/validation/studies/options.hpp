@@ -3,6 +3,7 @@
 
 #include "runs/validation/studies/collapse.hpp"
 #include "runs/validation/studies/features.hpp"
+#include "runs/validation/studies/fluid_command.hpp"
 #include "runs/validation/studies/grain_stability.hpp"
 #include "runs/validation/studies/impact.hpp"
 #include "runs/validation/studies/packing.hpp"
@@ -29,6 +30,7 @@ struct GrainStudies {
   CollapseCommand collapse;
   ShearCommand shear;
   FeaturesCommand features;
+  FluidCommand fluid;
 };
 
 /// Adds the studies of grains to the command `study`.

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fluid/fluid.hpp"
+
+#include "base/error.hpp"
+#include "base/gather.cuh"
+#include "base/hash.hpp"
+#include "fluid/fluid_kernels.cuh"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace grouser::fluid {
+
+namespace {
+
+const FluidModel& soundModel(const FluidSetup& setup) {
+  const FluidModel& m = setup.model;
+  const auto need = [](bool sound, const char* what) {
+    if (!sound) throw base::InputError(std::string("fluid: ") + what);
+  };
+  need(m.dimensions == 2 || m.dimensions == 3, "dimensions are 2 or 3");
+  need(m.spacing > 0 && m.density > 0 && m.soundSpeed > 0 && m.timeStep > 0,
+       "spacing, density, sound speed and time step must be above 0");
+  need(m.smoothing >= 1 && m.smoothing <= 3, "the smoothing length must be 1 to 3 spacings");
+  need(m.viscosity >= 0 && m.artificialViscosity >= 0 && m.diffusion >= 0 && m.shifting >= 0,
+       "viscosity, artificial viscosity, diffusion and shifting must not be negative");
+  need(!setup.particles.empty(), "there are no particles");
+  for (const FluidParticle& p : setup.particles)
+    need(std::abs(p.compression) < kGreatestCompression && base::norm(p.velocity) < m.greatestSpeed(),
+         "a particle starts too compressed or faster than sound");
+  return m;
+}
+
+std::vector<std::uint32_t> numbers(std::size_t count) {
+  std::vector<std::uint32_t> n(count);
+  std::iota(n.begin(), n.end(), 0u);
+  return n;
+}
+
+std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step) {
+  const auto id = static_cast<std::uint32_t>(fault);
+  const double time = static_cast<double>(step) * model.timeStep;
+  const auto text = [&]() -> std::string {
+    switch (static_cast<FluidFault>(fault >> 32)) {
+    case FluidFault::speed:
+      return fmt::format("is faster than sound ({:.4g} m/s)", model.soundSpeed);
+    case FluidFault::compression:
+      return fmt::format("is compressed or stretched by more than {:.0f} %", 100 * kGreatestCompression);
+    case FluidFault::displacement:
+      return "has moved by more than half the skin of the neighbour lists in one step";
+    case FluidFault::range:
+      break;
+    }
+    return "has left the range of positions";
+  };
+  return fmt::format("step {}, time {:.4g} s: fluid particle {} {}; use a smaller time step or a higher sound speed",
+                     step, time, id, text());
+}
+
+} // namespace
+
+Fluid::Fluid(FluidSetup setup, const base::Exec& exec)
+    : model_(soundModel(setup)), constants_(fluidConstants(model_, setup.periodLow, setup.periodHigh)), exec_(exec),
+      surfaceDivergence_(setup.surfaceDivergence), particles_(setup.particles.size()), markers_(setup.markers.size()),
+      lists_(
+          exec,
+          static_cast<std::int64_t>(std::ceil((model_.kernel().support() + model_.skin()) * constants_.scale.perMetre)),
+          constants_.period),
+      flags_(exec, 1) {
+  std::vector<base::Position> position;
+  std::vector<base::Vec4f> motion;
+  std::vector<PreciseMotion> precise;
+  position.reserve(particles_ + markers_), motion.reserve(particles_ + markers_), precise.reserve(particles_);
+  const auto place = [&](const base::Vec3d& at, const base::Vec3d& velocity, double compression) {
+    const base::Vec3l units = base::toUnits(constants_.scale.fromMetres(at));
+    position.push_back(base::fromUnits(constants_.period.wrapped(units)));
+    const base::Vec3f v = velocity.as<float>();
+    motion.push_back({v.x, v.y, v.z, static_cast<float>(compression)});
+  };
+  for (const FluidParticle& p : setup.particles) {
+    place(p.position, p.velocity, p.compression);
+    precise.push_back({p.velocity, p.compression});
+  }
+  for (const WallMarker& m : setup.markers) place(m.position, m.velocity, 0);
+  position_ = base::Array(exec, position), motion_ = base::Array(exec, motion), precise_ = base::Array(exec, precise);
+  reference_ = base::Array<base::Position>(exec, particles_);
+  force_ = base::Array<base::Vec3l>(exec, particles_);
+  change_ = base::Array<CompressionChange>(exec, particles_);
+  losses_ = base::Array<Losses>(exec, particles_);
+  const std::size_t shifted = model_.shifting > 0 ? particles_ : 0;
+  shift_ = base::Array<base::Vec3d>(exec, shifted), divergence_ = base::Array<float>(exec, shifted);
+  opposed_ = base::Array<base::Vec3f>(exec, model_.viscosity > 0 ? markers_ : 0);
+  markerAcceleration_ = base::Array<base::Vec3f>(exec, markers_);
+  markerForce_ = base::Array<base::Vec3l>(exec, markers_);
+  id_ = base::Array(exec, numbers(particles_));
+  rebuild();
+  computeForces();
+  losses_.zero();
+}
+
+FluidView Fluid::view() {
+  return {constants_,
+          model_.timeStep,
+          model_.gravity,
+          model_.attraction,
+          static_cast<std::uint32_t>(particles_),
+          position_.data(),
+          motion_.data(),
+          precise_.data(),
+          force_.data(),
+          change_.data(),
+          losses_.data(),
+          shift_.data(),
+          divergence_.data(),
+          opposed_.data(),
+          markerAcceleration_.data(),
+          markerForce_.data(),
+          id_.data(),
+          reference_.data(),
+          lists_.rows(),
+          flags_.device().data()};
+}
+
+template <class T> void Fluid::permute(base::Array<T>& array) {
+  if (array.empty()) return;
+  auto sorted = base::Array<T>::unset(exec_, particles_);
+  base::forEach(exec_, "sort fluid", static_cast<std::int64_t>(particles_),
+                base::Gather<T>{lists_.order(), array.data(), sorted.data()});
+  base::copyOnDevice(exec_, array.data(), sorted.data(), particles_ * sizeof(T));
+}
+
+void Fluid::rebuild() {
+  lists_.sort(position_.data(), particles_, markers_);
+  permute(position_), permute(motion_), permute(precise_), permute(force_), permute(losses_), permute(id_);
+  lists_.build(position_.data());
+  markerForce_.zero(); // of those that are no longer listed
+  base::copyOnDevice(exec_, reference_.data(), position_.data(), particles_ * sizeof(base::Position));
+  listEnded_ = false;
+  ++rebuilds_;
+}
+
+void Fluid::computeContinuity() {
+  const auto n = static_cast<std::int64_t>(particles_);
+  if (model_.shifting > 0)
+    base::forEach(exec_, "continuity and shifting", n, Continuity<true>{view()});
+  else
+    base::forEach(exec_, "continuity", n, Continuity<false>{view()});
+}
+
+void Fluid::computeForces() {
+  const base::Array<std::uint32_t>& wet = lists_.wetMarkers();
+  base::forEach(exec_, "wall pressures", static_cast<std::int64_t>(wet.size()), Extrapolate{view(), wet.data()});
+  base::forEach(exec_, "show stresses", static_cast<std::int64_t>(particles_), ShowStress{view()});
+  base::forEach(exec_, "fluid forces", static_cast<std::int64_t>(particles_), Force{view()});
+  base::forEach(exec_, "wall forces", static_cast<std::int64_t>(wet.size()), WallForce{view(), wet.data()});
+}
+
+void Fluid::step() {
+  const auto n = static_cast<std::int64_t>(particles_);
+  if (listEnded_) rebuild();
+  *flags_.host() = {kNoFault, 0, 0};
+  flags_.upload();
+  const double h = model_.smoothing * model_.spacing;
+  Drift drift{view(),
+              model_.skin(),
+              model_.shifting * h * model_.timeStep,
+              model_.shifting > 0 ? Drift::kGreatestShift * model_.spacing : 0.0,
+              surfaceDivergence_,
+              false};
+  base::forEach(exec_, "fluid kick", n, Kick{view()});
+  base::forEach(exec_, "fluid drift", n, drift);
+  computeContinuity();
+  drift.whole = true;
+  base::forEach(exec_, "fluid drift and compression", n, drift);
+  computeForces();
+  base::forEach(exec_, "fluid kick", n, Kick{view()});
+  flags_.download();
+  base::synchronize(exec_);
+  ++steps_;
+  checkFlags();
+}
+
+void Fluid::checkFlags() {
+  const FluidFlags& flags = *flags_.host();
+  if (flags.fault != kNoFault) throw base::SimulationError(faultText(flags.fault, model_, steps_));
+  listEnded_ = flags.listEnded != 0;
+}
+
+std::vector<base::Vec3d> Fluid::markerForces() const {
+  std::vector<base::Vec3d> forces;
+  forces.reserve(markers_);
+  for (const base::Vec3l& f : markerForce_.toHost()) forces.push_back(constants_.acceleration.value(f) * model_.mass());
+  return forces;
+}
+
+base::Vec3l Fluid::forceBalance() const {
+  base::Vec3l sum{};
+  for (const base::Vec3l& f : force_.toHost()) sum += f;
+  for (const base::Vec3l& f : markerForce_.toHost()) sum += f;
+  return sum;
+}
+
+FluidSnapshot Fluid::snapshot() const {
+  const std::vector<std::uint32_t> id = id_.toHost();
+  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles_);
+  const std::vector<PreciseMotion> precise = precise_.toHost();
+  FluidSnapshot s;
+  s.position.resize(particles_), s.velocity.resize(particles_), s.compression.resize(particles_);
+  for (std::size_t i = 0; i < particles_; ++i) {
+    s.position[id[i]] = constants_.scale.toMetres(position[i]);
+    s.velocity[id[i]] = precise[i].velocity;
+    s.compression[id[i]] = precise[i].compression;
+  }
+  return s;
+}
+
+FluidTotals Fluid::totals() const {
+  const FluidSnapshot s = snapshot();
+  const std::vector<std::uint32_t> id = id_.toHost();
+  const std::vector<Losses> losses = losses_.toHost();
+  std::vector<Losses> lossOf(particles_);
+  for (std::size_t i = 0; i < particles_; ++i) lossOf[id[i]] = losses[i];
+  FluidTotals t;
+  for (std::size_t i = 0; i < particles_; ++i) { // in the order of ids
+    const base::Vec3d &v = s.velocity[i], &r = s.position[i];
+    t.kinetic += 0.5 * norm2(v);
+    t.potential += 0.5 * model_.attraction * norm2(r) - dot(model_.gravity, r);
+    t.internal += internalEnergyAt(model_, s.compression[i]);
+    t.viscousLoss += lossOf[i].viscous, t.diffusionLoss += lossOf[i].diffusion;
+    t.wallLoss += lossOf[i].wall;
+    t.momentum += v;
+    t.fastest = std::max(t.fastest, norm(v));
+  }
+  const double mass = model_.mass();
+  for (double* e : {&t.kinetic, &t.potential, &t.internal, &t.viscousLoss, &t.diffusionLoss, &t.wallLoss}) *e *= mass;
+  t.momentum *= mass;
+  for (const base::Vec3d& f : markerForces()) t.wallForce += f;
+  return t;
+}
+
+std::uint64_t Fluid::hash() const {
+  const std::vector<std::uint32_t> id = id_.toHost();
+  std::vector<std::uint32_t> slotOf(particles_);
+  for (std::size_t i = 0; i < particles_; ++i) slotOf[id[i]] = static_cast<std::uint32_t>(i);
+  const auto position = base::toHost(exec_, position_.data(), particles_);
+  const std::vector<PreciseMotion> precise = precise_.toHost();
+  const std::vector<base::Vec3l> force = force_.toHost();
+  base::StateHash hash;
+  const auto add = [&hash](const auto& record) {
+    std::uint64_t words[sizeof record / 8];
+    std::memcpy(words, &record, sizeof record);
+    for (const std::uint64_t w : words) hash.add(w);
+  };
+  for (const std::uint32_t i : slotOf) add(position[i]), add(precise[i]), add(force[i]);
+  return hash.value();
+}
+
+std::size_t Fluid::bytes() const {
+  return lists_.bytes() + position_.bytes() + reference_.bytes() + motion_.bytes() + precise_.bytes() + force_.bytes() +
+         change_.bytes() + losses_.bytes() + shift_.bytes() + divergence_.bytes() + opposed_.bytes() +
+         markerAcceleration_.bytes() + markerForce_.bytes() + id_.bytes();
+}
+
+} // namespace grouser::fluid

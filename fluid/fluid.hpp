@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "base/exec.hpp"
+#include "fluid/fluid_lists.hpp"
+#include "fluid/fluid_view.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace grouser::fluid {
+
+/// A particle as it starts.
+struct FluidParticle {
+  base::Vec3d position;  ///< [m]
+  base::Vec3d velocity;  ///< [m/s]
+  double compression{0}; ///< rho/rho0 - 1 [-]
+};
+
+/// A point of a wall, which counts as fluid at rest with it. Layers of them, as thick as the kernel's support, lie
+/// behind each wall.
+struct WallMarker {
+  base::Vec3d position;   ///< [m]
+  base::Vec3d velocity{}; ///< along the wall, whose place does not change [m/s]
+};
+
+struct FluidSetup {
+  FluidModel model;
+  base::Vec3d periodLow{}, periodHigh{}; ///< periodic boundaries along x and y where high is above low [m]
+  std::vector<FluidParticle> particles;
+  std::vector<WallMarker> markers;
+  /// Shifting ends where div r falls below this: at free surfaces [-].
+  double surfaceDivergence = 0;
+};
+
+/// Energies [J] (per metre in two dimensions), momentum, and losses since the start.
+struct FluidTotals {
+  double kinetic{}, potential{}, internal{}; ///< potential: zero at the origin
+  double viscousLoss{}, diffusionLoss{}, wallLoss{};
+  base::Vec3d momentum{};  ///< [kg m/s]
+  base::Vec3d wallForce{}; ///< of the fluid on all markers, at the last step [N]
+  double fastest{};        ///< greatest speed [m/s]
+  double total() const { return kinetic + potential + internal + viscousLoss + diffusionLoss + wallLoss; }
+};
+
+/// Particles on the host, in the order of FluidSetup.
+struct FluidSnapshot {
+  std::vector<base::Vec3d> position, velocity; ///< [m], [m/s]
+  std::vector<double> compression;             ///< [-]
+};
+
+/// A weakly compressible fluid of particles (smoothed particle hydrodynamics) between fixed walls: Wendland kernel,
+/// density diffusion, walls by extrapolation, one sweep of forces a step.
+///
+/// A step: half a kick; half a drift; compression from the velocities at mid-step; half a drift; pressures of the
+/// walls; forces; half a kick. Second order in time, and one answer on any device and number of threads.
+class Fluid {
+public:
+  /// Throws InputError where the model or the particles make no fluid.
+  Fluid(FluidSetup setup, const base::Exec& exec);
+
+  /// Throws SimulationError where a particle is faster, more compressed or farther away than the numbers allow.
+  void step();
+  std::int64_t steps() const { return steps_; }
+  double time() const { return static_cast<double>(steps_) * model_.timeStep; } ///< [s]
+
+  const FluidModel& model() const { return model_; }
+  std::size_t particles() const { return particles_; }
+  std::size_t markers() const { return markers_; }
+  FluidTotals totals() const;
+  FluidSnapshot snapshot() const;
+  /// Of the whole state, the same on every device.
+  std::uint64_t hash() const;
+  /// Force of the fluid on each marker [N], in the order of FluidSetup.
+  std::vector<base::Vec3d> markerForces() const;
+  /// Exact sum of the forces between particles and from walls, in quanta: zero.
+  base::Vec3l forceBalance() const;
+  std::size_t bytes() const;                          ///< on the device [B]
+  std::int64_t rebuilds() const { return rebuilds_; } ///< of the neighbour lists
+
+private:
+  FluidView view();
+  void rebuild();
+  template <class T> void permute(base::Array<T>& array);
+  void computeForces();
+  void computeContinuity();
+  void checkFlags();
+
+  FluidModel model_;
+  FluidConstants constants_;
+  base::Exec exec_;
+  double surfaceDivergence_;
+  std::size_t particles_, markers_;
+  FluidLists lists_;
+  base::Array<base::Position> position_, reference_;
+  base::Array<base::Vec4f> motion_;
+  base::Array<PreciseMotion> precise_;
+  base::Array<base::Vec3l> force_;
+  base::Array<CompressionChange> change_;
+  base::Array<Losses> losses_;
+  base::Array<base::Vec3d> shift_;   ///< empty without shifting
+  base::Array<float> divergence_;    ///< empty without shifting
+  base::Array<base::Vec3f> opposed_; ///< empty without laminar viscosity
+  base::Array<base::Vec3f> markerAcceleration_;
+  base::Array<base::Vec3l> markerForce_;
+  base::Array<std::uint32_t> id_;
+  base::Mirrored<FluidFlags> flags_;
+  std::int64_t steps_{0}, rebuilds_{0};
+  bool listEnded_{true};
+};
+
+} // namespace grouser::fluid

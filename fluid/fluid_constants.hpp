@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/fixed_point.hpp"
+#include "base/period.hpp"
+#include "base/position.hpp"
+#include "fluid/fluid_model.hpp"
+
+namespace grouser::fluid {
+
+/// Constants of the kernels in single precision, and quanta of the integer sums. Pair terms are rounded to 32-bit
+/// integers, so that their sums do not depend on an order and opposite terms cancel exactly.
+struct FluidConstants {
+  base::PositionScale scale;
+  base::Period period;
+  float metresPerUnit{};
+  float perLength{};               ///< 1/h [1/m]
+  float slope{};                   ///< V0 F(0) [1/m2]
+  float eta2{};                    ///< (h/10)^2 [m2]
+  float sound2{};                  ///< c^2 [m2/s2]
+  float artificial{};              ///< alpha h c [m2/s]
+  float laminar{};                 ///< twice the kinematic viscosity [m2/s]
+  float diffusion{};               ///< -2 delta h c [m2/s]
+  base::Vec3f gravityOverSound2{}; ///< [1/m]
+  float shiftSeed{};               ///< 0.2/W(spacing)^4, in units of W(0) [-]
+
+  base::FixedPoint rate;                               ///< of du/dt [1/s]
+  base::FixedPoint acceleration;                       ///< [m/s2]
+  base::FixedPoint power;                              ///< per mass [W/kg]
+  base::FixedPoint weight, compression, moment, speed; ///< sums of a marker: W/W(0) [-], times s [-], r [m], v [m/s]
+  base::FixedPoint gradient, divergence;               ///< of shifting: V grad W [1/m], V r.grad W [-]
+
+  double greatestSpeed{}; ///< [m/s]
+};
+
+/// `low`, `high`: periodic boundaries [m] along each axis where high is above low.
+FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, const base::Vec3d& high);
+
+} // namespace grouser::fluid

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/bits.hpp"
+#include "base/for_each.cuh"
+#include "fluid/fluid_view.hpp"
+
+#include <cmath>
+
+/// Kernel bodies of a step of the fluid. Every pair term is an exact function of the pair, the opposite of its
+/// partner's, and is rounded once to an integer: sums are the same in any order, on every device.
+namespace grouser::fluid {
+
+/// Nearest integer; a pair term lies within its range (FluidConstants).
+GROUSER_HD std::int64_t rounded(float quanta) {
+#if defined(__CUDA_ARCH__)
+  return __float2int_rn(quanta);
+#else
+  return static_cast<std::int32_t>(rintf(quanta));
+#endif
+}
+
+GROUSER_HD base::Vec3l roundedVector(const base::Vec3f& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
+
+/// A pair within the kernel's support.
+struct Pair {
+  base::Vec3f d; ///< from the neighbour to this point [m]
+  float r2;      ///< [m2]
+  float q;       ///< distance over smoothing length [-]
+  float taper;   ///< 1 - q/2 [-]
+
+  /// V0 F [1/m2], <= 0.
+  GROUSER_HD float slope(const FluidConstants& k) const { return k.slope * (taper * taper * taper); }
+  /// W/W(0) [-].
+  GROUSER_HD float weight() const { return taper * taper * (taper * taper) * (1 + 2 * q); }
+};
+
+/// Calls visit(pair, j) for the neighbours within the support among the places `first` to `last` - 1 of row i.
+template <class Visit>
+GROUSER_HD void eachNeighbour(const FluidView& f, int i, std::uint32_t first, std::uint32_t last, const Visit& visit) {
+  const FluidConstants& k = f.constants;
+  const base::Position here = f.position[i];
+  const bool periodic = k.period.any();
+  for (std::uint32_t n = first; n < last; ++n) {
+    const std::uint32_t j = f.rows.slot[f.rows.at(i, n)];
+    const base::Vec3i apart =
+        periodic ? k.period.apart(f.position[j], here).as<std::int32_t>() : base::difference(f.position[j], here);
+    Pair pair;
+    pair.d = apart.as<float>() * k.metresPerUnit;
+    pair.r2 = dot(pair.d, pair.d);
+    pair.q = sqrtf(pair.r2) * k.perLength;
+    if (pair.q >= 2) continue;
+    pair.taper = 1 - 0.5f * pair.q;
+    visit(pair, j);
+  }
+}
+
+/// p/rho^2 in units of c^2/rho0: s/(1 + s)^2 [-].
+template <class T> GROUSER_HD T stress(T compression) { return compression / ((1 + compression) * (1 + compression)); }
+
+GROUSER_HD void raiseFault(FluidFlags* flags, FluidFault fault, std::uint32_t id) {
+  base::atomicMin64(&flags->fault, static_cast<std::uint64_t>(fault) << 32 | id);
+}
+
+/// Greatest value of non-negative floats, as bits.
+GROUSER_HD void raiseTo(std::uint32_t* bits, float value) {
+  const auto own = base::bitsAs<std::uint32_t>(value);
+#if defined(__CUDA_ARCH__)
+  if (own > *bits) atomicMax(bits, own);
+#else
+  std::uint32_t old = __atomic_load_n(bits, __ATOMIC_RELAXED);
+  while (own > old && !__atomic_compare_exchange_n(bits, &old, own, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
+#endif
+}
+
+/// Of particle i, from the sum of its pair terms [m/s2].
+GROUSER_HD base::Vec3d accelerationOf(const FluidView& f, int i) {
+  base::Vec3d a = f.constants.acceleration.value(f.force[i]) + f.gravity;
+  if (f.attraction != 0) a -= f.attraction * f.constants.scale.toMetres(f.position[i]);
+  return a;
+}
+
+/// v += a dt/2.
+struct Kick {
+  static constexpr double kNanoseconds = 15;
+  FluidView f;
+  GROUSER_HD void operator()(int i) const {
+    PreciseMotion& m = f.precise[i];
+    m.velocity += 0.5 * f.timeStep * accelerationOf(f, i);
+    const base::Vec3f v = m.velocity.as<float>();
+    f.motion[i] = {v.x, v.y, v.z, static_cast<float>(m.compression)};
+    const float speed2 = dot(v, v);
+    if (!(speed2 < f.constants.greatestSpeed * f.constants.greatestSpeed))
+      raiseFault(f.flags, FluidFault::speed, f.id[i]);
+    else if (f.shift)
+      raiseTo(&f.flags->fastest, speed2);
+  }
+};
+
+/// r += v dt/2, after which a compression change may be added. `whole`: at the end of the step, where the list is
+/// checked.
+struct Drift {
+  static constexpr double kNanoseconds = 25;
+  static constexpr float kGreatestShift = 0.1f; ///< spacings
+  FluidView f;
+  double skin;            ///< [m]
+  double shiftFactor;     ///< shifting x h x dt [m s]
+  double greatestShift;   ///< [m]
+  double leastDivergence; ///< no shifting below it: at a free surface [-]
+  bool whole;
+
+  GROUSER_HD void operator()(int i) const {
+    PreciseMotion& m = f.precise[i];
+    base::Vec3d move = 0.5 * f.timeStep * m.velocity;
+    if (whole) {
+      addCompression(i, m);
+      if (f.shift && f.divergence[i] > leastDivergence) move += shiftOf(i);
+    }
+    const base::PositionScale& scale = f.constants.scale;
+    const base::Vec3l u = base::toUnits(f.position[i]);
+    const base::Vec3l to{u.x + units(move.x * scale.perMetre), u.y + units(move.y * scale.perMetre),
+                         u.z + units(move.z * scale.perMetre)};
+    if (!(fabs(static_cast<double>(to.x)) < kRange && fabs(static_cast<double>(to.y)) < kRange &&
+          fabs(static_cast<double>(to.z)) < kRange)) {
+      raiseFault(f.flags, FluidFault::range, f.id[i]);
+      return;
+    }
+    f.position[i] = base::fromUnits(f.constants.period.wrapped(to));
+    if (whole) checkList(i, m);
+  }
+
+private:
+  static constexpr double kRange = 0x1p41; ///< units that a position holds
+  GROUSER_HD static std::int64_t units(double u) { return static_cast<std::int64_t>(floor(u + 0.5)); }
+
+  GROUSER_HD void addCompression(int i, PreciseMotion& m) const {
+    const CompressionChange change = f.change[i];
+    const double mean = m.compression + 0.5 * (change.flow + change.diffusion);
+    m.compression += change.flow + change.diffusion;
+    // Internal energy by diffusion: p/rho^2 drho.
+    f.losses[i].diffusion -= static_cast<double>(f.constants.sound2) * stress(mean) * change.diffusion;
+    f.motion[i].w = static_cast<float>(m.compression);
+    if (!(fabs(m.compression) < kGreatestCompression)) raiseFault(f.flags, FluidFault::compression, f.id[i]);
+  }
+  GROUSER_HD base::Vec3d shiftOf(int i) const {
+    const double speed = sqrt(static_cast<double>(base::bitsAs<float>(f.flags->fastest)));
+    const base::Vec3d shift = f.shift[i] * (-shiftFactor * speed);
+    const double length = norm(shift);
+    return length > greatestShift ? shift * (greatestShift / length) : shift;
+  }
+  /// The list holds while nobody has moved by more than half the skin; the next step may bring a particle so far.
+  GROUSER_HD void checkList(int i, const PreciseMotion& m) const {
+    const base::Vec3l d = f.constants.period.apart(f.reference[i], f.position[i]);
+    const double moved = norm(d.as<double>()) * f.constants.scale.unit, next = 1.25 * norm(m.velocity) * f.timeStep;
+    if (moved > 0.5 * skin) raiseFault(f.flags, FluidFault::displacement, f.id[i]);
+    if (moved + next + greatestShift > 0.5 * skin) base::raise(&f.flags->listEnded);
+  }
+};
+
+/// ds/dt = V0 sum_j (v_i - v_j).grad W, and diffusion 2 delta h c V0 sum_j |F| e_ij between fluid particles, with
+/// e_ij = s_j - s_i - g.(r_j - r_i)/c^2 (Fourtakas et al. 2019, linear equation of state).
+template <bool kShifts> struct Continuity {
+  static constexpr double kNanoseconds = 800;
+  FluidView f;
+
+  GROUSER_HD void operator()(int i) const {
+    const FluidConstants& k = f.constants;
+    const base::Vec4f own = f.motion[i];
+    const auto perRate = static_cast<float>(k.rate.perUnit);
+    std::int64_t flow = 0, diffusion = 0, divergence = 0;
+    base::Vec3l gradient{};
+    const auto both = [&](const Pair& pair, const base::Vec4f& other, float slope) {
+      flow += rounded(slope * dot(own.xyz() - other.xyz(), pair.d) * perRate);
+      if constexpr (kShifts) addConcentration(pair, slope, divergence, gradient);
+    };
+    const std::uint32_t fluids = f.rows.fluidCount[i];
+    eachNeighbour(f, i, 0, fluids, [&](const Pair& pair, std::uint32_t j) {
+      const base::Vec4f other = f.motion[j];
+      const float slope = pair.slope(k), excess = other.w - own.w + dot(k.gravityOverSound2, pair.d);
+      both(pair, other, slope);
+      diffusion += rounded(k.diffusion * slope * excess * perRate);
+    });
+    eachNeighbour(f, i, fluids, f.rows.count[i],
+                  [&](const Pair& pair, std::uint32_t j) { both(pair, f.motion[j], pair.slope(k)); });
+    f.change[i] = {f.timeStep * k.rate.value(flow), f.timeStep * k.rate.value(diffusion)};
+    if constexpr (kShifts) {
+      f.divergence[i] = static_cast<float>(k.divergence.value(divergence));
+      f.shift[i] = k.gradient.value(gradient);
+    }
+  }
+
+private:
+  /// div r = -V0 sum r.grad W, and V0 sum (1 + 0.2 (W/W(spacing))^4) grad W.
+  GROUSER_HD void addConcentration(const Pair& pair, float slope, std::int64_t& divergence,
+                                   base::Vec3l& gradient) const {
+    const FluidConstants& k = f.constants;
+    const float w2 = pair.weight() * pair.weight();
+    gradient +=
+        roundedVector(pair.d * (slope * (1 + k.shiftSeed * (w2 * w2)) * static_cast<float>(k.gradient.perUnit)));
+    divergence += rounded(-slope * pair.r2 * static_cast<float>(k.divergence.perUnit));
+  }
+};
+
+/// Pressure of a wall's marker from the fluid near it (Adami et al. 2012, eq. 27), and the velocity that makes fluid
+/// stick to the wall: 2 u_w minus the fluid's mean.
+struct Extrapolate {
+  static constexpr double kNanoseconds = 500;
+  FluidView f;
+  const std::uint32_t* list; ///< markers near fluid
+
+  GROUSER_HD void operator()(int n) const {
+    const FluidConstants& k = f.constants;
+    const std::uint32_t m = list[n];
+    const auto slot = static_cast<int>(f.particles + m);
+    std::int64_t weight = 0, compression = 0;
+    base::Vec3l moment{}, velocity{};
+    eachNeighbour(f, slot, 0, f.rows.count[slot], [&](const Pair& pair, std::uint32_t j) {
+      const base::Vec4f other = f.motion[j];
+      const float w = pair.weight();
+      weight += rounded(w * static_cast<float>(k.weight.perUnit));
+      compression += rounded(w * other.w * static_cast<float>(k.compression.perUnit));
+      moment += roundedVector(pair.d * (w * (1 + other.w) * static_cast<float>(k.moment.perUnit)));
+      if (f.opposed) velocity += roundedVector(other.xyz() * (w * static_cast<float>(k.speed.perUnit)));
+    });
+    base::Vec4f& own = f.motion[slot];
+    if (weight <= 0) {
+      own.w = 0;
+      if (f.opposed) f.opposed[m] = own.xyz();
+      return;
+    }
+    const double sum = k.weight.value(weight);
+    const double c2 = static_cast<double>(k.sound2);
+    const base::Vec3d pull = (f.gravity - f.markerAcceleration[m].as<double>()) * (1 / c2);
+    const double s = (k.compression.value(compression) + dot(pull, k.moment.value(moment))) / sum;
+    constexpr double kMost = kGreatestCompression;
+    own.w = static_cast<float>(stress(s > kMost ? kMost : s < -kMost ? -kMost : s));
+    if (f.opposed) f.opposed[m] = (2.0 * own.xyz().as<double>() - k.speed.value(velocity) * (1 / sum)).as<float>();
+  }
+};
+
+/// Particles show their stress to the sums of forces.
+struct ShowStress {
+  static constexpr double kNanoseconds = 4;
+  FluidView f;
+  GROUSER_HD void operator()(int i) const { f.motion[i].w = stress(f.motion[i].w); }
+};
+
+/// Acceleration of particle i by a pair [m/s2]: pressure -m (p_i/rho_i^2 + p_j/rho_j^2) grad W, artificial viscosity
+/// (Monaghan 1992) and laminar viscosity (Morris et al. 1997). `slip`: relative velocity for the last.
+struct PairForce {
+  base::Vec3f pressure, viscous;
+};
+GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const base::Vec4f& own,
+                               const base::Vec4f& other, const base::Vec3f& slip, bool artificial) {
+  const float slope = pair.slope(k), stresses = own.w + other.w;
+  PairForce force{pair.d * (-k.sound2 * stresses * slope), {}};
+  const float approach = dot(own.xyz() - other.xyz(), pair.d);
+  if (artificial && approach < 0) // 1/rho of the pair, to first order
+    force.viscous = pair.d * (k.artificial * approach / (pair.r2 + k.eta2) * (1 - 0.5f * stresses) * slope);
+  if (k.laminar > 0) force.viscous += slip * (k.laminar * (1 - stresses) * slope);
+  return force;
+}
+
+/// Sums the accelerations of each particle, the power that viscosity takes, and that of the markers' pressure.
+struct Force {
+  static constexpr double kNanoseconds = 900;
+  FluidView f;
+
+  GROUSER_HD void operator()(int i) const {
+    const FluidConstants& k = f.constants;
+    const base::Vec4f own = f.motion[i];
+    const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
+    const auto perPower = static_cast<float>(k.power.perUnit);
+    base::Vec3l sum{}, wall{};
+    std::int64_t power = 0;
+    const auto add = [&](const PairForce& force, const base::Vec3f& apart, float share) {
+      sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
+      power += rounded(dot(force.viscous, apart) * (share * perPower));
+    };
+    const std::uint32_t fluids = f.rows.fluidCount[i];
+    eachNeighbour(f, i, 0, fluids, [&](const Pair& pair, std::uint32_t j) {
+      const base::Vec4f other = f.motion[j];
+      const base::Vec3f apart = own.xyz() - other.xyz();
+      add(pairForce(k, pair, own, other, apart, true), apart, 0.5f);
+    });
+    eachNeighbour(f, i, fluids, f.rows.count[i], [&](const Pair& pair, std::uint32_t j) {
+      const base::Vec4f other = f.motion[j];
+      const base::Vec3f slip = f.opposed ? own.xyz() - f.opposed[j - f.particles] : base::Vec3f{};
+      add(pairForce(k, pair, own, other, slip, false), own.xyz(), 1);
+      wall += roundedVector(pair.d * (-k.sound2 * other.w * pair.slope(k) * perAcceleration));
+    });
+    f.force[i] = sum;
+    // Both halves of the kick together do the work of the mean velocity, which is that at the end of the step.
+    const base::Vec3d end = f.precise[i].velocity + 0.5 * f.timeStep * accelerationOf(f, i);
+    f.losses[i].viscous -= f.timeStep * k.power.value(power);
+    f.losses[i].wall -= f.timeStep * dot(k.acceleration.value(wall), end);
+  }
+};
+
+/// Force of the fluid on a marker: the integers of Force, with opposite sign.
+struct WallForce {
+  static constexpr double kNanoseconds = 500;
+  FluidView f;
+  const std::uint32_t* list;
+
+  GROUSER_HD void operator()(int n) const {
+    const FluidConstants& k = f.constants;
+    const std::uint32_t m = list[n];
+    const auto slot = static_cast<int>(f.particles + m);
+    const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
+    const base::Vec4f own = f.motion[slot];
+    base::Vec3l sum{};
+    eachNeighbour(f, slot, 0, f.rows.count[slot], [&](const Pair& pair, std::uint32_t j) {
+      const base::Vec4f other = f.motion[j];
+      const base::Vec3f slip = f.opposed ? f.opposed[m] - other.xyz() : base::Vec3f{};
+      const PairForce force = pairForce(k, pair, own, other, slip, false);
+      sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
+    });
+    f.markerForce[m] = sum;
+  }
+};
+
+} // namespace grouser::fluid

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "fluid/wendland.hpp"
+
+namespace grouser::fluid {
+
+/// Constants of a weakly compressible fluid of particles. SI units.
+///
+/// The state of a particle is its velocity and its compression s = rho/rho0 - 1. All particles have the mass
+/// rho0 spacing^d. Pressure p = c^2 (rho - rho0) = c^2 rho0 s.
+struct FluidModel {
+  int dimensions = 3;                ///< 2: all particles share one coordinate, and masses count per metre
+  double spacing = 0;                ///< initial distance of particles [m]
+  double smoothing = 1.3;            ///< smoothing length over spacing [-]
+  double density = 1000;             ///< at zero pressure [kg/m3]
+  double soundSpeed = 0;             ///< of the numerical fluid [m/s]
+  double viscosity = 0;              ///< dynamic, by the operator of Morris et al. (1997) [Pa s]
+  double artificialViscosity = 0.02; ///< alpha of Monaghan (1992) between fluid particles that approach [-]
+  double diffusion = 0.1;            ///< delta of the density diffusion of Fourtakas et al. (2019) [-]
+  double shifting = 0;               ///< factor of Fickian shifting (Lind et al. 2012) away from free surfaces; 0: off
+  base::Vec3d gravity{};             ///< [m/s2]
+  double attraction = 0;             ///< acceleration -attraction * r towards the origin [1/s2]
+  double timeStep = 0;               ///< [s]
+
+  Wendland kernel() const { return {smoothing * spacing, dimensions}; }
+  double volume() const; ///< of a particle at zero pressure [m^d]
+  double mass() const;   ///< of a particle [kg], per metre in two dimensions
+  double skin() const;   ///< by which neighbour lists reach beyond the kernel's support [m]
+  double greatestSpeed() const { return soundSpeed; } ///< of a particle, a fault beyond [m/s]
+};
+
+/// A compression beyond this, of either sign, is a fault: integer sums are scaled for it [-].
+inline constexpr double kGreatestCompression = 0.15;
+
+/// Largest sound time steps of an explicit scheme, each by one cause [s].
+struct StepLimits {
+  double sound;   ///< h/4 over (sound speed + expected speed)
+  double force;   ///< sqrt(h/acceleration)/4
+  double viscous; ///< h^2/8 over kinematic viscosity; infinite without viscosity
+  double least() const;
+};
+
+/// `speed`: the greatest expected [m/s]; `acceleration`: the greatest expected [m/s2], at least that of gravity.
+StepLimits stepLimits(const FluidModel& model, double speed, double acceleration);
+
+/// Sound speed for a flow with this speed [m/s] under this pressure [Pa]: density varies by about 1 %.
+double soundSpeedFor(double speed, double pressure, double density);
+
+/// Pressure [Pa] at a compression [-], and the inverse.
+double pressureAt(const FluidModel& model, double compression);
+double compressionAt(const FluidModel& model, double pressure);
+/// Energy of compression per mass, c^2 (ln(1 + s) + 1/(1 + s) - 1) [J/kg].
+double internalEnergyAt(const FluidModel& model, double compression);
+
+} // namespace grouser::fluid

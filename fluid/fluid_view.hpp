@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+#include "contact/neighbour_view.hpp"
+#include "fluid/fluid_constants.hpp"
+
+#include <cstdint>
+
+namespace grouser::fluid {
+
+/// Velocity and compression in double precision; neighbours read them rounded.
+struct alignas(32) PreciseMotion {
+  base::Vec3d velocity; ///< [m/s]
+  double compression;   ///< s = rho/rho0 - 1 [-]
+};
+
+/// Change of compression by a step [-], and by diffusion alone.
+struct CompressionChange {
+  double flow, diffusion;
+};
+
+/// Work per mass that a particle has lost since the start [J/kg]. Markers store no energy: what their pressure does to
+/// the fluid beyond its compression is the loss to walls.
+struct Losses {
+  double viscous, diffusion, wall;
+};
+
+/// Rows of neighbours: of particle i its fluid neighbours, then from fluidCount[i] on the markers of walls; of marker
+/// m, in row particles + m, its fluid neighbours.
+struct FluidRows : contact::NeighbourRows {
+  const std::uint32_t *count, *fluidCount, *slot;
+};
+
+/// Flags of a step, raised by any thread.
+struct FluidFlags {
+  std::uint64_t fault;     ///< FluidFault << 32 | id, the least of all; kNoFault without one
+  std::uint32_t listEnded; ///< a particle has used up its half of the skin
+  std::uint32_t fastest;   ///< bits of the greatest squared speed as a float [m2/s2]
+};
+inline constexpr std::uint64_t kNoFault = ~std::uint64_t{0};
+enum class FluidFault : std::uint32_t { speed, compression, displacement, range };
+
+/// Device arrays of a fluid, for its kernels. Slots: particles first, markers behind them.
+struct FluidView {
+  FluidConstants constants;
+  double timeStep;                 ///< [s]
+  base::Vec3d gravity;             ///< [m/s2]
+  double attraction;               ///< [1/s2]
+  std::uint32_t particles;         ///< slots of fluid
+  base::Position* position;        ///< [particles + markers]
+  base::Vec4f* motion;             ///< [particles + markers] velocity [m/s]; w: compression, stress() in sums of forces
+  PreciseMotion* precise;          ///< [particles]
+  base::Vec3l* force;              ///< [particles] sum of pair terms, quanta of acceleration
+  CompressionChange* change;       ///< [particles]
+  Losses* losses;                  ///< [particles]
+  base::Vec3d* shift;              ///< [particles] gradient of concentration [1/m]; null without shifting
+  float* divergence;               ///< [particles] div r [-]; null without shifting
+  base::Vec3f* opposed;            ///< [markers] velocity for viscosity [m/s]; null without laminar viscosity
+  base::Vec3f* markerAcceleration; ///< [markers] of the wall [m/s2]
+  base::Vec3l* markerForce;        ///< [markers] of the fluid on them, quanta of acceleration x particle mass
+  const std::uint32_t* id;         ///< [particles]
+  const base::Position* reference; ///< [particles] where they were when listed
+  FluidRows rows;
+  FluidFlags* flags;
+};
+
+} // namespace grouser::fluid

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fluid/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::fluid {
+
+void Lattice::each(const base::Vec3d& low, const base::Vec3d& high,
+                   const std::function<void(const base::Vec3d&)>& visit) const {
+  constexpr double kRounding = 1e-9; // spacings
+  std::int64_t first[3], last[3];
+  for (int a = 0; a < 3; ++a) {
+    first[a] = static_cast<std::int64_t>(std::ceil(low[a] / spacing - 0.5 - kRounding));
+    last[a] = static_cast<std::int64_t>(std::ceil(high[a] / spacing - 0.5 - kRounding));
+  }
+  if (dimensions == 2) first[1] = 0, last[1] = 1;
+  const auto at = [this](std::int64_t k) { return (static_cast<double>(k) + 0.5) * spacing; };
+  for (std::int64_t i = first[0]; i < last[0]; ++i)
+    for (std::int64_t j = first[1]; j < last[1]; ++j)
+      for (std::int64_t k = first[2]; k < last[2]; ++k) visit({at(i), at(j), at(k)});
+}
+
+std::vector<WallMarker> wallMarkers(const FluidModel& model, const Distance& distance, const base::Vec3d& low,
+                                    const base::Vec3d& high) {
+  const double depth = std::ceil(model.kernel().support() / model.spacing) * model.spacing;
+  std::vector<WallMarker> markers;
+  Lattice{model.spacing, model.dimensions}.each(low, high, [&](const base::Vec3d& p) {
+    const double d = distance(p);
+    if (d < 0 && d > -depth) markers.push_back({p});
+  });
+  return markers;
+}
+
+std::vector<FluidParticle> stillFluid(const FluidModel& model, const Distance& distance, const base::Vec3d& low,
+                                      const base::Vec3d& high, double level) {
+  std::vector<FluidParticle> particles;
+  Lattice{model.spacing, model.dimensions}.each(low, high, [&](const base::Vec3d& p) {
+    if (!(p.z < level) || distance(p) < 0) return;
+    particles.push_back({p, {}, compressionAt(model, -model.density * model.gravity.z * (level - p.z))});
+  });
+  return particles;
+}
+
+Distance tank(const base::Vec3d& low, const base::Vec3d& high, bool open) {
+  return [low, high, open](const base::Vec3d& p) {
+    const double across[] = {p.x - low.x,  high.x - p.x, p.y - low.y,
+                             high.y - p.y, p.z - low.z,  open ? HUGE_VAL : high.z - p.z};
+    const double inside = *std::min_element(std::begin(across), std::end(across));
+    if (inside >= 0) return inside;
+    double outside2 = 0;
+    for (const double d : across) outside2 += d < 0 ? d * d : 0;
+    return -std::sqrt(outside2);
+  };
+}
+
+} // namespace grouser::fluid

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The particle fluid against closed forms of its own discrete equations, exact balances, and one answer everywhere.
+#include "base/error.hpp"
+#include "base/math.hpp"
+#include "fluid/fluid.hpp"
+#include "fluid/lattice.hpp"
+#include "tests/device_under_test.hpp"
+#include "tests/message_of.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace grouser::fluid {
+namespace {
+
+using base::Vec3d;
+
+constexpr double kGravity = 9.81; // [m/s2]
+
+FluidModel water(int dimensions, double spacing) {
+  FluidModel m;
+  m.dimensions = dimensions, m.spacing = spacing, m.soundSpeed = 10, m.timeStep = 1e-4;
+  return m;
+}
+
+/// Water 10 spacings deep in a tank of 12 x 8 spacings.
+FluidSetup tankOfWater(double viscosity = 0) {
+  FluidSetup s;
+  FluidModel& m = s.model = water(3, 0.05);
+  m.gravity = {0, 0, -kGravity}, m.viscosity = viscosity;
+  m.soundSpeed = soundSpeedFor(std::sqrt(2 * kGravity * 0.5), 0, m.density);
+  m.timeStep = stepLimits(m, 0.1 * m.soundSpeed, kGravity).least();
+  const Vec3d low{-0.2, -0.2, -0.2}, high{0.8, 0.6, 0.9};
+  const Distance walls = tank({0, 0, 0}, {0.6, 0.4, 0.9});
+  s.markers = wallMarkers(m, walls, low, high);
+  s.particles = stillFluid(m, walls, low, high, 0.5);
+  return s;
+}
+
+/// A column of water that collapses.
+FluidSetup damBreak() {
+  FluidSetup s = tankOfWater(0.5);
+  std::erase_if(s.particles, [](const FluidParticle& p) { return p.position.x > 0.25; });
+  return s;
+}
+
+// --- kernel
+
+/// Sums over a cubic lattice [-]: of V W, and of V r.grad W in the bulk and in the first and second layer of a half
+/// space. Figures of an independent computation to their last digit.
+TEST(Wendland, HasTheSumsOfACubicLattice) {
+  struct Row {
+    double smoothing, volume, first, second;
+  };
+  for (const Row& row : {Row{1.2, 1.017, 2.08, 2.93}, Row{1.3, 1.009, 2.03, 2.88}, Row{1.5, 1.003, 2.00, 2.83},
+                         Row{2, 1.0006, 1.87, 2.57}}) {
+    const Wendland kernel(row.smoothing, 3); // spacing 1
+    double volume = 0, first = 0, second = 0;
+    for (int x = -4; x <= 4; ++x)
+      for (int y = -4; y <= 4; ++y)
+        for (int z = -4; z <= 4; ++z) {
+          const double r2 = x * x + y * y + z * z, r = std::sqrt(r2);
+          volume += kernel.value(r);
+          if (z <= 0) first -= kernel.slope(r) * r2;
+          if (z <= 1) second -= kernel.slope(r) * r2;
+        }
+    EXPECT_NEAR(volume, row.volume, row.smoothing == 2 ? 6e-5 : 6e-4) << row.smoothing;
+    EXPECT_NEAR(first, row.first, 5.1e-3) << row.smoothing;
+    EXPECT_NEAR(second, row.second, 5.1e-3) << row.smoothing;
+  }
+}
+
+TEST(Wendland, IntegratesToOneAndItsSlopeIsItsDerivative) {
+  for (const int d : {2, 3}) {
+    const Wendland kernel(0.3, d);
+    double integral = 0;
+    constexpr int kParts = 20000;
+    const double dr = kernel.support() / kParts;
+    for (int k = 0; k < kParts; ++k) {
+      const double r = (k + 0.5) * dr;
+      integral += kernel.value(r) * (d == 2 ? 2 * base::kPi * r : 4 * base::kPi * r * r) * dr;
+    }
+    EXPECT_NEAR(integral, 1, 1e-7) << d; // midpoint rule: (dr/h)^2
+    for (const double r : {0.05, 0.2, 0.45, 0.59}) {
+      const double e = 1e-6, slope = (kernel.value(r + e) - kernel.value(r - e)) / (2 * e);
+      EXPECT_NEAR(kernel.slope(r) * r / slope, 1, 1e-5) << d << " " << r;
+    }
+    EXPECT_EQ(kernel.value(0.6), 0);
+    EXPECT_EQ(kernel.slope(0.6), 0);
+    for (double r = 0.01; r < 0.6; r += 0.01) EXPECT_LE(-kernel.slope(r) * r, kernel.steepest()) << r;
+  }
+}
+
+// --- state
+
+TEST(FluidModel, PressureAndCompressionAreInversesAndTheEnergyIsTheWorkOfPressure) {
+  const FluidModel m = water(3, 0.1);
+  for (const double s : {-0.1, -1e-3, 1e-6, 0.02, 0.14}) {
+    EXPECT_NEAR(compressionAt(m, pressureAt(m, s)) / s, 1, 1e-12);
+    // de = p/rho^2 drho = p/(rho0 (1 + s)^2) ds
+    const double e = 1e-5, rate = (internalEnergyAt(m, s + e) - internalEnergyAt(m, s - e)) / (2 * e);
+    EXPECT_NEAR(rate * m.density * (1 + s) * (1 + s), pressureAt(m, s), 1e-6 * m.density * m.soundSpeed * m.soundSpeed);
+  }
+  EXPECT_NEAR(internalEnergyAt(m, 0.1), 100 * (std::log(1.1) + 1 / 1.1 - 1), 1e-12);
+}
+
+TEST(StepLimits, AreThoseOfSoundForceAndViscosity) {
+  FluidModel m = water(3, 0.1); // h = 0.13 m
+  m.gravity = {0, 0, -kGravity};
+  const StepLimits inviscid = stepLimits(m, 2, 0);
+  EXPECT_DOUBLE_EQ(inviscid.sound, 0.25 * 0.13 / 12);
+  EXPECT_DOUBLE_EQ(inviscid.force, 0.25 * std::sqrt(0.13 / kGravity)); // gravity where less is expected
+  EXPECT_EQ(inviscid.viscous, base::kInfinity);
+  m.viscosity = 5000;
+  EXPECT_DOUBLE_EQ(stepLimits(m, 2, 40).viscous, 0.125 * 0.13 * 0.13 / 5);
+  EXPECT_DOUBLE_EQ(stepLimits(m, 2, 40).force, 0.25 * std::sqrt(0.13 / 40));
+  EXPECT_EQ(stepLimits(m, 2, 40).least(), stepLimits(m, 2, 40).viscous);
+}
+
+// --- motion
+
+TEST(Fluid, ALoneParticleFallsAsItShould) {
+  FluidSetup s;
+  s.model = water(3, 0.1);
+  s.model.gravity = {0.5, 0, -kGravity};
+  s.particles = {{{0.2, -0.3, 1}, {1, 2, 3}, 0.01}};
+  Fluid fluid(s, testExec());
+  for (int k = 0; k < 1000; ++k) fluid.step();
+  const double t = fluid.time();
+  const FluidSnapshot end = fluid.snapshot();
+  // Each half step rounds a place to a unit of 1e-9 spacings.
+  EXPECT_NEAR(end.position[0].x, 0.2 + t + 0.25 * t * t, 2e-7);
+  EXPECT_NEAR(end.position[0].z, 1 + 3 * t - 0.5 * kGravity * t * t, 2e-7);
+  EXPECT_NEAR(end.velocity[0].z, 3 - kGravity * t, 1e-12);
+  EXPECT_EQ(end.compression[0], 0.01) << "nobody is near";
+}
+
+/// Half a period of a plane wave between lattice points: k c D(k)/k, D(k) = sum V F x sin(k x).
+TEST(Fluid, SoundHasTheSpeedOfTheLattice) {
+  for (const auto& [smoothing, figure] : {std::pair{1.3, 0.9513}, std::pair{1.5, 0.9661}}) {
+    FluidSetup s;
+    FluidModel& m = s.model = water(2, 0.05);
+    m.smoothing = smoothing, m.artificialViscosity = m.diffusion = 0;
+    m.timeStep = 0.25 * m.kernel().length() / m.soundSpeed;
+    s.periodHigh = {1, 1, 0};
+    const double k = 2 * base::kPi;
+    for (int i = 0; i < 20; ++i)
+      for (int j = 0; j < 20; ++j) {
+        const double x = (i + 0.5) * 0.05;
+        s.particles.push_back({{x, (j + 0.5) * 0.05, 0}, {1e-3 * std::sin(k * x), 0, 0}, 0});
+      }
+    double dispersion = 0;
+    for (int i = -3; i <= 3; ++i)
+      for (int j = -3; j <= 3; ++j) {
+        const double x = 0.05 * i, r = 0.05 * std::hypot(i, j);
+        dispersion -= m.volume() * m.kernel().slope(r) * x * std::sin(k * x);
+      }
+    EXPECT_NEAR(dispersion / k, figure, 2e-4) << "an independent computation";
+    Fluid fluid(s, testExec());
+    double before = 1, first = 0, last = 0;
+    int crossings = 0;
+    for (int step = 0; step < 400; ++step) {
+      fluid.step();
+      const FluidSnapshot now = fluid.snapshot();
+      double signal = 0;
+      for (std::size_t i = 0; i < now.position.size(); ++i)
+        signal += now.velocity[i].x * std::sin(k * now.position[i].x);
+      if (before * signal < 0) {
+        last = fluid.time() - m.timeStep * signal / (signal - before);
+        if (crossings++ == 0) first = last;
+      }
+      before = signal;
+    }
+    const double speed = 0.5 * (crossings - 1) / (last - first);
+    EXPECT_NEAR(speed / m.soundSpeed, dispersion / k, 1e-3) << smoothing; // of the step: (omega dt)^2/24
+  }
+}
+
+TEST(Fluid, AStillTankStaysStillAndItsFloorBearsTheWeight) {
+  Fluid fluid(tankOfWater(), testExec());
+  const double bottom = fluid.model().density * kGravity * 0.5;
+  double force = 0;
+  int looks = 0;
+  while (fluid.time() < 0.6) {
+    fluid.step();
+    if (fluid.time() > 0.2) force += fluid.totals().wallForce.z, ++looks;
+  }
+  const FluidSnapshot end = fluid.snapshot();
+  double square = 0, fastest = 0;
+  for (std::size_t i = 0; i < end.position.size(); ++i) {
+    const double error = pressureAt(fluid.model(), end.compression[i]) / bottom - (1 - end.position[i].z / 0.5);
+    square += error * error, fastest = std::max(fastest, base::norm(end.velocity[i]));
+  }
+  EXPECT_LT(std::sqrt(square / static_cast<double>(end.position.size())), 0.03); // 10 spacings deep
+  EXPECT_LT(fastest, 0.05);
+  const double weight = fluid.model().mass() * static_cast<double>(fluid.particles()) * kGravity;
+  EXPECT_NEAR(-force / looks / weight, 1, 0.01);
+}
+
+TEST(Fluid, ForcesOfParticlesAndWallsCancelToTheLastBit) {
+  for (const double viscosity : {0.0, 0.5}) {
+    FluidSetup s = damBreak();
+    s.model.viscosity = viscosity;
+    Fluid fluid(s, testExec());
+    for (int k = 0; k < 200; ++k) {
+      fluid.step();
+      ASSERT_EQ(fluid.forceBalance(), (base::Vec3l{})) << "step " << k;
+    }
+    EXPECT_GT(fluid.totals().fastest, 0.1) << "it flows";
+    EXPECT_NE(fluid.totals().wallForce.x, 0);
+  }
+}
+
+/// Without walls, gravity or viscosity energy is lost by the step alone, whose error falls with its square.
+TEST(Fluid, TheErrorOfEnergyIsOfSecondOrderInTheStep) {
+  std::vector<double> errors;
+  for (const int finer : {1, 2, 4}) {
+    FluidSetup s;
+    FluidModel& m = s.model = water(2, 0.1);
+    m.attraction = 1, m.soundSpeed = 15, m.diffusion = m.artificialViscosity = 0;
+    m.timeStep = stepLimits(m, 1.5, 1).least() / finer;
+    for (int i = -6; i < 6; ++i)
+      for (int j = -6; j < 6; ++j) {
+        const double x = 0.1 * (i + 0.5), y = 0.1 * (j + 0.5), r2 = x * x + y * y;
+        if (r2 < 0.3) s.particles.push_back({{x, y, 0}, {x, -y, 0}, compressionAt(m, m.density * (0.3 - r2))});
+      }
+    Fluid fluid(s, testExec());
+    const double start = fluid.totals().total();
+    double worst = 0;
+    while (fluid.time() < 0.5) fluid.step(), worst = std::max(worst, std::abs(fluid.totals().total() - start));
+    errors.push_back(worst / start);
+  }
+  EXPECT_LT(errors[0], 1e-5);
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2, 0.1);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, 0.1); // single precision of pairs: 1e-7
+}
+
+TEST(Fluid, LossesOfViscosityAndDiffusionCloseTheEnergyOfACollapse) {
+  FluidSetup s = damBreak();
+  s.model.viscosity = 0, s.model.artificialViscosity = 0.1;
+  Fluid fluid(s, testExec());
+  const FluidTotals start = fluid.totals();
+  while (fluid.time() < 0.4) fluid.step();
+  const FluidTotals end = fluid.totals();
+  const double fallen = start.potential - end.potential;
+  EXPECT_GT(end.kinetic, 0.2 * fallen);
+  EXPECT_GT(end.viscousLoss, 0.02 * fallen);
+  EXPECT_GT(end.diffusionLoss, 0);
+  EXPECT_NEAR((end.total() - start.total()) / fallen, 0, 0.05) << "work on the markers of walls";
+}
+
+// --- one answer
+
+TEST(Fluid, HasOneAnswerOnAnyThreadsAndOrderOfParticles) {
+  FluidSetup s = damBreak();
+  s.model.shifting = 2, s.surfaceDivergence = 2.5;
+  std::uint64_t hash = 0;
+  for (const int threads : {1, 3}) {
+    Fluid fluid(s, testExec(threads));
+    for (int k = 0; k < 150; ++k) fluid.step();
+    EXPECT_GT(fluid.rebuilds(), 2);
+    if (threads == 1) hash = fluid.hash();
+    EXPECT_EQ(fluid.hash(), hash);
+  }
+  // The last particle first: the same particles move to the same bits.
+  std::swap(s.particles.front(), s.particles.back());
+  Fluid swapped(s, testExec()), plain(damBreak(), testExec());
+  EXPECT_NE(swapped.hash(), plain.hash());
+  Fluid again(s, testExec());
+  for (int k = 0; k < 150; ++k) again.step();
+  std::swap(s.particles.front(), s.particles.back());
+  Fluid first(s, testExec());
+  for (int k = 0; k < 150; ++k) first.step();
+  const FluidSnapshot a = again.snapshot(), b = first.snapshot();
+  const std::size_t last = a.position.size() - 1;
+  EXPECT_EQ(a.position[0], b.position[last]);
+  EXPECT_EQ(a.velocity[last], b.velocity[0]);
+  EXPECT_EQ(a.compression[last / 2], b.compression[last / 2]);
+}
+
+TEST(Fluid, HasTheSameBitsOnCuda) {
+  if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
+  for (const double viscosity : {0.0, 0.5}) {
+    FluidSetup s = damBreak();
+    s.model.viscosity = viscosity, s.model.shifting = 2, s.surfaceDivergence = 2.5;
+    Fluid host(s, base::cpuExec(2)), device(s, base::cudaExec());
+    for (int k = 0; k < 300; ++k) host.step(), device.step();
+    EXPECT_EQ(host.hash(), device.hash());
+    EXPECT_EQ(host.markerForces(), device.markerForces());
+  }
+}
+
+// --- errors
+
+TEST(Fluid, RefusesWhatIsNoFluid) {
+  const auto messageOf = [](auto change) {
+    FluidSetup s;
+    s.model = water(3, 0.1);
+    s.particles = {{{0, 0, 0}, {}, 0}};
+    change(s);
+    return test::messageOf([&] { Fluid fluid(s, base::cpuExec(1)); });
+  };
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.model.dimensions = 1; }).find("dimensions"), std::string::npos);
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.model.spacing = 0; }).find("spacing"), std::string::npos);
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.model.smoothing = 0.9; }).find("smoothing"), std::string::npos);
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.model.diffusion = -1; }).find("negative"), std::string::npos);
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.particles.clear(); }).find("no particles"), std::string::npos);
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.particles[0].velocity.x = 11; }).find("faster"), std::string::npos);
+}
+
+TEST(Fluid, StopsWhereAStepIsTooLong) {
+  FluidSetup s = tankOfWater();
+  s.model.timeStep *= 9;
+  Fluid fluid(s, testExec());
+  std::string message;
+  try {
+    for (int k = 0; k < 300; ++k) fluid.step();
+  } catch (const base::SimulationError& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("smaller time step"), std::string::npos) << message;
+  EXPECT_NE(message.find("fluid particle"), std::string::npos) << message;
+}
+
+// --- lattice
+
+TEST(Lattice, FillsATankAndItsWallsWithoutGapsOrOverlaps) {
+  const FluidSetup s = tankOfWater();
+  EXPECT_EQ(s.particles.size(), 12u * 8 * 10);
+  const std::size_t layers = 3; // 2 x 1.3 spacings
+  // Rounded edges: what lies deeper than the support behind an edge is left out.
+  std::size_t inBox = (12 + 2 * layers) * (8 + 2 * layers) * (18 + layers);
+  EXPECT_LT(s.markers.size(), inBox - 12u * 8 * 18);
+  for (const WallMarker& m : s.markers)
+    EXPECT_TRUE(m.position.x < 0 || m.position.x > 0.6 || m.position.y < 0 || m.position.y > 0.4 || m.position.z < 0);
+  // A particle beside the floor sees as many neighbours as one in the bulk: the sum of V W is that of the lattice.
+  const Wendland kernel = s.model.kernel();
+  const auto sumAt = [&](const Vec3d& p) {
+    double sum = 0;
+    for (const FluidParticle& f : s.particles) sum += s.model.volume() * kernel.value(base::norm(f.position - p));
+    for (const WallMarker& m : s.markers) sum += s.model.volume() * kernel.value(base::norm(m.position - p));
+    return sum;
+  };
+  EXPECT_NEAR(sumAt({0.025, 0.025, 0.025}), sumAt({0.325, 0.225, 0.225}), 1e-3);
+  EXPECT_NEAR(sumAt({0.325, 0.225, 0.225}), 1.009, 6e-4);
+}
+
+} // namespace
+} // namespace grouser::fluid
