@@ -4,9 +4,8 @@
 #include "base/error.hpp"
 #include "base/gather.cuh"
 #include "base/hash.hpp"
+#include "fluid/fluid_faults.hpp"
 #include "fluid/fluid_kernels.cuh"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <cstring>
@@ -16,48 +15,10 @@ namespace grouser::fluid {
 
 namespace {
 
-const FluidModel& soundModel(const FluidSetup& setup) {
-  const FluidModel& m = setup.model;
-  const auto need = [](bool sound, const char* what) {
-    if (!sound) throw base::InputError(std::string("fluid: ") + what);
-  };
-  need(m.dimensions == 2 || m.dimensions == 3, "dimensions are 2 or 3");
-  need(m.spacing > 0 && m.density > 0 && m.soundSpeed > 0 && m.timeStep > 0,
-       "spacing, density, sound speed and time step must be above 0");
-  need(m.smoothing >= 1 && m.smoothing <= 3, "the smoothing length must be 1 to 3 spacings");
-  need(m.viscosity >= 0 && m.artificialViscosity >= 0 && m.diffusion >= 0 && m.shifting >= 0,
-       "viscosity, artificial viscosity, diffusion and shifting must not be negative");
-  need(!setup.particles.empty(), "there are no particles");
-  for (const FluidParticle& p : setup.particles)
-    need(std::abs(p.compression) < kGreatestCompression && base::norm(p.velocity) < m.greatestSpeed(),
-         "a particle starts too compressed or faster than sound");
-  return m;
-}
-
 std::vector<std::uint32_t> numbers(std::size_t count) {
   std::vector<std::uint32_t> n(count);
   std::iota(n.begin(), n.end(), 0u);
   return n;
-}
-
-std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step) {
-  const auto id = static_cast<std::uint32_t>(fault);
-  const double time = static_cast<double>(step) * model.timeStep;
-  const auto text = [&]() -> std::string {
-    switch (static_cast<FluidFault>(fault >> 32)) {
-    case FluidFault::speed:
-      return fmt::format("is faster than sound ({:.4g} m/s)", model.soundSpeed);
-    case FluidFault::compression:
-      return fmt::format("is compressed or stretched by more than {:.0f} %", 100 * kGreatestCompression);
-    case FluidFault::displacement:
-      return "has moved by more than half the skin of the neighbour lists in one step";
-    case FluidFault::range:
-      break;
-    }
-    return "has left the range of positions";
-  };
-  return fmt::format("step {}, time {:.4g} s: fluid particle {} {}; use a smaller time step or a higher sound speed",
-                     step, time, id, text());
 }
 
 } // namespace

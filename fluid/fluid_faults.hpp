@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fluid/fluid.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace grouser::fluid {
+
+/// The model of a setup. Throws InputError where model or particles make no fluid.
+const FluidModel& soundModel(const FluidSetup& setup);
+
+/// A fault of FluidFlags in words, with step, time, particle and remedy.
+std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step);
+
+} // namespace grouser::fluid
