@@ -31,6 +31,7 @@ FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, c
   k.sound2 = static_cast<float>(c * c);
   k.artificial = static_cast<float>(model.artificialViscosity * h * c);
   k.laminar = static_cast<float>(2 * model.viscosity / model.density);
+  k.central = model.centralViscosity ? static_cast<float>(model.dimensions + 2) : 0.0f;
   k.diffusion = static_cast<float>(-2 * model.diffusion * h * c);
   k.gravityOverSound2 = (model.gravity * (1 / (c * c))).as<float>();
   const double near = kernel.value(model.spacing) / kernel.atCentre(), near2 = near * near;
@@ -40,7 +41,8 @@ FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, c
   const double steep = volume * kernel.steepest(), centre = -volume * kernel.slopeAtCentre();
   const double apart = 2 * model.greatestSpeed(), most = kGreatestCompression;
   const double stress = most / ((1 - most) * (1 - most)), spread = (1 + stress) * (1 + stress);
-  const double viscous = (model.artificialViscosity * h * c + 2 * model.viscosity / model.density) * centre * apart;
+  const double laminar = 2 * model.viscosity / model.density * (model.centralViscosity ? model.dimensions + 2 : 1);
+  const double viscous = (model.artificialViscosity * h * c + laminar) * centre * apart;
   const double force = 2 * stress * c * c * steep + spread * viscous;
   const double hydrostatic = base::norm(model.gravity) * reach / (c * c);
   k.rate = pairTerms(steep * apart + 2 * model.diffusion * h * c * centre * (2 * most + hydrostatic));

@@ -246,7 +246,7 @@ struct ShowStress {
 };
 
 /// Acceleration of particle i by a pair [m/s2]: pressure -m (p_i/rho_i^2 + p_j/rho_j^2) grad W, artificial viscosity
-/// (Monaghan 1992) and laminar viscosity (Morris et al. 1997). `slip`: relative velocity for the last.
+/// (Monaghan 1992) and laminar viscosity (FluidModel). `slip`: relative velocity for the last.
 struct PairForce {
   base::Vec3f pressure, viscous;
 };
@@ -257,7 +257,11 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   const float approach = dot(own.xyz() - other.xyz(), pair.d);
   if (artificial && approach < 0) // 1/rho of the pair, to first order
     force.viscous = pair.d * (k.artificial * approach / (pair.r2 + k.eta2) * (1 - 0.5f * stresses) * slope);
-  if (k.laminar > 0) force.viscous += slip * (k.laminar * (1 - stresses) * slope);
+  if (k.laminar > 0) {
+    const float viscosity = k.laminar * (1 - stresses) * slope;
+    force.viscous +=
+        k.central > 0 ? pair.d * (k.central * dot(slip, pair.d) / (pair.r2 + k.eta2) * viscosity) : slip * viscosity;
+  }
   return force;
 }
 

@@ -11,12 +11,15 @@ namespace grouser::fluid {
 /// The state of a particle is its velocity and its compression s = rho/rho0 - 1. All particles have the mass
 /// rho0 spacing^d. Pressure p = c^2 (rho - rho0) = c^2 rho0 s.
 struct FluidModel {
-  int dimensions = 3;                ///< 2: all particles share one coordinate, and masses count per metre
-  double spacing = 0;                ///< initial distance of particles [m]
-  double smoothing = 1.3;            ///< smoothing length over spacing [-]
-  double density = 1000;             ///< at zero pressure [kg/m3]
-  double soundSpeed = 0;             ///< of the numerical fluid [m/s]
-  double viscosity = 0;              ///< dynamic, by the operator of Morris et al. (1997) [Pa s]
+  int dimensions = 3;     ///< 2: all particles share one coordinate, and masses count per metre
+  double spacing = 0;     ///< initial distance of particles [m]
+  double smoothing = 1.3; ///< smoothing length over spacing [-]
+  double density = 1000;  ///< at zero pressure [kg/m3]
+  double soundSpeed = 0;  ///< of the numerical fluid [m/s]
+  double viscosity = 0;   ///< dynamic [Pa s]
+  /// Viscosity by the central operator of Monaghan and Gingold (1983), which keeps angular momentum and is right at
+  /// free surfaces (Colagrossi et al. 2011); else by that of Morris et al. (1997), which is more accurate at walls.
+  bool centralViscosity = false;
   double artificialViscosity = 0.02; ///< alpha of Monaghan (1992) between fluid particles that approach [-]
   double diffusion = 0.1;            ///< delta of the density diffusion of Fourtakas et al. (2019) [-]
   double shifting = 0;               ///< factor of Fickian shifting (Lind et al. 2012) away from free surfaces; 0: off
