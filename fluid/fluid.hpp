@@ -4,35 +4,13 @@
 #include "base/array.hpp"
 #include "base/exec.hpp"
 #include "fluid/fluid_lists.hpp"
+#include "fluid/fluid_setup.hpp"
 #include "fluid/fluid_view.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace grouser::fluid {
-
-/// A particle as it starts.
-struct FluidParticle {
-  base::Vec3d position;  ///< [m]
-  base::Vec3d velocity;  ///< [m/s]
-  double compression{0}; ///< rho/rho0 - 1 [-]
-};
-
-/// A point of a wall, which counts as fluid at rest with it. Layers of them, as thick as the kernel's support, lie
-/// behind each wall.
-struct WallMarker {
-  base::Vec3d position;   ///< [m]
-  base::Vec3d velocity{}; ///< along the wall, whose place does not change [m/s]
-};
-
-struct FluidSetup {
-  FluidModel model;
-  base::Vec3d periodLow{}, periodHigh{}; ///< periodic boundaries along x and y where high is above low [m]
-  std::vector<FluidParticle> particles;
-  std::vector<WallMarker> markers;
-  /// Shifting ends where div r falls below this: at free surfaces [-].
-  double surfaceDivergence = 0;
-};
 
 /// Energies [J] (per metre in two dimensions), momentum, and losses since the start.
 struct FluidTotals {

@@ -2,6 +2,7 @@
 #include "fluid/fluid_faults.hpp"
 
 #include "base/error.hpp"
+#include "fluid/fluid_view.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fluid/fluid.hpp"
+#include "fluid/fluid_setup.hpp"
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/vec.hpp"
-#include "fluid/fluid.hpp"
+#include "fluid/fluid_setup.hpp"
 
 #include <functional>
 #include <vector>

@@ -26,7 +26,7 @@ struct FluidResult {
 };
 
 std::vector<FluidCase> chosenCases(const std::vector<std::string>& names) {
-  const std::vector<FluidCase> all = fluidCases();
+  std::vector<FluidCase> all = fluidCases();
   if (names.empty()) return all;
   std::vector<FluidCase> chosen;
   for (const std::string& name : names) {
