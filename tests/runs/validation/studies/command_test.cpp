@@ -208,5 +208,26 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+class FluidStudy : public ProgramTest {};
+
+TEST_F(FluidStudy, PrintsOrdersBarsAndFiles) {
+  const Outcome o = call("study fluid --cases sound,couette --quick --device cpu --out results");
+  ASSERT_EQ(o.code, 0) << o.errors;
+  EXPECT_NE(o.out.find("plane sound wave of 1 m: relative errors"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("within 0.002"), std::string::npos) << o.out;
+  EXPECT_EQ(o.out.find("beyond"), o.out.find("beyond the bar")) << o.out;
+  std::istringstream csv(contents(folder_ / "results" / "fluid.csv"));
+  std::string line;
+  int lines = 0;
+  while (std::getline(csv, line)) ++lines;
+  EXPECT_EQ(lines, 1 + 2 * 2 + 2) << "two spacings of three quantities";
+  EXPECT_TRUE(fs::exists(folder_ / "results" / "fluid.png"));
+  const Outcome wrong = call("study fluid --cases waves --out other");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.error().find("there is no case \"waves\"; choose from tank, sound"), std::string::npos)
+      << wrong.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
 } // namespace
 } // namespace grouser::studies
