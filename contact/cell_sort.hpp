@@ -22,7 +22,7 @@ void sortByCell(const base::Exec& exec, const CellGrid& grid, const base::Positi
 
 struct RowLayout {
   std::int64_t stride;  ///< as in NeighbourRows
-  std::uint32_t places; ///< of all rows
+  std::uint32_t places; ///< places in all rows
 };
 
 /// Starts of rows of count[i] places: behind one another on a CPU, by slices of 32 rows side by side on a GPU. Throws

@@ -17,7 +17,7 @@ struct FluidTotals {
   double kinetic{}, potential{}, internal{}; ///< potential: zero at the origin
   double viscousLoss{}, diffusionLoss{}, wallLoss{};
   base::Vec3d momentum{};  ///< [kg m/s]
-  base::Vec3d wallForce{}; ///< of the fluid on all markers, at the last step [N]
+  base::Vec3d wallForce{}; ///< fluid on all markers, last step [N]
   double fastest{};        ///< greatest speed [m/s]
   double total() const { return kinetic + potential + internal + viscousLoss + diffusionLoss + wallLoss; }
 };
@@ -48,14 +48,14 @@ public:
   std::size_t markers() const { return markers_; }
   FluidTotals totals() const;
   FluidSnapshot snapshot() const;
-  /// Of the whole state, the same on every device.
+  /// State hash, the same on every device.
   std::uint64_t hash() const;
   /// Force of the fluid on each marker [N], in the order of FluidSetup.
   std::vector<base::Vec3d> markerForces() const;
   /// Exact sum of the forces between particles and from walls, in quanta: zero.
   base::Vec3l forceBalance() const;
   std::size_t bytes() const;                          ///< on the device [B]
-  std::int64_t rebuilds() const { return rebuilds_; } ///< of the neighbour lists
+  std::int64_t rebuilds() const { return rebuilds_; } ///< neighbour lists made since the start
 
 private:
   FluidView view();

@@ -25,11 +25,11 @@ struct FluidConstants {
   base::Vec3f gravityOverSound2{}; ///< [1/m]
   float shiftSeed{};               ///< 0.2/W(spacing)^4, in units of W(0) [-]
 
-  base::FixedPoint rate;                               ///< of du/dt [1/s]
+  base::FixedPoint rate;                               ///< ds/dt [1/s]
   base::FixedPoint acceleration;                       ///< [m/s2]
   base::FixedPoint power;                              ///< per mass [W/kg]
   base::FixedPoint weight, compression, moment, speed; ///< sums of a marker: W/W(0) [-], times s [-], r [m], v [m/s]
-  base::FixedPoint gradient, divergence;               ///< of shifting: V grad W [1/m], V r.grad W [-]
+  base::FixedPoint gradient, divergence;               ///< shifting: V grad W [1/m], V r.grad W [-]
 
   double greatestSpeed{}; ///< [m/s]
 };

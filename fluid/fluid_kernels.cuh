@@ -73,7 +73,7 @@ GROUSER_HD void raiseTo(std::uint32_t* bits, float value) {
 #endif
 }
 
-/// Of particle i, from the sum of its pair terms [m/s2].
+/// Acceleration of particle i by its pair terms, gravity and attraction [m/s2].
 GROUSER_HD base::Vec3d accelerationOf(const FluidView& f, int i) {
   base::Vec3d a = f.constants.acceleration.value(f.force[i]) + f.gravity;
   if (f.attraction != 0) a -= f.attraction * f.constants.scale.toMetres(f.position[i]);

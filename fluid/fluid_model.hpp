@@ -15,7 +15,7 @@ struct FluidModel {
   double spacing = 0;     ///< initial distance of particles [m]
   double smoothing = 1.3; ///< smoothing length over spacing [-]
   double density = 1000;  ///< at zero pressure [kg/m3]
-  double soundSpeed = 0;  ///< of the numerical fluid [m/s]
+  double soundSpeed = 0;  ///< numerical, far below that of water [m/s]
   double viscosity = 0;   ///< dynamic [Pa s]
   /// Viscosity by the central operator of Monaghan and Gingold (1983), which keeps angular momentum and is right at
   /// free surfaces (Colagrossi et al. 2011); else by that of Morris et al. (1997), which is more accurate at walls.
@@ -28,10 +28,10 @@ struct FluidModel {
   double timeStep = 0;               ///< [s]
 
   Wendland kernel() const { return {smoothing * spacing, dimensions}; }
-  double volume() const; ///< of a particle at zero pressure [m^d]
-  double mass() const;   ///< of a particle [kg], per metre in two dimensions
+  double volume() const; ///< particle volume V0 at zero pressure [m^d]
+  double mass() const;   ///< particle mass [kg], per metre in two dimensions
   double skin() const;   ///< by which neighbour lists reach beyond the kernel's support [m]
-  double greatestSpeed() const { return soundSpeed; } ///< of a particle, a fault beyond [m/s]
+  double greatestSpeed() const { return soundSpeed; } ///< a faster particle is a fault [m/s]
 };
 
 /// A compression beyond this, of either sign, is a fault: integer sums are scaled for it [-].

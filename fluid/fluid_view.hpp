@@ -15,7 +15,7 @@ struct alignas(32) PreciseMotion {
   double compression;   ///< s = rho/rho0 - 1 [-]
 };
 
-/// Change of compression by a step [-], and by diffusion alone.
+/// Changes of compression in a step [-]: by flow, and by density diffusion.
 struct CompressionChange {
   double flow, diffusion;
 };
@@ -26,8 +26,8 @@ struct Losses {
   double viscous, diffusion, wall;
 };
 
-/// Rows of neighbours: of particle i its fluid neighbours, then from fluidCount[i] on the markers of walls; of marker
-/// m, in row particles + m, its fluid neighbours.
+/// Neighbour rows. Row i of a particle holds fluid neighbours, and from place fluidCount[i] on markers of walls. Row
+/// particles + m of marker m holds fluid neighbours.
 struct FluidRows : contact::NeighbourRows {
   const std::uint32_t *count, *fluidCount, *slot;
 };
@@ -57,10 +57,10 @@ struct FluidView {
   base::Vec3d* shift;              ///< [particles] gradient of concentration [1/m]; null without shifting
   float* divergence;               ///< [particles] div r [-]; null without shifting
   base::Vec3f* opposed;            ///< [markers] velocity for viscosity [m/s]; null without laminar viscosity
-  base::Vec3f* markerAcceleration; ///< [markers] of the wall [m/s2]
-  base::Vec3l* markerForce;        ///< [markers] of the fluid on them, quanta of acceleration x particle mass
+  base::Vec3f* markerAcceleration; ///< [markers] acceleration of the wall [m/s2]
+  base::Vec3l* markerForce;        ///< [markers] force of the fluid, quanta of acceleration x particle mass
   const std::uint32_t* id;         ///< [particles]
-  const base::Position* reference; ///< [particles] where they were when listed
+  const base::Position* reference; ///< [particles] places when the lists were made
   FluidRows rows;
   FluidFlags* flags;
 };

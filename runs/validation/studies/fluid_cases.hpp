@@ -12,7 +12,7 @@
 /// Flows of the particle fluid whose solution is known: error against spacing and run time.
 namespace grouser::studies {
 
-/// What a case measures: a relative error, and the bar that the finest spacing must keep.
+/// A relative error, and the bar that the finest spacing must keep.
 struct FluidQuantity {
   std::string name;
   double bar; ///< [-]; 0: no bar
