@@ -2,6 +2,7 @@
 #include "fluid/fluid_faults.hpp"
 
 #include "base/error.hpp"
+#include "base/position.hpp"
 #include "fluid/fluid_view.hpp"
 
 #include <fmt/format.h>
@@ -22,9 +23,21 @@ const FluidModel& soundModel(const FluidSetup& setup) {
   need(m.viscosity >= 0 && m.artificialViscosity >= 0 && m.diffusion >= 0 && m.shifting >= 0,
        "viscosity, artificial viscosity, diffusion and shifting must not be negative");
   need(!setup.particles.empty(), "there are no particles");
-  for (const FluidParticle& p : setup.particles)
+  const double reach = m.kernel().support() + m.skin(), limit = base::positionScale(m.kernel().support()).limit();
+  for (int a = 0; a < 2; ++a) {
+    const double period = setup.periodHigh[a] - setup.periodLow[a];
+    need(!(period > 0) || period >= 3 * reach, "periodic boundaries must be at least three times the reach of the "
+                                               "neighbour lists apart (support and 0.3 spacings)");
+  }
+  const auto inRange = [limit](const base::Vec3d& p) {
+    return std::abs(p.x) < limit && std::abs(p.y) < limit && std::abs(p.z) < limit;
+  };
+  for (const WallMarker& w : setup.markers) need(inRange(w.position), "a marker lies outside the range of positions");
+  for (const FluidParticle& p : setup.particles) {
+    need(inRange(p.position), "a particle lies outside the range of positions");
     need(std::abs(p.compression) < kGreatestCompression && base::norm(p.velocity) < m.greatestSpeed(),
          "a particle starts too compressed or faster than sound");
+  }
   return m;
 }
 

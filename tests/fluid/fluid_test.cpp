@@ -339,6 +339,11 @@ TEST(Fluid, RefusesWhatIsNoFluid) {
   EXPECT_NE(messageOf([](FluidSetup& s) { s.model.diffusion = -1; }).find("negative"), std::string::npos);
   EXPECT_NE(messageOf([](FluidSetup& s) { s.particles.clear(); }).find("no particles"), std::string::npos);
   EXPECT_NE(messageOf([](FluidSetup& s) { s.particles[0].velocity.x = 11; }).find("faster"), std::string::npos);
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.particles[0].position.y = NAN; }).find("range"), std::string::npos);
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.markers = {{{1e9, 0, 0}}}; }).find("marker"), std::string::npos);
+  // h = 0.13 m: lists reach 0.26 m and the skin of 0.03 m.
+  EXPECT_NE(messageOf([](FluidSetup& s) { s.periodHigh.x = 0.86; }).find("periodic"), std::string::npos);
+  EXPECT_EQ(messageOf([](FluidSetup& s) { s.periodHigh.x = 0.88; }), "");
 }
 
 TEST(Fluid, StopsWhereAStepIsTooLong) {
