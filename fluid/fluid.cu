@@ -54,7 +54,6 @@ Fluid::Fluid(FluidSetup setup, const base::Exec& exec)
   const std::size_t shifted = model_.shifting > 0 ? particles_ : 0;
   shift_ = base::Array<base::Vec3d>(exec, shifted), divergence_ = base::Array<float>(exec, shifted);
   opposed_ = base::Array<base::Vec3f>(exec, model_.viscosity > 0 ? markers_ : 0);
-  markerAcceleration_ = base::Array<base::Vec3f>(exec, markers_);
   markerForce_ = base::Array<base::Vec3l>(exec, markers_);
   id_ = base::Array(exec, numbers(particles_));
   rebuild();
@@ -77,7 +76,6 @@ FluidView Fluid::view() {
           shift_.data(),
           divergence_.data(),
           opposed_.data(),
-          markerAcceleration_.data(),
           markerForce_.data(),
           id_.data(),
           reference_.data(),
@@ -137,7 +135,7 @@ void Fluid::step() {
   drift.whole = true;
   base::forEach(exec_, "fluid drift and compression", n, drift);
   computeForces();
-  base::forEach(exec_, "fluid kick", n, Kick{view()});
+  base::forEach(exec_, "fluid kick", n, Kick{view(), 0.5 * drift.skin - drift.greatestShift});
   flags_.download();
   base::synchronize(exec_);
   ++steps_;
@@ -222,7 +220,7 @@ std::uint64_t Fluid::hash() const {
 std::size_t Fluid::bytes() const {
   return lists_.bytes() + position_.bytes() + reference_.bytes() + motion_.bytes() + precise_.bytes() + force_.bytes() +
          change_.bytes() + losses_.bytes() + shift_.bytes() + divergence_.bytes() + opposed_.bytes() +
-         markerAcceleration_.bytes() + markerForce_.bytes() + id_.bytes();
+         markerForce_.bytes() + id_.bytes();
 }
 
 } // namespace grouser::fluid

@@ -32,10 +32,11 @@ struct FluidSnapshot {
 /// density diffusion, walls by extrapolation, one sweep of forces a step.
 ///
 /// A step: half a kick; half a drift; compression from the velocities at mid-step; half a drift; pressures of the
-/// walls; forces; half a kick. Second order in time, and one answer on any device and number of threads.
+/// walls; forces; half a kick. Second order in time, but for viscosity and diffusion, which are of first order. The
+/// state is the same on any device and number of threads.
 class Fluid {
 public:
-  /// Throws InputError where the model or the particles make no fluid.
+  /// Throws InputError for values out of range.
   Fluid(FluidSetup setup, const base::Exec& exec);
 
   /// Throws SimulationError where a particle is faster, more compressed or farther away than the numbers allow.
@@ -80,7 +81,6 @@ private:
   base::Array<base::Vec3d> shift_;   ///< empty without shifting
   base::Array<float> divergence_;    ///< empty without shifting
   base::Array<base::Vec3f> opposed_; ///< empty without laminar viscosity
-  base::Array<base::Vec3f> markerAcceleration_;
   base::Array<base::Vec3l> markerForce_;
   base::Array<std::uint32_t> id_;
   base::Mirrored<FluidFlags> flags_;

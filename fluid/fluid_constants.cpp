@@ -42,7 +42,7 @@ FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, c
   const double apart = 2 * model.greatestSpeed(), most = kGreatestCompression;
   const double stress = most / ((1 - most) * (1 - most)), spread = (1 + stress) * (1 + stress);
   const double laminar = 2 * model.viscosity / model.density * (model.centralViscosity ? model.dimensions + 2 : 1);
-  const double viscous = (model.artificialViscosity * h * c + laminar) * centre * apart;
+  const double viscous = (model.artificialViscosity * h * c + 2 * laminar) * centre * apart; // walls: 2 u_w
   const double force = 2 * stress * c * c * steep + spread * viscous;
   const double hydrostatic = base::norm(model.gravity) * reach / (c * c);
   k.rate = pairTerms(steep * apart + 2 * model.diffusion * h * c * centre * (2 * most + hydrostatic));

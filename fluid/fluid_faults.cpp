@@ -22,19 +22,32 @@ const FluidModel& soundModel(const FluidSetup& setup) {
   need(m.smoothing >= 1 && m.smoothing <= 3, "the smoothing length must be 1 to 3 spacings");
   need(m.viscosity >= 0 && m.artificialViscosity >= 0 && m.diffusion >= 0 && m.shifting >= 0,
        "viscosity, artificial viscosity, diffusion and shifting must not be negative");
+  need(std::isfinite(base::norm(m.gravity)) && std::isfinite(m.attraction) && std::isfinite(m.timeStep) &&
+           std::isfinite(setup.surfaceDivergence),
+       "gravity, attraction, time step and the divergence at surfaces must be finite");
   need(!setup.particles.empty(), "there are no particles");
+  need(setup.particles.size() + setup.markers.size() < std::size_t{1} << 31,
+       "there are 2^31 particles and markers or more");
   const double reach = m.kernel().support() + m.skin(), limit = base::positionScale(m.kernel().support()).limit();
+  need(!(setup.periodHigh.z > setup.periodLow.z), "boundaries along z cannot be periodic");
   for (int a = 0; a < 2; ++a) {
     const double period = setup.periodHigh[a] - setup.periodLow[a];
     need(!(period > 0) || period >= 3 * reach, "periodic boundaries must be at least three times the reach of the "
                                                "neighbour lists apart (support and 0.3 spacings)");
   }
-  const auto inRange = [limit](const base::Vec3d& p) {
-    return std::abs(p.x) < limit && std::abs(p.y) < limit && std::abs(p.z) < limit;
+  const auto inRange = [&setup, limit](const base::Vec3d& p) {
+    for (int a = 0; a < 3; ++a) {
+      const double low = setup.periodLow[a], high = setup.periodHigh[a];
+      if (!(std::abs(p[a]) < limit) || (high > low && !(p[a] >= low && p[a] <= high))) return false;
+    }
+    return true;
   };
-  for (const WallMarker& w : setup.markers) need(inRange(w.position), "a marker lies outside the range of positions");
+  for (const WallMarker& w : setup.markers) {
+    need(inRange(w.position), "a marker lies outside the periodic boundaries or the range of positions");
+    need(base::norm(w.velocity) < m.greatestSpeed(), "a wall is faster than sound");
+  }
   for (const FluidParticle& p : setup.particles) {
-    need(inRange(p.position), "a particle lies outside the range of positions");
+    need(inRange(p.position), "a particle lies outside the periodic boundaries or the range of positions");
     need(std::abs(p.compression) < kGreatestCompression && base::norm(p.velocity) < m.greatestSpeed(),
          "a particle starts too compressed or faster than sound");
   }
@@ -57,8 +70,9 @@ std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t
     }
     return "has left the range of positions";
   };
-  return fmt::format("step {}, time {:.4g} s: fluid particle {} {}; use a smaller time step or a higher sound speed",
-                     step, time, id, text());
+  const bool lost = static_cast<FluidFault>(fault >> 32) == FluidFault::range;
+  return fmt::format("step {}, time {:.4g} s: fluid particle {} {}; {}", step, time, id, text(),
+                     lost ? "close the walls that it left by" : "use a smaller time step or a higher sound speed");
 }
 
 } // namespace grouser::fluid

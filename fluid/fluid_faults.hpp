@@ -8,7 +8,7 @@
 
 namespace grouser::fluid {
 
-/// The model of a setup. Throws InputError where model or particles make no fluid.
+/// The model of a setup. Throws InputError for values out of range.
 const FluidModel& soundModel(const FluidSetup& setup);
 
 /// A fault of FluidFlags in words, with step, time, particle and remedy.

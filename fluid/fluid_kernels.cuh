@@ -11,12 +11,12 @@
 /// partner's, and is rounded once to an integer: sums are the same in any order, on every device.
 namespace grouser::fluid {
 
-/// Nearest integer; a pair term lies within its range (FluidConstants).
+/// Nearest integer. A pair term lies within its range (FluidConstants) until a fault ends the run.
 GROUSER_HD std::int64_t rounded(float quanta) {
 #if defined(__CUDA_ARCH__)
   return __float2int_rn(quanta);
 #else
-  return static_cast<std::int32_t>(rintf(quanta));
+  return fabsf(quanta) < 0x1p31f ? static_cast<std::int32_t>(rintf(quanta)) : 0;
 #endif
 }
 
@@ -80,13 +80,22 @@ GROUSER_HD base::Vec3d accelerationOf(const FluidView& f, int i) {
   return a;
 }
 
-/// v += a dt/2.
+/// Distance of particle i from its place when the lists were made [m].
+GROUSER_HD double movedSinceListed(const FluidView& f, int i) {
+  const base::Vec3l d = f.constants.period.apart(f.reference[i], f.position[i]);
+  return norm(d.as<double>()) * f.constants.scale.unit;
+}
+
+/// v += a dt/2. At the end of a step (`greatestMove` above 0) it ends the lists where the next step, whose drift has
+/// the velocity v + a dt/2, would bring a particle farther than `greatestMove` from its place in them [m].
 struct Kick {
   static constexpr double kNanoseconds = 15;
   FluidView f;
+  double greatestMove = 0;
   GROUSER_HD void operator()(int i) const {
     PreciseMotion& m = f.precise[i];
-    m.velocity += 0.5 * f.timeStep * accelerationOf(f, i);
+    const base::Vec3d half = 0.5 * f.timeStep * accelerationOf(f, i);
+    m.velocity += half;
     const base::Vec3f v = m.velocity.as<float>();
     f.motion[i] = {v.x, v.y, v.z, static_cast<float>(m.compression)};
     const float speed2 = dot(v, v);
@@ -94,6 +103,8 @@ struct Kick {
       raiseFault(f.flags, FluidFault::speed, f.id[i]);
     else if (f.shift)
       raiseTo(&f.flags->fastest, speed2);
+    if (greatestMove > 0 && movedSinceListed(f, i) + norm(m.velocity + half) * f.timeStep > greatestMove)
+      base::raise(&f.flags->listEnded);
   }
 };
 
@@ -118,15 +129,14 @@ struct Drift {
     }
     const base::PositionScale& scale = f.constants.scale;
     const base::Vec3l u = base::toUnits(f.position[i]);
+    if (!(norm(move) * scale.perMetre < kRange)) return raiseFault(f.flags, FluidFault::range, f.id[i]);
     const base::Vec3l to{u.x + units(move.x * scale.perMetre), u.y + units(move.y * scale.perMetre),
                          u.z + units(move.z * scale.perMetre)};
     if (!(fabs(static_cast<double>(to.x)) < kRange && fabs(static_cast<double>(to.y)) < kRange &&
-          fabs(static_cast<double>(to.z)) < kRange)) {
-      raiseFault(f.flags, FluidFault::range, f.id[i]);
-      return;
-    }
+          fabs(static_cast<double>(to.z)) < kRange))
+      return raiseFault(f.flags, FluidFault::range, f.id[i]);
     f.position[i] = base::fromUnits(f.constants.period.wrapped(to));
-    if (whole) checkList(i, m);
+    if (whole) checkList(i);
   }
 
 private:
@@ -148,12 +158,9 @@ private:
     const double length = norm(shift);
     return length > greatestShift ? shift * (greatestShift / length) : shift;
   }
-  /// The list holds while nobody has moved by more than half the skin; the next step may bring a particle so far.
-  GROUSER_HD void checkList(int i, const PreciseMotion& m) const {
-    const base::Vec3l d = f.constants.period.apart(f.reference[i], f.position[i]);
-    const double moved = norm(d.as<double>()) * f.constants.scale.unit, next = 1.25 * norm(m.velocity) * f.timeStep;
-    if (moved > 0.5 * skin) raiseFault(f.flags, FluidFault::displacement, f.id[i]);
-    if (moved + next + greatestShift > 0.5 * skin) base::raise(&f.flags->listEnded);
+  /// The lists hold while no particle has moved by more than half the skin.
+  GROUSER_HD void checkList(int i) const {
+    if (movedSinceListed(f, i) > 0.5 * skin) raiseFault(f.flags, FluidFault::displacement, f.id[i]);
   }
 };
 
@@ -230,7 +237,7 @@ struct Extrapolate {
     }
     const double sum = k.weight.value(weight);
     const double c2 = static_cast<double>(k.sound2);
-    const base::Vec3d pull = (f.gravity - f.markerAcceleration[m].as<double>()) * (1 / c2);
+    const base::Vec3d pull = f.gravity * (1 / c2);
     const double s = (k.compression.value(compression) + dot(pull, k.moment.value(moment))) / sum;
     constexpr double kMost = kGreatestCompression;
     own.w = static_cast<float>(stress(s > kMost ? kMost : s < -kMost ? -kMost : s));

@@ -72,7 +72,8 @@ void FluidLists::build(const base::Position* position) {
                 CountPoints{particles, markers, particleCount, count_.data(), fluidCount_.data()});
   const contact::RowLayout layout = contact::layRows(exec_, count_, start_);
   stride_ = layout.stride;
-  if (layout.places > slot_.size()) slot_.resize(layout.places + layout.places / 32);
+  const std::size_t places = layout.places;
+  if (places > slot_.size()) slot_.resize(places + places / 32);
   base::forEach(exec_, "list fluid neighbours", n,
                 ListPoints{particles, markers, particleCount, {start_.data(), stride_}, slot_.data()});
   base::listMarked(exec_, count_.data() + particles_, markers_, wet_);
@@ -81,8 +82,6 @@ void FluidLists::build(const base::Position* position) {
 FluidRows FluidLists::rows() const {
   return {{start_.data(), stride_}, count_.data(), fluidCount_.data(), slot_.data()};
 }
-
-std::uint64_t FluidLists::listed() const { return base::sum(exec_, count_.data(), count_.size()); }
 
 std::size_t FluidLists::bytes() const {
   std::size_t bytes = 0;

@@ -26,8 +26,7 @@ public:
   FluidRows rows() const;
   /// Markers with a fluid neighbour.
   const base::Array<std::uint32_t>& wetMarkers() const { return wet_; }
-  std::uint64_t listed() const; ///< neighbours in all rows
-  std::size_t bytes() const;    ///< [B]
+  std::size_t bytes() const; ///< [B]
 
 private:
   base::Exec exec_;

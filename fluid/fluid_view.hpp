@@ -35,7 +35,7 @@ struct FluidRows : contact::NeighbourRows {
 /// Flags of a step, raised by any thread.
 struct FluidFlags {
   std::uint64_t fault;     ///< FluidFault << 32 | id, the least of all; kNoFault without one
-  std::uint32_t listEnded; ///< a particle has used up its half of the skin
+  std::uint32_t listEnded; ///< the next step would bring a particle beyond half the skin
   std::uint32_t fastest;   ///< bits of the greatest squared speed as a float [m2/s2]
 };
 inline constexpr std::uint64_t kNoFault = ~std::uint64_t{0};
@@ -57,7 +57,6 @@ struct FluidView {
   base::Vec3d* shift;              ///< [particles] gradient of concentration [1/m]; null without shifting
   float* divergence;               ///< [particles] div r [-]; null without shifting
   base::Vec3f* opposed;            ///< [markers] velocity for viscosity [m/s]; null without laminar viscosity
-  base::Vec3f* markerAcceleration; ///< [markers] acceleration of the wall [m/s2]
   base::Vec3l* markerForce;        ///< [markers] force of the fluid, quanta of acceleration x particle mass
   const std::uint32_t* id;         ///< [particles]
   const base::Position* reference; ///< [particles] places when the lists were made

@@ -22,7 +22,7 @@ struct Lattice {
 /// Signed distance of a point from the surface of solids, negative inside [m].
 using Distance = std::function<double(const base::Vec3d&)>;
 
-/// Markers of a wall: points of the lattice in the box that lie inside a solid, no deeper than the kernel's support.
+/// Markers of a wall: points of the lattice in the box that lie inside a solid, in layers down to the kernel's support.
 /// Surfaces between two layers of the lattice have their first markers half a spacing inside.
 std::vector<WallMarker> wallMarkers(const FluidModel& model, const Distance& distance, const base::Vec3d& low,
                                     const base::Vec3d& high);

@@ -41,9 +41,12 @@ std::vector<FluidCase> chosenCases(const std::vector<std::string>& names) {
   return chosen;
 }
 
+/// For the finest spacing; "" without it, or without a bar.
 std::string verdictOf(const FluidResult& result, std::size_t quantity) {
   const double bar = result.study.quantities[quantity].bar, error = result.points.back().errors[quantity];
-  return bar == 0 ? "" : fmt::format("{} {:g}", error <= bar ? "within" : "beyond", bar);
+  return bar == 0 || result.points.size() < result.study.spacings.size()
+             ? ""
+             : fmt::format("{} {:g}", error <= bar ? "within" : "beyond", bar);
 }
 
 std::string fluidTable(const FluidResult& result) {
