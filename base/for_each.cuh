@@ -86,6 +86,16 @@ GROUSER_HD std::uint32_t atomicAdd32(std::uint32_t* target, std::uint32_t value)
 #endif
 }
 
+/// Keeps the largest value. A plain read comes first: a stale value costs one atomic more.
+GROUSER_HD void atomicMax32(std::uint32_t* target, std::uint32_t value) {
+#if defined(__CUDA_ARCH__)
+  if (value > *target) atomicMax(target, value);
+#else
+  std::uint32_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
+  while (value > old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
+#endif
+}
+
 /// Sets bit 0 of a shared flag word. Concurrent writers all set the same bit, so their order does not matter.
 GROUSER_HD void raise(std::uint32_t* flag) {
 #if defined(__CUDA_ARCH__)

@@ -39,15 +39,6 @@ template <class Grid> struct FindBounds {
   std::int64_t count;
   std::uint32_t* bounds;
 
-  GROUSER_HD static void raiseTo(std::uint32_t* target, std::uint32_t value) {
-#if defined(__CUDA_ARCH__)
-    if (value > *target) atomicMax(target, value); // plain read first: a stale value costs one atomic more
-#else
-    std::uint32_t old = __atomic_load_n(target, __ATOMIC_RELAXED);
-    while (value > old && !__atomic_compare_exchange_n(target, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-    }
-#endif
-  }
   GROUSER_HD void operator()(int thread) const {
     Cell low{~0u, ~0u, ~0u}, high{0, 0, 0};
     overShare(thread, count, [&](std::int64_t i) {
@@ -55,8 +46,8 @@ template <class Grid> struct FindBounds {
       low = base::min(low, c), high = base::max(high, c);
     });
     for (int a = 0; a < 3; ++a) {
-      raiseTo(bounds + a, ~low[a]);
-      raiseTo(bounds + 3 + a, high[a]);
+      base::atomicMax32(bounds + a, ~low[a]);
+      base::atomicMax32(bounds + 3 + a, high[a]);
     }
   }
 };

@@ -45,13 +45,14 @@ CellGrid fittedGrid(const base::Exec& exec, const base::Position* position, std:
 void sortByCell(const base::Exec& exec, const CellGrid& grid, const base::Position* position, std::size_t count,
                 base::Array<std::uint32_t>& order, base::Array<std::uint32_t>& cellStart) {
   const auto n = static_cast<std::int64_t>(count);
-  base::Array<std::uint64_t> key(exec, count);
+  const std::int64_t cells = static_cast<std::int64_t>(grid.cells.x) * grid.cells.y * grid.cells.z;
   order.resize(count);
+  cellStart.resize(static_cast<std::size_t>(cells) + 1);
+  if (count == 0) return cellStart.zero(); // MarkStarts would write all of them in one thread
+  base::Array<std::uint64_t> key(exec, count);
   base::forEach(exec, "assign cell keys", n, AssignKeys<CellGrid>{grid, position, key.data()});
   base::iota(exec, order.data(), count);
   base::sortByKey(exec, key.data(), order.data(), count);
-  const std::int64_t cells = static_cast<std::int64_t>(grid.cells.x) * grid.cells.y * grid.cells.z;
-  cellStart.resize(static_cast<std::size_t>(cells) + 1);
   base::forEach(exec, "mark cell starts", n + 1, MarkStarts{key.data(), n, cells, cellStart.data()});
 }
 

@@ -1,40 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fluid/fluid.hpp"
 
+#include "base/algorithms.hpp"
 #include "base/error.hpp"
 #include "base/gather.cuh"
 #include "base/hash.hpp"
 #include "fluid/fluid_faults.hpp"
 #include "fluid/fluid_kernels.cuh"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace grouser::fluid {
 
 namespace {
-
-std::vector<std::uint32_t> numbers(std::size_t count) {
-  std::vector<std::uint32_t> n(count);
-  std::iota(n.begin(), n.end(), 0u);
-  return n;
-}
-
+constexpr double kGreatestShift = 0.1; ///< in a step [spacings]
 } // namespace
 
-Fluid::Fluid(FluidSetup setup, const base::Exec& exec)
-    : model_(soundModel(setup)), constants_(fluidConstants(model_, setup.periodLow, setup.periodHigh)), exec_(exec),
-      surfaceDivergence_(setup.surfaceDivergence), particles_(setup.particles.size()), markers_(setup.markers.size()),
+Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec)
+    : model_(checkedModel(setup)), constants_(fluidConstants(model_, setup.periodLow, setup.periodHigh)), exec_(exec),
+      surfaceDivergence_(setup.surfaceDivergence),
       lists_(
           exec,
           static_cast<std::int64_t>(std::ceil((model_.kernel().support() + model_.skin()) * constants_.scale.perMetre)),
           constants_.period),
       flags_(exec, 1) {
+  const std::size_t particles = setup.particles.size(), markers = setup.markers.size();
   std::vector<base::Position> position;
   std::vector<base::Vec4f> motion;
   std::vector<PreciseMotion> precise;
-  position.reserve(particles_ + markers_), motion.reserve(particles_ + markers_), precise.reserve(particles_);
+  position.reserve(particles + markers), motion.reserve(particles + markers), precise.reserve(particles);
   const auto place = [&](const base::Vec3d& at, const base::Vec3d& velocity, double compression) {
     const base::Vec3l units = base::toUnits(constants_.scale.fromMetres(at));
     position.push_back(base::fromUnits(constants_.period.wrapped(units)));
@@ -47,15 +43,16 @@ Fluid::Fluid(FluidSetup setup, const base::Exec& exec)
   }
   for (const WallMarker& m : setup.markers) place(m.position, m.velocity, 0);
   position_ = base::Array(exec, position), motion_ = base::Array(exec, motion), precise_ = base::Array(exec, precise);
-  reference_ = base::Array<base::Position>(exec, particles_);
-  force_ = base::Array<base::Vec3l>(exec, particles_);
-  change_ = base::Array<CompressionChange>(exec, particles_);
-  losses_ = base::Array<Losses>(exec, particles_);
-  const std::size_t shifted = model_.shifting > 0 ? particles_ : 0;
+  reference_ = base::Array<base::Position>(exec, particles);
+  force_ = base::Array<base::Vec3l>(exec, particles);
+  change_ = base::Array<CompressionChange>(exec, particles);
+  losses_ = base::Array<Losses>(exec, particles);
+  const std::size_t shifted = model_.shifting > 0 ? particles : 0;
   shift_ = base::Array<base::Vec3d>(exec, shifted), divergence_ = base::Array<float>(exec, shifted);
-  opposed_ = base::Array<base::Vec3f>(exec, model_.viscosity > 0 ? markers_ : 0);
-  markerForce_ = base::Array<base::Vec3l>(exec, markers_);
-  id_ = base::Array(exec, numbers(particles_));
+  ghostVelocity_ = base::Array<base::Vec3f>(exec, model_.viscosity > 0 ? markers : 0);
+  markerForce_ = base::Array<base::Vec3l>(exec, markers);
+  id_ = base::Array<std::uint32_t>(exec, particles);
+  base::iota(exec, id_.data(), particles);
   rebuild();
   computeForces();
   losses_.zero();
@@ -66,7 +63,7 @@ FluidView Fluid::view() {
           model_.timeStep,
           model_.gravity,
           model_.attraction,
-          static_cast<std::uint32_t>(particles_),
+          static_cast<std::uint32_t>(particles()),
           position_.data(),
           motion_.data(),
           precise_.data(),
@@ -75,7 +72,7 @@ FluidView Fluid::view() {
           losses_.data(),
           shift_.data(),
           divergence_.data(),
-          opposed_.data(),
+          ghostVelocity_.data(),
           markerForce_.data(),
           id_.data(),
           reference_.data(),
@@ -85,24 +82,24 @@ FluidView Fluid::view() {
 
 template <class T> void Fluid::permute(base::Array<T>& array) {
   if (array.empty()) return;
-  auto sorted = base::Array<T>::unset(exec_, particles_);
-  base::forEach(exec_, "sort fluid", static_cast<std::int64_t>(particles_),
+  auto sorted = base::Array<T>::unset(exec_, particles());
+  base::forEach(exec_, "sort fluid", static_cast<std::int64_t>(particles()),
                 base::Gather<T>{lists_.order(), array.data(), sorted.data()});
-  base::copyOnDevice(exec_, array.data(), sorted.data(), particles_ * sizeof(T));
+  base::copyOnDevice(exec_, array.data(), sorted.data(), particles() * sizeof(T));
 }
 
 void Fluid::rebuild() {
-  lists_.sort(position_.data(), particles_, markers_);
+  lists_.sort(position_.data(), particles(), markers());
   permute(position_), permute(motion_), permute(precise_), permute(force_), permute(losses_), permute(id_);
   lists_.build(position_.data());
-  markerForce_.zero(); // of those that are no longer listed
-  base::copyOnDevice(exec_, reference_.data(), position_.data(), particles_ * sizeof(base::Position));
+  markerForce_.zero(); // markers without fluid neighbours are not computed
+  base::copyOnDevice(exec_, reference_.data(), position_.data(), particles() * sizeof(base::Position));
   listEnded_ = false;
   ++rebuilds_;
 }
 
 void Fluid::computeContinuity() {
-  const auto n = static_cast<std::int64_t>(particles_);
+  const auto n = static_cast<std::int64_t>(particles());
   if (model_.shifting > 0)
     base::forEach(exec_, "continuity and shifting", n, Continuity<true>{view()});
   else
@@ -112,30 +109,25 @@ void Fluid::computeContinuity() {
 void Fluid::computeForces() {
   const base::Array<std::uint32_t>& wet = lists_.wetMarkers();
   base::forEach(exec_, "wall pressures", static_cast<std::int64_t>(wet.size()), Extrapolate{view(), wet.data()});
-  base::forEach(exec_, "show stresses", static_cast<std::int64_t>(particles_), ShowStress{view()});
-  base::forEach(exec_, "fluid forces", static_cast<std::int64_t>(particles_), Force{view()});
+  base::forEach(exec_, "store stress", static_cast<std::int64_t>(particles()), StoreStress{view()});
+  base::forEach(exec_, "fluid forces", static_cast<std::int64_t>(particles()), Force{view()});
   base::forEach(exec_, "wall forces", static_cast<std::int64_t>(wet.size()), WallForce{view(), wet.data()});
 }
 
 void Fluid::step() {
-  const auto n = static_cast<std::int64_t>(particles_);
+  const auto n = static_cast<std::int64_t>(particles());
   if (listEnded_) rebuild();
   *flags_.host() = {kNoFault, 0, 0};
   flags_.upload();
-  const double h = model_.smoothing * model_.spacing;
-  Drift drift{view(),
-              model_.skin(),
-              model_.shifting * h * model_.timeStep,
-              model_.shifting > 0 ? Drift::kGreatestShift * model_.spacing : 0.0,
-              surfaceDivergence_,
-              false};
+  const double skin = model_.skin(), shiftFactor = model_.shifting * model_.kernel().length() * model_.timeStep;
+  const double greatestShift = model_.shifting > 0 ? kGreatestShift * model_.spacing : 0.0;
   base::forEach(exec_, "fluid kick", n, Kick{view()});
-  base::forEach(exec_, "fluid drift", n, drift);
+  base::forEach(exec_, "fluid drift", n, Drift{view()});
   computeContinuity();
-  drift.whole = true;
-  base::forEach(exec_, "fluid drift and compression", n, drift);
+  base::forEach(exec_, "fluid compression and drift", n,
+                CompressAndDrift{view(), skin, shiftFactor, greatestShift, surfaceDivergence_});
   computeForces();
-  base::forEach(exec_, "fluid kick", n, Kick{view(), 0.5 * drift.skin - drift.greatestShift});
+  base::forEach(exec_, "fluid kick", n, Kick{view(), 0.5 * skin - greatestShift});
   flags_.download();
   base::synchronize(exec_);
   ++steps_;
@@ -150,7 +142,7 @@ void Fluid::checkFlags() {
 
 std::vector<base::Vec3d> Fluid::markerForces() const {
   std::vector<base::Vec3d> forces;
-  forces.reserve(markers_);
+  forces.reserve(markers());
   for (const base::Vec3l& f : markerForce_.toHost()) forces.push_back(constants_.acceleration.value(f) * model_.mass());
   return forces;
 }
@@ -162,34 +154,36 @@ base::Vec3l Fluid::forceBalance() const {
   return sum;
 }
 
-FluidSnapshot Fluid::snapshot() const {
+std::vector<std::uint32_t> Fluid::slotsById() const {
   const std::vector<std::uint32_t> id = id_.toHost();
-  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles_);
+  std::vector<std::uint32_t> slots(id.size());
+  for (std::size_t i = 0; i < id.size(); ++i) slots[id[i]] = static_cast<std::uint32_t>(i);
+  return slots;
+}
+
+FluidSnapshot Fluid::snapshot() const {
+  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
   const std::vector<PreciseMotion> precise = precise_.toHost();
   FluidSnapshot s;
-  s.position.resize(particles_), s.velocity.resize(particles_), s.compression.resize(particles_);
-  for (std::size_t i = 0; i < particles_; ++i) {
-    s.position[id[i]] = constants_.scale.toMetres(position[i]);
-    s.velocity[id[i]] = precise[i].velocity;
-    s.compression[id[i]] = precise[i].compression;
+  for (const std::uint32_t i : slotsById()) {
+    s.position.push_back(constants_.scale.toMetres(position[i]));
+    s.velocity.push_back(precise[i].velocity);
+    s.compression.push_back(precise[i].compression);
   }
   return s;
 }
 
 FluidTotals Fluid::totals() const {
-  const FluidSnapshot s = snapshot();
-  const std::vector<std::uint32_t> id = id_.toHost();
+  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
+  const std::vector<PreciseMotion> precise = precise_.toHost();
   const std::vector<Losses> losses = losses_.toHost();
-  std::vector<Losses> lossOf(particles_);
-  for (std::size_t i = 0; i < particles_; ++i) lossOf[id[i]] = losses[i];
   FluidTotals t;
-  for (std::size_t i = 0; i < particles_; ++i) { // in the order of ids
-    const base::Vec3d &v = s.velocity[i], &r = s.position[i];
+  for (const std::uint32_t i : slotsById()) { // in one order, since sums are rounded
+    const base::Vec3d &v = precise[i].velocity, r = constants_.scale.toMetres(position[i]);
     t.kinetic += 0.5 * norm2(v);
     t.potential += 0.5 * model_.attraction * norm2(r) - dot(model_.gravity, r);
-    t.internal += internalEnergyAt(model_, s.compression[i]);
-    t.viscousLoss += lossOf[i].viscous, t.diffusionLoss += lossOf[i].diffusion;
-    t.wallLoss += lossOf[i].wall;
+    t.internal += internalEnergyAt(model_, precise[i].compression);
+    t.viscousLoss += losses[i].viscous, t.diffusionLoss += losses[i].diffusion, t.wallLoss += losses[i].wall;
     t.momentum += v;
     t.fastest = std::max(t.fastest, norm(v));
   }
@@ -201,10 +195,7 @@ FluidTotals Fluid::totals() const {
 }
 
 std::uint64_t Fluid::hash() const {
-  const std::vector<std::uint32_t> id = id_.toHost();
-  std::vector<std::uint32_t> slotOf(particles_);
-  for (std::size_t i = 0; i < particles_; ++i) slotOf[id[i]] = static_cast<std::uint32_t>(i);
-  const auto position = base::toHost(exec_, position_.data(), particles_);
+  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
   const std::vector<PreciseMotion> precise = precise_.toHost();
   const std::vector<base::Vec3l> force = force_.toHost();
   base::StateHash hash;
@@ -213,14 +204,8 @@ std::uint64_t Fluid::hash() const {
     std::memcpy(words, &record, sizeof record);
     for (const std::uint64_t w : words) hash.add(w);
   };
-  for (const std::uint32_t i : slotOf) add(position[i]), add(precise[i]), add(force[i]);
+  for (const std::uint32_t i : slotsById()) add(position[i]), add(precise[i]), add(force[i]);
   return hash.value();
-}
-
-std::size_t Fluid::bytes() const {
-  return lists_.bytes() + position_.bytes() + reference_.bytes() + motion_.bytes() + precise_.bytes() + force_.bytes() +
-         change_.bytes() + losses_.bytes() + shift_.bytes() + divergence_.bytes() + opposed_.bytes() +
-         markerForce_.bytes() + id_.bytes();
 }
 
 } // namespace grouser::fluid

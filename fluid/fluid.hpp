@@ -37,7 +37,7 @@ struct FluidSnapshot {
 class Fluid {
 public:
   /// Throws InputError for values out of range.
-  Fluid(FluidSetup setup, const base::Exec& exec);
+  Fluid(const FluidSetup& setup, const base::Exec& exec);
 
   /// Throws SimulationError where a particle is faster, more compressed or farther away than the numbers allow.
   void step();
@@ -45,8 +45,8 @@ public:
   double time() const { return static_cast<double>(steps_) * model_.timeStep; } ///< [s]
 
   const FluidModel& model() const { return model_; }
-  std::size_t particles() const { return particles_; }
-  std::size_t markers() const { return markers_; }
+  std::size_t particles() const { return id_.size(); }
+  std::size_t markers() const { return markerForce_.size(); }
   FluidTotals totals() const;
   FluidSnapshot snapshot() const;
   /// State hash, the same on every device.
@@ -55,12 +55,12 @@ public:
   std::vector<base::Vec3d> markerForces() const;
   /// Exact sum of the forces between particles and from walls, in quanta: zero.
   base::Vec3l forceBalance() const;
-  std::size_t bytes() const;                          ///< on the device [B]
   std::int64_t rebuilds() const { return rebuilds_; } ///< neighbour lists made since the start
 
 private:
   FluidView view();
   void rebuild();
+  std::vector<std::uint32_t> slotsById() const;
   template <class T> void permute(base::Array<T>& array);
   void computeForces();
   void computeContinuity();
@@ -70,7 +70,6 @@ private:
   FluidConstants constants_;
   base::Exec exec_;
   double surfaceDivergence_;
-  std::size_t particles_, markers_;
   FluidLists lists_;
   base::Array<base::Position> position_, reference_;
   base::Array<base::Vec4f> motion_;
@@ -78,9 +77,9 @@ private:
   base::Array<base::Vec3l> force_;
   base::Array<CompressionChange> change_;
   base::Array<Losses> losses_;
-  base::Array<base::Vec3d> shift_;   ///< empty without shifting
-  base::Array<float> divergence_;    ///< empty without shifting
-  base::Array<base::Vec3f> opposed_; ///< empty without laminar viscosity
+  base::Array<base::Vec3d> shift_;         ///< empty without shifting
+  base::Array<float> divergence_;          ///< empty without shifting
+  base::Array<base::Vec3f> ghostVelocity_; ///< empty without laminar viscosity
   base::Array<base::Vec3l> markerForce_;
   base::Array<std::uint32_t> id_;
   base::Mirrored<FluidFlags> flags_;

@@ -11,10 +11,10 @@
 
 namespace grouser::fluid {
 
-const FluidModel& soundModel(const FluidSetup& setup) {
+const FluidModel& checkedModel(const FluidSetup& setup) {
   const FluidModel& m = setup.model;
-  const auto need = [](bool sound, const char* what) {
-    if (!sound) throw base::InputError(std::string("fluid: ") + what);
+  const auto need = [](bool holds, const char* what) {
+    if (!holds) throw base::InputError(std::string("fluid: ") + what);
   };
   need(m.dimensions == 2 || m.dimensions == 3, "dimensions are 2 or 3");
   need(m.spacing > 0 && m.density > 0 && m.soundSpeed > 0 && m.timeStep > 0,

@@ -9,7 +9,7 @@
 namespace grouser::fluid {
 
 /// The model of a setup. Throws InputError for values out of range.
-const FluidModel& soundModel(const FluidSetup& setup);
+const FluidModel& checkedModel(const FluidSetup& setup);
 
 /// A fault of FluidFlags in words, with step, time, particle and remedy.
 std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step);

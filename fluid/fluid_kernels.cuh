@@ -35,7 +35,7 @@ struct Pair {
   GROUSER_HD float weight() const { return taper * taper * (taper * taper) * (1 + 2 * q); }
 };
 
-/// Calls visit(pair, j) for the neighbours within the support among the places `first` to `last` - 1 of row i.
+/// Calls visit(pair, j) for the neighbours within the support at the places [first, last) of row i.
 template <class Visit>
 GROUSER_HD void eachNeighbour(const FluidView& f, int i, std::uint32_t first, std::uint32_t last, const Visit& visit) {
   const FluidConstants& k = f.constants;
@@ -54,23 +54,20 @@ GROUSER_HD void eachNeighbour(const FluidView& f, int i, std::uint32_t first, st
     visit(pair, j);
   }
 }
+/// Fluid neighbours of the particle or marker in slot i.
+template <class Visit> GROUSER_HD void eachFluidNeighbour(const FluidView& f, int i, const Visit& visit) {
+  eachNeighbour(f, i, 0, f.rows.fluidCount[i], visit);
+}
+/// Markers near particle i.
+template <class Visit> GROUSER_HD void eachMarkerNeighbour(const FluidView& f, int i, const Visit& visit) {
+  eachNeighbour(f, i, f.rows.fluidCount[i], f.rows.count[i], visit);
+}
 
 /// p/rho^2 in units of c^2/rho0: s/(1 + s)^2 [-].
 template <class T> GROUSER_HD T stress(T compression) { return compression / ((1 + compression) * (1 + compression)); }
 
 GROUSER_HD void raiseFault(FluidFlags* flags, FluidFault fault, std::uint32_t id) {
   base::atomicMin64(&flags->fault, static_cast<std::uint64_t>(fault) << 32 | id);
-}
-
-/// Greatest value of non-negative floats, as bits.
-GROUSER_HD void raiseTo(std::uint32_t* bits, float value) {
-  const auto own = base::bitsAs<std::uint32_t>(value);
-#if defined(__CUDA_ARCH__)
-  if (own > *bits) atomicMax(bits, own);
-#else
-  std::uint32_t old = __atomic_load_n(bits, __ATOMIC_RELAXED);
-  while (own > old && !__atomic_compare_exchange_n(bits, &old, own, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
-#endif
 }
 
 /// Acceleration of particle i by its pair terms, gravity and attraction [m/s2].
@@ -86,8 +83,8 @@ GROUSER_HD double movedSinceListed(const FluidView& f, int i) {
   return norm(d.as<double>()) * f.constants.scale.unit;
 }
 
-/// v += a dt/2. At the end of a step (`greatestMove` above 0) it ends the lists where the next step, whose drift has
-/// the velocity v + a dt/2, would bring a particle farther than `greatestMove` from its place in them [m].
+/// v += a dt/2. At the end of a step (`greatestMove` above 0) it requests new lists if the next step, which drifts at
+/// v + a dt/2, would move a particle more than `greatestMove` [m] from its place in the present ones.
 struct Kick {
   static constexpr double kNanoseconds = 15;
   FluidView f;
@@ -102,65 +99,70 @@ struct Kick {
     if (!(speed2 < f.constants.greatestSpeed * f.constants.greatestSpeed))
       raiseFault(f.flags, FluidFault::speed, f.id[i]);
     else if (f.shift)
-      raiseTo(&f.flags->fastest, speed2);
+      base::atomicMax32(&f.flags->fastest, base::bitsAs<std::uint32_t>(speed2));
     if (greatestMove > 0 && movedSinceListed(f, i) + norm(m.velocity + half) * f.timeStep > greatestMove)
       base::raise(&f.flags->listEnded);
   }
 };
 
-/// r += v dt/2, after which a compression change may be added. `whole`: at the end of the step, where the list is
-/// checked.
+/// r += move [m].
+GROUSER_HD void moveBy(const FluidView& f, int i, const base::Vec3d& move) {
+  constexpr double kRange = 0x1p41; // units that a position holds
+  const base::PositionScale& scale = f.constants.scale;
+  const auto units = [&scale](double metres) {
+    return static_cast<std::int64_t>(floor(metres * scale.perMetre + 0.5));
+  };
+  const auto inRange = [](std::int64_t u) { return fabs(static_cast<double>(u)) < kRange; };
+  if (norm(move) * scale.perMetre < kRange) { // and is a number
+    const base::Vec3l to = base::toUnits(f.position[i]) + base::Vec3l{units(move.x), units(move.y), units(move.z)};
+    if (inRange(to.x) && inRange(to.y) && inRange(to.z)) {
+      f.position[i] = base::fromUnits(f.constants.period.wrapped(to));
+      return;
+    }
+  }
+  raiseFault(f.flags, FluidFault::range, f.id[i]);
+}
+
+/// r += v dt/2.
 struct Drift {
-  static constexpr double kNanoseconds = 25;
-  static constexpr float kGreatestShift = 0.1f; ///< spacings
+  static constexpr double kNanoseconds = 20;
+  FluidView f;
+  GROUSER_HD void operator()(int i) const { moveBy(f, i, 0.5 * f.timeStep * f.precise[i].velocity); }
+};
+
+/// Adds the change of compression, then r += v dt/2 and shifting.
+struct CompressAndDrift {
+  static constexpr double kNanoseconds = 30;
   FluidView f;
   double skin;            ///< [m]
   double shiftFactor;     ///< shifting x h x dt [m s]
   double greatestShift;   ///< [m]
-  double leastDivergence; ///< no shifting below it: at a free surface [-]
-  bool whole;
+  double leastDivergence; ///< no shifting below it [-]
 
   GROUSER_HD void operator()(int i) const {
-    PreciseMotion& m = f.precise[i];
-    base::Vec3d move = 0.5 * f.timeStep * m.velocity;
-    if (whole) {
-      addCompression(i, m);
-      if (f.shift && f.divergence[i] > leastDivergence) move += shiftOf(i);
-    }
-    const base::PositionScale& scale = f.constants.scale;
-    const base::Vec3l u = base::toUnits(f.position[i]);
-    if (!(norm(move) * scale.perMetre < kRange)) return raiseFault(f.flags, FluidFault::range, f.id[i]);
-    const base::Vec3l to{u.x + units(move.x * scale.perMetre), u.y + units(move.y * scale.perMetre),
-                         u.z + units(move.z * scale.perMetre)};
-    if (!(fabs(static_cast<double>(to.x)) < kRange && fabs(static_cast<double>(to.y)) < kRange &&
-          fabs(static_cast<double>(to.z)) < kRange))
-      return raiseFault(f.flags, FluidFault::range, f.id[i]);
-    f.position[i] = base::fromUnits(f.constants.period.wrapped(to));
-    if (whole) checkList(i);
+    addCompression(i);
+    base::Vec3d move = 0.5 * f.timeStep * f.precise[i].velocity;
+    if (f.shift && f.divergence[i] > leastDivergence) move += shiftOf(i);
+    moveBy(f, i, move);
+    if (movedSinceListed(f, i) > 0.5 * skin) raiseFault(f.flags, FluidFault::displacement, f.id[i]);
   }
 
 private:
-  static constexpr double kRange = 0x1p41; ///< units that a position holds
-  GROUSER_HD static std::int64_t units(double u) { return static_cast<std::int64_t>(floor(u + 0.5)); }
-
-  GROUSER_HD void addCompression(int i, PreciseMotion& m) const {
+  GROUSER_HD void addCompression(int i) const {
+    double& compression = f.precise[i].compression;
     const CompressionChange change = f.change[i];
-    const double mean = m.compression + 0.5 * (change.flow + change.diffusion);
-    m.compression += change.flow + change.diffusion;
+    const double mean = compression + 0.5 * (change.flow + change.diffusion);
+    compression += change.flow + change.diffusion;
     // Internal energy by diffusion: p/rho^2 drho.
     f.losses[i].diffusion -= static_cast<double>(f.constants.sound2) * stress(mean) * change.diffusion;
-    f.motion[i].w = static_cast<float>(m.compression);
-    if (!(fabs(m.compression) < kGreatestCompression)) raiseFault(f.flags, FluidFault::compression, f.id[i]);
+    f.motion[i].w = static_cast<float>(compression);
+    if (!(fabs(compression) < kGreatestCompression)) raiseFault(f.flags, FluidFault::compression, f.id[i]);
   }
   GROUSER_HD base::Vec3d shiftOf(int i) const {
     const double speed = sqrt(static_cast<double>(base::bitsAs<float>(f.flags->fastest)));
     const base::Vec3d shift = f.shift[i] * (-shiftFactor * speed);
     const double length = norm(shift);
     return length > greatestShift ? shift * (greatestShift / length) : shift;
-  }
-  /// The lists hold while no particle has moved by more than half the skin.
-  GROUSER_HD void checkList(int i) const {
-    if (movedSinceListed(f, i) > 0.5 * skin) raiseFault(f.flags, FluidFault::displacement, f.id[i]);
   }
 };
 
@@ -180,15 +182,13 @@ template <bool kShifts> struct Continuity {
       flow += rounded(slope * dot(own.xyz() - other.xyz(), pair.d) * perRate);
       if constexpr (kShifts) addConcentration(pair, slope, divergence, gradient);
     };
-    const std::uint32_t fluids = f.rows.fluidCount[i];
-    eachNeighbour(f, i, 0, fluids, [&](const Pair& pair, std::uint32_t j) {
+    eachFluidNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
       const float slope = pair.slope(k), excess = other.w - own.w + dot(k.gravityOverSound2, pair.d);
       both(pair, other, slope);
       diffusion += rounded(k.diffusion * slope * excess * perRate);
     });
-    eachNeighbour(f, i, fluids, f.rows.count[i],
-                  [&](const Pair& pair, std::uint32_t j) { both(pair, f.motion[j], pair.slope(k)); });
+    eachMarkerNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) { both(pair, f.motion[j], pair.slope(k)); });
     f.change[i] = {f.timeStep * k.rate.value(flow), f.timeStep * k.rate.value(diffusion)};
     if constexpr (kShifts) {
       f.divergence[i] = static_cast<float>(k.divergence.value(divergence));
@@ -208,8 +208,8 @@ private:
   }
 };
 
-/// Pressure of a wall's marker from the fluid near it (Adami et al. 2012, eq. 27), and the velocity that makes fluid
-/// stick to the wall: 2 u_w minus the fluid's mean.
+/// Pressure of a marker, extrapolated from the fluid (Adami et al. 2012, eq. 27), and its ghost velocity for no slip at
+/// the wall: 2 u_w minus the mean velocity of the fluid.
 struct Extrapolate {
   static constexpr double kNanoseconds = 500;
   FluidView f;
@@ -221,18 +221,18 @@ struct Extrapolate {
     const auto slot = static_cast<int>(f.particles + m);
     std::int64_t weight = 0, compression = 0;
     base::Vec3l moment{}, velocity{};
-    eachNeighbour(f, slot, 0, f.rows.count[slot], [&](const Pair& pair, std::uint32_t j) {
+    eachFluidNeighbour(f, slot, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
       const float w = pair.weight();
       weight += rounded(w * static_cast<float>(k.weight.perUnit));
       compression += rounded(w * other.w * static_cast<float>(k.compression.perUnit));
       moment += roundedVector(pair.d * (w * (1 + other.w) * static_cast<float>(k.moment.perUnit)));
-      if (f.opposed) velocity += roundedVector(other.xyz() * (w * static_cast<float>(k.speed.perUnit)));
+      if (f.ghostVelocity) velocity += roundedVector(other.xyz() * (w * static_cast<float>(k.speed.perUnit)));
     });
     base::Vec4f& own = f.motion[slot];
     if (weight <= 0) {
       own.w = 0;
-      if (f.opposed) f.opposed[m] = own.xyz();
+      if (f.ghostVelocity) f.ghostVelocity[m] = own.xyz();
       return;
     }
     const double sum = k.weight.value(weight);
@@ -241,12 +241,13 @@ struct Extrapolate {
     const double s = (k.compression.value(compression) + dot(pull, k.moment.value(moment))) / sum;
     constexpr double kMost = kGreatestCompression;
     own.w = static_cast<float>(stress(s > kMost ? kMost : s < -kMost ? -kMost : s));
-    if (f.opposed) f.opposed[m] = (2.0 * own.xyz().as<double>() - k.speed.value(velocity) * (1 / sum)).as<float>();
+    if (f.ghostVelocity)
+      f.ghostVelocity[m] = (2.0 * own.xyz().as<double>() - k.speed.value(velocity) * (1 / sum)).as<float>();
   }
 };
 
-/// Particles show their stress to the sums of forces.
-struct ShowStress {
+/// Stores stress in place of compression, for the sums of forces.
+struct StoreStress {
   static constexpr double kNanoseconds = 4;
   FluidView f;
   GROUSER_HD void operator()(int i) const { f.motion[i].w = stress(f.motion[i].w); }
@@ -272,7 +273,7 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   return force;
 }
 
-/// Sums the accelerations of each particle, the power that viscosity takes, and that of the markers' pressure.
+/// Sums of the accelerations of a particle, of the viscous power, and of the power of the markers' pressure.
 struct Force {
   static constexpr double kNanoseconds = 900;
   FluidView f;
@@ -288,27 +289,26 @@ struct Force {
       sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
       power += rounded(dot(force.viscous, apart) * (share * perPower));
     };
-    const std::uint32_t fluids = f.rows.fluidCount[i];
-    eachNeighbour(f, i, 0, fluids, [&](const Pair& pair, std::uint32_t j) {
+    eachFluidNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
       const base::Vec3f apart = own.xyz() - other.xyz();
       add(pairForce(k, pair, own, other, apart, true), apart, 0.5f);
     });
-    eachNeighbour(f, i, fluids, f.rows.count[i], [&](const Pair& pair, std::uint32_t j) {
+    eachMarkerNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
-      const base::Vec3f slip = f.opposed ? own.xyz() - f.opposed[j - f.particles] : base::Vec3f{};
+      const base::Vec3f slip = f.ghostVelocity ? own.xyz() - f.ghostVelocity[j - f.particles] : base::Vec3f{};
       add(pairForce(k, pair, own, other, slip, false), own.xyz(), 1);
       wall += roundedVector(pair.d * (-k.sound2 * other.w * pair.slope(k) * perAcceleration));
     });
     f.force[i] = sum;
-    // Both halves of the kick together do the work of the mean velocity, which is that at the end of the step.
+    // Work of the markers' pressure in both half kicks, at their mean velocity, the one at the end of the step.
     const base::Vec3d end = f.precise[i].velocity + 0.5 * f.timeStep * accelerationOf(f, i);
     f.losses[i].viscous -= f.timeStep * k.power.value(power);
     f.losses[i].wall -= f.timeStep * dot(k.acceleration.value(wall), end);
   }
 };
 
-/// Force of the fluid on a marker: the integers of Force, with opposite sign.
+/// Force of the fluid on a marker: the integers of Force with opposite sign.
 struct WallForce {
   static constexpr double kNanoseconds = 500;
   FluidView f;
@@ -321,9 +321,9 @@ struct WallForce {
     const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
     const base::Vec4f own = f.motion[slot];
     base::Vec3l sum{};
-    eachNeighbour(f, slot, 0, f.rows.count[slot], [&](const Pair& pair, std::uint32_t j) {
+    eachFluidNeighbour(f, slot, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
-      const base::Vec3f slip = f.opposed ? f.opposed[m] - other.xyz() : base::Vec3f{};
+      const base::Vec3f slip = f.ghostVelocity ? f.ghostVelocity[m] - other.xyz() : base::Vec3f{};
       const PairForce force = pairForce(k, pair, own, other, slip, false);
       sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
     });

@@ -83,12 +83,4 @@ FluidRows FluidLists::rows() const {
   return {{start_.data(), stride_}, count_.data(), fluidCount_.data(), slot_.data()};
 }
 
-std::size_t FluidLists::bytes() const {
-  std::size_t bytes = 0;
-  for (const auto* array :
-       {&order_, &cellStart_, &markerSlot_, &markerCellStart_, &count_, &fluidCount_, &start_, &slot_, &wet_})
-    bytes += array->bytes();
-  return bytes;
-}
-
 } // namespace grouser::fluid

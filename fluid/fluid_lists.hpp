@@ -26,7 +26,6 @@ public:
   FluidRows rows() const;
   /// Markers with a fluid neighbour.
   const base::Array<std::uint32_t>& wetMarkers() const { return wet_; }
-  std::size_t bytes() const; ///< [B]
 
 private:
   base::Exec exec_;

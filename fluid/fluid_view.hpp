@@ -56,7 +56,7 @@ struct FluidView {
   Losses* losses;                  ///< [particles]
   base::Vec3d* shift;              ///< [particles] gradient of concentration [1/m]; null without shifting
   float* divergence;               ///< [particles] div r [-]; null without shifting
-  base::Vec3f* opposed;            ///< [markers] velocity for viscosity [m/s]; null without laminar viscosity
+  base::Vec3f* ghostVelocity;      ///< [markers] velocity for viscosity [m/s]; null without laminar viscosity
   base::Vec3l* markerForce;        ///< [markers] force of the fluid, quanta of acceleration x particle mass
   const std::uint32_t* id;         ///< [particles]
   const base::Position* reference; ///< [particles] places when the lists were made

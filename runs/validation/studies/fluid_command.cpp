@@ -2,13 +2,13 @@
 // `grouser study fluid`: which flows, which spacings, and the files.
 #include "runs/validation/studies/fluid_command.hpp"
 
-#include "base/error.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/validation/studies/fluid_cases.hpp"
+#include "runs/validation/studies/option_parts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,22 +24,6 @@ struct FluidResult {
   FluidCase study;
   std::vector<FluidPoint> points;
 };
-
-std::vector<FluidCase> chosenCases(const std::vector<std::string>& names) {
-  std::vector<FluidCase> all = fluidCases();
-  if (names.empty()) return all;
-  std::vector<FluidCase> chosen;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const FluidCase& c) { return c.name == name; });
-    if (found == all.end()) {
-      std::string known;
-      for (const FluidCase& c : all) known += (known.empty() ? "" : ", ") + c.name;
-      throw base::InputError(fmt::format("--cases: there is no case \"{}\"; choose from {}", name, known));
-    }
-    chosen.push_back(*found);
-  }
-  return chosen;
-}
 
 /// For the finest spacing; "" without it, or without a bar.
 std::string verdictOf(const FluidResult& result, std::size_t quantity) {
@@ -81,7 +65,7 @@ std::string fluidCsv(const std::vector<FluidResult>& results) {
 } // namespace
 
 void studyFluidCommand(const FluidCommand& command) {
-  const std::vector<FluidCase> cases = chosenCases(command.cases);
+  const std::vector<FluidCase> cases = chosenCases(fluidCases(), command.cases);
   const auto begin = std::chrono::steady_clock::now();
   const auto folder = jobs::beginStudy("fluid", command.place);
   const support::StopSignals signals;

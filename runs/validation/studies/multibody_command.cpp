@@ -3,11 +3,11 @@
 
 #include "base/counted.hpp"
 #include "base/error.hpp"
-#include "base/table.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
+#include "runs/validation/studies/option_parts.hpp"
 #include "runs/validation/studies/report.hpp"
 #include "runs/validation/studies/stability.hpp"
 
@@ -29,18 +29,8 @@ constexpr int kFullSteps = 7;  ///< a quarter each: a factor of 4096
 } // namespace
 
 void studyMultibodyCommand(const StudyCommand& command) {
-  std::vector<StudyCase> cases = studyCases();
-  std::vector<std::string> names;
-  for (const StudyCase& c : cases) names.push_back(c.name);
-  for (const std::string& name : command.cases)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw base::InputError(fmt::format("--cases {}: is no case; did you mean {}? (cases: {})", name,
-                                         base::nearestWord(name, names), fmt::join(names, ", ")));
-  std::erase_if(cases, [&](const StudyCase& c) {
-    if (!command.cases.empty())
-      return std::find(command.cases.begin(), command.cases.end(), c.name) == command.cases.end();
-    return command.place.quick && c.isLong;
-  });
+  std::vector<StudyCase> cases = chosenCases(studyCases(), command.cases);
+  if (command.cases.empty() && command.place.quick) std::erase_if(cases, [](const StudyCase& c) { return c.isLong; });
   const fs::path folder = jobs::beginStudy("multibody", command.place);
   fmt::print("          one thread; CPU time of the steps, without set-up and output\n");
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/validation/studies/option_parts.hpp"
 
+#include "base/error.hpp"
+#include "base/table.hpp"
 #include "runs/support/option_checks.hpp"
 
 namespace grouser::studies {
@@ -14,6 +16,13 @@ void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, c
 CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
                        const std::string& help) {
   return app.add_option(name, value, help)->check(support::between(low, high))->capture_default_str();
+}
+
+void checkCaseNames(const std::vector<std::string>& names, const std::vector<std::string>& known) {
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw base::InputError(fmt::format("--cases {}: is no case; did you mean {}? (cases: {})", name,
+                                         base::nearestWord(name, known), fmt::join(known, ", ")));
 }
 
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <type_traits>
@@ -43,6 +44,18 @@ void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, c
 /// A number in [low, high].
 CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
                        const std::string& help);
+/// Throws InputError, with the nearest known name, where one of `names` is not known.
+void checkCaseNames(const std::vector<std::string>& names, const std::vector<std::string>& known);
+/// The cases that --cases names, in the order of `all`; all of them without names.
+template <class Case> std::vector<Case> chosenCases(std::vector<Case> all, const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const Case& c : all) known.push_back(c.name);
+  checkCaseNames(names, known);
+  std::erase_if(all, [&](const Case& c) {
+    return !names.empty() && std::find(names.begin(), names.end(), c.name) == names.end();
+  });
+  return all;
+}
 /// --seeds
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help);
 /// Has the study done, with `command`.

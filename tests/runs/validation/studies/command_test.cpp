@@ -227,7 +227,7 @@ TEST_F(FluidStudy, PrintsOrdersBarsAndFiles) {
   EXPECT_EQ(quick.out.find("within"), std::string::npos) << "the bar is that of the finest spacing\n" << quick.out;
   const Outcome wrong = call("study fluid --cases waves --out other");
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.error().find("there is no case \"waves\"; choose from tank, sound"), std::string::npos)
+  EXPECT_NE(wrong.error().find("--cases waves: is no case; did you mean wave? (cases: tank, sound"), std::string::npos)
       << wrong.errors;
   EXPECT_FALSE(fs::exists(folder_ / "other"));
 }
