@@ -50,6 +50,7 @@ public:
   std::vector<bool> touchingBodies() const; ///< [body] whether it has a surface that touches something
   /// [body] force of all contacts, mean since the last row [N]; zero without.
   std::vector<base::Vec3d> contactForces() const { return meanForces(rowMeans_, model().bodies().size()); }
+  multibody::Loads& stepLoads() { return loads_; } ///< between collectLoads() and advance(), to add to
   const PartContacts& contacts() const { return *contacts_; }
   PartContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
   /// Force of the bodies on an obstacle of the scene, mean since the last row [N].

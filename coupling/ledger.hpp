@@ -21,10 +21,11 @@ struct Dissipated {
   double parts{};     ///< contacts of rigid parts with each other and with rigid ground
   double joints{};    ///< dampers and end stops of joints and springs
   double soil{};      ///< deformable soil, by all causes of scm::SoilEnergy
+  double fluid{};     ///< fluid: viscosity, density diffusion, walls
 
   double ofGrains() const { return damping + friction + microSlip + rolling + yielding + crushing; }
   double ofParts() const { return parts + soil; } ///< contacts of parts with all but grains
-  double total() const { return ofGrains() + parts + joints + soil; }
+  double total() const { return ofGrains() + parts + joints + soil + fluid; }
 };
 
 /// A cause by its word in the names of results, with what the results say of it.

@@ -23,6 +23,11 @@ void enterGrainParts(Ledger& l, const contact::GrainPartContacts::Ledger& c) {
   l.cappedNow += c.capped, l.cutImpulse += c.cutImpulse;
 }
 
+void enterFluid(Ledger& l, const fluid::FluidTotals& f) {
+  l.kinetic += f.kinetic, l.work += f.kinetic, l.potential += f.potential, l.elastic += f.internal;
+  l.dissipated.fluid += f.viscousLoss + f.diffusionLoss + f.wallLoss;
+}
+
 void enterBodies(Ledger& l, const multibody::Balance& b) {
   l.kinetic += b.now.kinetic, l.work += b.now.kinetic - b.leftOver, l.turnover += b.turnover;
   l.driveWork += b.driveWork, l.dissipated.joints += b.dissipated();

@@ -4,6 +4,7 @@
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "coupling/ledger.hpp"
+#include "fluid/fluid.hpp"
 #include "multibody/readings.hpp"
 #include "terrain/grain_model.hpp"
 
@@ -23,6 +24,8 @@ struct ContactLedger {
 void enterGrains(Ledger& ledger, const terrain::GrainLedger& grains);
 /// Contacts of grains with parts, but for the elastic energy that they hold.
 void enterGrainParts(Ledger& ledger, const contact::GrainPartContacts::Ledger& contacts);
+/// A fluid. Its kinetic energy is entered as work too: it keeps no record of its own of the work on its particles.
+void enterFluid(Ledger& ledger, const fluid::FluidTotals& fluid);
 /// Bodies, but for their potential and elastic energies: who adds them says since when these count.
 void enterBodies(Ledger& ledger, const multibody::Balance& bodies);
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "coupling/ground_kinds.hpp"
+#include "coupling/ledger_entries.hpp"
 #include "coupling/placed_on_bed.hpp"
 #include "terrain/grain_faults.hpp"
 #include "terrain/grain_removal.hpp"
@@ -49,6 +50,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
   if (isPutOnBed()) putGrains(laid_, setup_.ground);
   if (setup_.mechanism) requireRoomForBodies();
   makeMeshContacts(spheres);
+  makeFluid(nullptr);
   start_ = wholeLedger();
   addGrains();
 }
@@ -78,6 +80,7 @@ void Simulation::step(StepObserver* observer) {
   done(Stage::boundaries);
   if (touching_) touching_->computeContacts(observer);
   if (touching_) base::synchronize(exec_), touching_->collectLoads();
+  if (fluid_ && touching_) fluid_->addLoads(touching_->stepLoads());
   done(Stage::partLoads);
   if (surfaces_) surfaces_->computeContacts(*laid_.grains, steps_, listsEnded);
   if (ground_) ground_->beginStep();
@@ -85,6 +88,7 @@ void Simulation::step(StepObserver* observer) {
   // The device works on the ground while the host solves vehicle or mechanism.
   if (vehicle_) vehicle_->advance();
   if (mechanism_) mechanism_->advance();
+  if (fluid_) fluid_->advance(touching_ ? &touching_->state() : nullptr);
   done(Stage::multibody);
   if (ground_) namingCause([&] { ground_->endStep(); });
   if (surfaces_) surfaces_->advance(*laid_.grains, steps_);
@@ -126,7 +130,7 @@ void Simulation::stepAhead(bool last) {
 
 /// Whether nothing but grains and vehicle takes part in a step, so that the device can be given work ahead.
 bool Simulation::canStepAhead() const {
-  return vehicle_ && granular_ && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
+  return vehicle_ && granular_ && !fluid_ && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
          setup_.ground.grains->sources.empty() && !setup_.crushes() && terrain::GrainsAhead::canLaunch(*laid_.grains);
 }
 
@@ -177,6 +181,13 @@ void Simulation::makeMechanism(SphereSets* spheres) {
   mechanism_ = std::make_unique<Mechanism>(*setup_.mechanism, setup_.timeStep, exec_, ground_.get(),
                                            setup_.ground.obstacles, spheres);
   if (mechanism_->touches()) touching_ = mechanism_.get();
+}
+
+void Simulation::makeFluid(const FluidDomainState* former) {
+  if (!setup_.fluid) return;
+  const multibody::Model* model = touching_ ? &touching_->model() : nullptr;
+  const multibody::State* bodies = touching_ ? &touching_->state() : nullptr;
+  fluid_ = std::make_unique<FluidDomain>(*setup_.fluid, model, bodies, exec_, former);
 }
 
 /// Throws InputError where a body of the mechanism overlaps something at the start.
@@ -244,6 +255,7 @@ Ledger Simulation::wholeLedger() {
   if (vehicle_) vehicle_->addTo(l);
   if (surfaces_) surfaces_->addTo(l);
   if (mechanism_) mechanism_->addTo(l);
+  if (fluid_) enterFluid(l, fluid_->fluid().totals());
   return l;
 }
 
@@ -324,7 +336,8 @@ base::Alarm Simulation::alarmOf(const terrain::GrainFault& fault) {
 void Simulation::afterStep() {
   // What contacts of parts hold is known of the beginning of the last step: after the first one, of the start.
   if (steps_ == 1) start_.elastic += partsElastic();
-  if (steps_ % EnergyGuard::kInterval != 0) return;
+  // A fluid has faults of its own, and its walls may give energy as well as take it.
+  if (fluid_ || steps_ % EnergyGuard::kInterval != 0) return;
   const Ledger now = ledger();
   checkEnergy(now);
   guard_.look(now);
@@ -335,6 +348,7 @@ double Simulation::partsElastic() const {
 }
 
 void Simulation::checkEnergy() {
+  if (fluid_) return;
   const Ledger now = ledger();
   // Within a contact of grains energies swing: what a few steps make, the next ones take back.
   const bool early =

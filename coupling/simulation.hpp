@@ -67,6 +67,7 @@ public:
   const GranularGround* granularGround() const { return granular_; } ///< the same where it is grains; else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
+  FluidDomain* fluid() const { return fluid_.get(); } ///< null without; probing it does not change the state
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
   /// Restarts the means of the observers: those of the rows after every row. Only a vehicle has those of a watch.
   void restartMeans(Means of = Means::rows) {
@@ -113,6 +114,7 @@ private:
   std::string impactNote(const Ledger& now) const;
   void makeActingGround();
   void makeMechanism(SphereSets* spheres);
+  void makeFluid(const FluidDomainState* former);
   void makeVehicle(SphereSets* spheres, std::optional<double> lift = {});
   void requireRoomForBodies();
   void makeSurfaces(const SurfaceStates* former);
@@ -134,6 +136,7 @@ private:
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
+  std::unique_ptr<FluidDomain> fluid_; ///< null without
   BodiesInContact* touching_{nullptr}; ///< vehicle, or mechanism with shapes; null without
   std::unique_ptr<StepsAhead> ahead_;  ///< of steps that can be launched ahead; made by the first
   EnergyGuard guard_;

@@ -17,6 +17,13 @@ std::string SimulationState::hash(const base::Comm& comm) const {
   if (vehicle) hash.add(vehicle->words());
   for (const double number : ground.value_or(std::vector<double>{})) hash.add(base::bitsAs<std::uint64_t>(number));
   if (mechanism) hash.add(mechanism->words());
+  if (fluid) {
+    for (const fluid::SavedParticle& p : fluid->fluid.particles)
+      for (const double number : {p.position.x, p.position.y, p.position.z, p.velocity.x, p.velocity.y, p.velocity.z,
+                                  p.compression})
+        hash.add(base::bitsAs<std::uint64_t>(number));
+    for (const double number : fluid->accelerations) hash.add(base::bitsAs<std::uint64_t>(number));
+  }
   Inputs set;
   set.restore(inputs);
   for (const std::uint64_t word : set.words()) hash.add(word);
@@ -38,6 +45,7 @@ SimulationState Simulation::save() const {
   if (surfaces_) state.surfaces = surfaces_->save();
   if (vehicle_) state.vehicle = vehicle_->save();
   if (mechanism_) state.mechanism = mechanism_->save();
+  if (fluid_) state.fluid = fluid_->save();
   return state;
 }
 
@@ -58,6 +66,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
   if (state.grains.has_value() != (laid_.grains != nullptr) || state.surface.empty() == hasBed() ||
       state.vehicle.has_value() != setup_.vehicle.has_value() ||
       state.mechanism.has_value() != (setup_.mechanism && !setup_.vehicle) ||
+      state.fluid.has_value() != setup_.fluid.has_value() ||
       state.surfaces.has_value() != (laid_.grains && !setup_.ground.surfaces.empty()))
     throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
   makeActingGround();
@@ -76,6 +85,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
     makeMechanism(spheres);
     mechanism_->restore(*state.mechanism);
   }
+  makeFluid(state.fluid ? &*state.fluid : nullptr);
   inputs_.restore(state.inputs);
   command();
   start_.setCounted(state.ledgerAtStart);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/fluid_domain.hpp"
 #include "coupling/ground_setup.hpp"
 #include "coupling/mechanism_setup.hpp"
 #include "coupling/vehicle_setup.hpp"
@@ -16,6 +17,7 @@ struct SimulationSetup {
   GroundSetup ground;
   std::optional<VehicleSetup> vehicle;
   std::optional<MechanismSetup> mechanism;
+  std::optional<FluidDomainSetup> fluid;
 
   bool crushes() const {
     return ground.grains && ground.grains->partLaws.crush();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/fluid_domain.hpp"
 #include "coupling/mechanism_state.hpp"
 #include "coupling/settled_ground.hpp"
 #include "coupling/surface_state.hpp"
@@ -33,6 +34,7 @@ struct SimulationState {
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
+  std::optional<FluidDomainState> fluid;
   std::vector<double> lifts;  ///< of what was put on a settled bed [m]; empty without
   TakenOut taken;             ///< since the start
   std::vector<double> inputs; ///< Inputs::save(); empty where nothing has been set from outside

@@ -25,12 +25,13 @@ Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec)
           exec,
           static_cast<std::int64_t>(std::ceil((model_.kernel().support() + model_.skin()) * constants_.scale.perMetre)),
           constants_.period),
-      flags_(exec, 1) {
-  const std::size_t particles = setup.particles.size(), markers = setup.markers.size();
+      fixedMarkers_(static_cast<std::uint32_t>(setup.markers.size())), body_(exec, setup.bodies.size()),
+      bodyLoad_(exec, setup.bodies.size()), flags_(exec, 1) {
+  const std::size_t particles = setup.particles.size();
   std::vector<base::Position> position;
   std::vector<base::Vec4f> motion;
   std::vector<PreciseMotion> precise;
-  position.reserve(particles + markers), motion.reserve(particles + markers), precise.reserve(particles);
+  position.reserve(particles), motion.reserve(particles), precise.reserve(particles);
   const auto place = [&](const base::Vec3d& at, const base::Vec3d& velocity, double compression) {
     const base::Vec3l units = base::toUnits(constants_.scale.fromMetres(at));
     position.push_back(base::fromUnits(constants_.period.wrapped(units)));
@@ -42,6 +43,19 @@ Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec)
     precise.push_back({p.velocity, p.compression});
   }
   for (const WallMarker& m : setup.markers) place(m.position, m.velocity, 0);
+  std::vector<std::uint32_t> bodyOf;
+  std::vector<base::Vec3d> bodyPoint;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const FluidBody& body = setup.bodies[b];
+    bodyName_.push_back(body.name), bodyReach_.push_back(0), body_.host()[b] = body.start;
+    for (const base::Vec3d& p : body.markers) {
+      place(body.start.pose.toWorld(p), {}, 0);
+      bodyOf.push_back(static_cast<std::uint32_t>(b)), bodyPoint.push_back(p);
+      bodyReach_[b] = std::max(bodyReach_[b], norm(p));
+    }
+  }
+  bodyOf_ = base::Array(exec, bodyOf), bodyPoint_ = base::Array(exec, bodyPoint);
+  const std::size_t markers = setup.markers.size() + bodyPoint.size();
   position_ = base::Array(exec, position), motion_ = base::Array(exec, motion), precise_ = base::Array(exec, precise);
   reference_ = base::Array<base::Position>(exec, particles);
   force_ = base::Array<base::Vec3l>(exec, particles);
@@ -53,9 +67,46 @@ Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec)
   markerForce_ = base::Array<base::Vec3l>(exec, markers);
   id_ = base::Array<std::uint32_t>(exec, particles);
   base::iota(exec, id_.data(), particles);
+  body_.upload();
+  placeBodies(0);
   rebuild();
   computeForces();
   losses_.zero();
+  bodyLoad_.download();
+  base::synchronize(exec_);
+}
+
+namespace {
+FluidSetup withParticles(FluidSetup setup, const FluidState& state) {
+  if (state.particles.size() != setup.particles.size())
+    throw base::InputError("the state is of another fluid; resume with the scene that was run");
+  for (std::size_t i = 0; i < setup.particles.size(); ++i) {
+    const SavedParticle& p = state.particles[i];
+    setup.particles[i] = {p.position, p.velocity, p.compression};
+  }
+  return setup;
+}
+} // namespace
+
+Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec)
+    : Fluid(withParticles(setup, state), exec) {
+  steps_ = state.steps;
+  std::vector<Losses> losses(particles());
+  const std::vector<std::uint32_t> slot = slotsById();
+  for (std::size_t k = 0; k < losses.size(); ++k) losses[slot[k]] = state.particles[k].losses;
+  losses_.assign(losses);
+}
+
+FluidState Fluid::save() const {
+  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
+  const std::vector<PreciseMotion> precise = precise_.toHost();
+  const std::vector<Losses> losses = losses_.toHost();
+  FluidState state{steps_, {}};
+  state.particles.reserve(particles());
+  for (const std::uint32_t i : slotsById())
+    state.particles.push_back(
+        {constants_.scale.toMetres(position[i]), precise[i].velocity, precise[i].compression, losses[i]});
+  return state;
 }
 
 FluidView Fluid::view() {
@@ -76,6 +127,11 @@ FluidView Fluid::view() {
           markerForce_.data(),
           id_.data(),
           reference_.data(),
+          fixedMarkers_,
+          body_.device().data(),
+          bodyOf_.data(),
+          bodyPoint_.data(),
+          bodyLoad_.device().data(),
           lists_.rows(),
           flags_.device().data()};
 }
@@ -94,8 +150,30 @@ void Fluid::rebuild() {
   lists_.build(position_.data());
   markerForce_.zero(); // markers without fluid neighbours are not computed
   base::copyOnDevice(exec_, reference_.data(), position_.data(), particles() * sizeof(base::Position));
-  listEnded_ = false;
+  listEnded_ = false, bodiesMoved_ = 0;
   ++rebuilds_;
+}
+
+void Fluid::placeBodies(double before) {
+  if (body_.size() == 0) return;
+  base::forEach(exec_, "place markers", static_cast<std::int64_t>(bodyOf_.size()), PlaceMarkers{view(), before});
+}
+
+/// Takes the motion of a step, and makes lists where the present ones do not reach to its end.
+void Fluid::advanceBodies(const std::vector<BodyMotion>& bodies) {
+  if (bodies.size() != bodyName_.size()) throw std::logic_error("a motion for each body of the fluid");
+  const double most = 0.5 * model_.skin();
+  double moves = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const double way = (norm(bodies[b].velocity) + norm(bodies[b].spin) * bodyReach_[b]) * model_.timeStep;
+    if (!(way < most)) throw base::SimulationError(bodyFaultText(bodyName_[b], way, model_, steps_));
+    moves = std::max(moves, way);
+    body_.host()[b] = bodies[b];
+  }
+  if (bodiesMoved_ + moves > most) listEnded_ = true;
+  if (listEnded_) rebuild();
+  bodiesMoved_ += moves;
+  body_.upload();
 }
 
 void Fluid::computeContinuity() {
@@ -111,24 +189,28 @@ void Fluid::computeForces() {
   base::forEach(exec_, "wall pressures", static_cast<std::int64_t>(wet.size()), Extrapolate{view(), wet.data()});
   base::forEach(exec_, "store stress", static_cast<std::int64_t>(particles()), StoreStress{view()});
   base::forEach(exec_, "fluid forces", static_cast<std::int64_t>(particles()), Force{view()});
-  base::forEach(exec_, "wall forces", static_cast<std::int64_t>(wet.size()), WallForce{view(), wet.data()});
+  bodyLoad_.device().zero();
+  base::forEach(exec_, "wall forces", static_cast<std::int64_t>(wet.size()),
+                WallForce{view(), wet.data(), 1 / model_.spacing});
 }
 
-void Fluid::step() {
+void Fluid::step(const std::vector<BodyMotion>& bodies) {
   const auto n = static_cast<std::int64_t>(particles());
-  if (listEnded_) rebuild();
+  advanceBodies(bodies);
   *flags_.host() = {kNoFault, 0, 0};
   flags_.upload();
   const double skin = model_.skin(), shiftFactor = model_.shifting * model_.kernel().length() * model_.timeStep;
   const double greatestShift = model_.shifting > 0 ? kGreatestShift * model_.spacing : 0.0;
   base::forEach(exec_, "fluid kick", n, Kick{view()});
   base::forEach(exec_, "fluid drift", n, Drift{view()});
+  placeBodies(0.5 * model_.timeStep);
   computeContinuity();
+  placeBodies(0);
   base::forEach(exec_, "fluid compression and drift", n,
                 CompressAndDrift{view(), skin, shiftFactor, greatestShift, surfaceDivergence_});
   computeForces();
   base::forEach(exec_, "fluid kick", n, Kick{view(), 0.5 * skin - greatestShift});
-  flags_.download();
+  flags_.download(), bodyLoad_.download();
   base::synchronize(exec_);
   ++steps_;
   checkFlags();
@@ -145,6 +227,18 @@ std::vector<base::Vec3d> Fluid::markerForces() const {
   forces.reserve(markers());
   for (const base::Vec3l& f : markerForce_.toHost()) forces.push_back(constants_.acceleration.value(f) * model_.mass());
   return forces;
+}
+
+std::vector<BodyLoad> Fluid::bodyLoads() const {
+  const double mass = model_.mass();
+  std::vector<BodyLoad> loads;
+  for (std::size_t b = 0; b < bodyLoad_.size(); ++b) {
+    const BodyLoadQuanta& q = bodyLoad_.host()[b];
+    loads.push_back(
+        {constants_.acceleration.checked(q.force, "forces of the fluid on a body") * mass,
+         constants_.acceleration.checked(q.torque, "torques of the fluid on a body") * (mass * model_.spacing)});
+  }
+  return loads;
 }
 
 base::Vec3l Fluid::forceBalance() const {

@@ -22,6 +22,24 @@ struct FluidTotals {
   double total() const { return kinetic + potential + internal + viscousLoss + diffusionLoss + wallLoss; }
 };
 
+/// Force [N] and torque about the origin of a body's frame [N m], world components.
+struct BodyLoad {
+  base::Vec3d force, torque;
+};
+
+/// A particle between two steps.
+struct SavedParticle {
+  base::Vec3d position, velocity; ///< [m], [m/s]
+  double compression;             ///< [-]
+  Losses losses;                  ///< since the start [J/kg]
+};
+
+/// All that later steps of a fluid depend on, and its losses.
+struct FluidState {
+  std::int64_t steps{};
+  std::vector<SavedParticle> particles; ///< in the order of FluidSetup
+};
+
 /// Particles on the host, in the order of FluidSetup.
 struct FluidSnapshot {
   std::vector<base::Vec3d> position, velocity; ///< [m], [m/s]
@@ -38,9 +56,14 @@ class Fluid {
 public:
   /// Throws InputError for values out of range.
   Fluid(const FluidSetup& setup, const base::Exec& exec);
+  /// Goes on from save(), with the bodies as `setup` has them now. Throws InputError where the state is of another
+  /// fluid.
+  Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec);
+  FluidState save() const;
 
-  /// Throws SimulationError where a particle is faster, more compressed or farther away than the numbers allow.
-  void step();
+  /// `bodies`: motion of each over this step. Throws SimulationError where a particle is faster, more compressed or
+  /// farther away than the numbers allow, or a body moves too far in a step.
+  void step(const std::vector<BodyMotion>& bodies = {});
   std::int64_t steps() const { return steps_; }
   double time() const { return static_cast<double>(steps_) * model_.timeStep; } ///< [s]
 
@@ -53,12 +76,21 @@ public:
   std::uint64_t hash() const;
   /// Force of the fluid on each marker [N], in the order of FluidSetup.
   std::vector<base::Vec3d> markerForces() const;
+  /// Loads of the fluid on the bodies at the end of the last step.
+  std::vector<BodyLoad> bodyLoads() const;
+  /// Pressure of the fluid at these points [Pa], extrapolated as to a marker at rest; 0 where no particle is near.
+  std::vector<double> pressuresAt(const std::vector<base::Vec3d>& points);
+  /// Height of the surface on vertical lines through (x, y) of `feet` [m]: the highest place below `top` whose particles
+  /// fill half of the kernel; the foot's z where there is none.
+  std::vector<double> levelsAt(const std::vector<base::Vec3d>& feet, double top);
   /// Exact sum of the forces between particles and from walls, in quanta: zero.
   base::Vec3l forceBalance() const;
   std::int64_t rebuilds() const { return rebuilds_; } ///< neighbour lists made since the start
 
 private:
   FluidView view();
+  void placeBodies(double before);
+  void advanceBodies(const std::vector<BodyMotion>& bodies);
   void rebuild();
   std::vector<std::uint32_t> slotsById() const;
   template <class T> void permute(base::Array<T>& array);
@@ -81,6 +113,14 @@ private:
   base::Array<float> divergence_;          ///< empty without shifting
   base::Array<base::Vec3f> ghostVelocity_; ///< empty without laminar viscosity
   base::Array<base::Vec3l> markerForce_;
+  std::uint32_t fixedMarkers_;
+  std::vector<std::string> bodyName_;
+  std::vector<double> bodyReach_; ///< greatest distance of a marker from the body's origin [m]
+  double bodiesMoved_{0};         ///< upper bound since the lists were made [m]
+  base::Mirrored<BodyMotion> body_;
+  base::Array<std::uint32_t> bodyOf_;
+  base::Array<base::Vec3d> bodyPoint_;
+  base::Mirrored<BodyLoadQuanta> bodyLoad_;
   base::Array<std::uint32_t> id_;
   base::Mirrored<FluidFlags> flags_;
   std::int64_t steps_{0}, rebuilds_{0};

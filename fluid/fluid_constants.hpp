@@ -21,6 +21,7 @@ struct FluidConstants {
   float artificial{};              ///< alpha h c [m2/s]
   float laminar{};                 ///< twice the kinematic viscosity [m2/s]
   float central{};                 ///< factor d + 2 of the central operator; 0: that of Morris [-]
+  float contact{};                 ///< distance within which markers repel particles [m]
   float diffusion{};               ///< -2 delta h c [m2/s]
   base::Vec3f gravityOverSound2{}; ///< [1/m]
   float shiftSeed{};               ///< 0.2/W(spacing)^4, in units of W(0) [-]

@@ -26,8 +26,6 @@ const FluidModel& checkedModel(const FluidSetup& setup) {
            std::isfinite(setup.surfaceDivergence),
        "gravity, attraction, time step and the divergence at surfaces must be finite");
   need(!setup.particles.empty(), "there are no particles");
-  need(setup.particles.size() + setup.markers.size() < std::size_t{1} << 31,
-       "there are 2^31 particles and markers or more");
   const double reach = m.kernel().support() + m.skin(), limit = base::positionScale(m.kernel().support()).limit();
   need(!(setup.periodHigh.z > setup.periodLow.z), "boundaries along z cannot be periodic");
   for (int a = 0; a < 2; ++a) {
@@ -42,6 +40,14 @@ const FluidModel& checkedModel(const FluidSetup& setup) {
     }
     return true;
   };
+  std::size_t bodyMarkers = 0;
+  for (const FluidBody& b : setup.bodies) {
+    bodyMarkers += b.markers.size();
+    for (const base::Vec3d& p : b.markers)
+      need(inRange(b.start.pose.toWorld(p)), "a body lies outside the periodic boundaries or the range of positions");
+  }
+  need(setup.particles.size() + setup.markers.size() + bodyMarkers < std::size_t{1} << 31,
+       "there are 2^31 particles and markers or more");
   for (const WallMarker& w : setup.markers) {
     need(inRange(w.position), "a marker lies outside the periodic boundaries or the range of positions");
     need(base::norm(w.velocity) < m.greatestSpeed(), "a wall is faster than sound");
@@ -73,6 +79,12 @@ std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t
   const bool lost = static_cast<FluidFault>(fault >> 32) == FluidFault::range;
   return fmt::format("step {}, time {:.4g} s: fluid particle {} {}; {}", step, time, id, text(),
                      lost ? "close the walls that it left by" : "use a smaller time step or a higher sound speed");
+}
+
+std::string bodyFaultText(const std::string& name, double way, const FluidModel& model, std::int64_t step) {
+  return fmt::format("step {}, time {:.4g} s: {} moves by up to {:.3g} m in one step, more than {:.3g} m, half the skin "
+                     "of the neighbour lists of the fluid; use a smaller time step, or limit what drives it",
+                     step, static_cast<double>(step) * model.timeStep, name, way, 0.5 * model.skin());
 }
 
 } // namespace grouser::fluid

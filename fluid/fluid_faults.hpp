@@ -14,4 +14,7 @@ const FluidModel& checkedModel(const FluidSetup& setup);
 /// A fault of FluidFlags in words, with step, time, particle and remedy.
 std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step);
 
+/// A body that would move by `way` [m] in the step behind step number `step`, too far for the neighbour lists.
+std::string bodyFaultText(const std::string& name, double way, const FluidModel& model, std::int64_t step);
+
 } // namespace grouser::fluid

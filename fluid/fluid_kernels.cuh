@@ -123,6 +123,11 @@ GROUSER_HD void moveBy(const FluidView& f, int i, const base::Vec3d& move) {
   raiseFault(f.flags, FluidFault::range, f.id[i]);
 }
 
+/// Puts slot i at a place [m] within the range of positions.
+GROUSER_HD void setPosition(const FluidView& f, std::uint32_t i, const base::Vec3d& place) {
+  f.position[i] = base::fromUnits(f.constants.period.wrapped(base::toUnits(f.constants.scale.fromMetres(place))));
+}
+
 /// r += v dt/2.
 struct Drift {
   static constexpr double kNanoseconds = 20;
@@ -237,12 +242,37 @@ struct Extrapolate {
     }
     const double sum = k.weight.value(weight);
     const double c2 = static_cast<double>(k.sound2);
-    const base::Vec3d pull = f.gravity * (1 / c2);
+    const base::Vec3d pull = (f.gravity - markerAcceleration(m)) * (1 / c2);
     const double s = (k.compression.value(compression) + dot(pull, k.moment.value(moment))) / sum;
     constexpr double kMost = kGreatestCompression;
     own.w = static_cast<float>(stress(s > kMost ? kMost : s < -kMost ? -kMost : s));
     if (f.ghostVelocity)
       f.ghostVelocity[m] = (2.0 * own.xyz().as<double>() - k.speed.value(velocity) * (1 / sum)).as<float>();
+  }
+
+private:
+  GROUSER_HD base::Vec3d markerAcceleration(std::uint32_t m) const {
+    if (m < f.fixedMarkers) return {};
+    const std::uint32_t n = m - f.fixedMarkers;
+    const BodyMotion& body = f.body[f.bodyOf[n]];
+    const base::Vec3d arm = rotate(body.pose.orientation, f.bodyPoint[n]);
+    return body.acceleration + cross(body.angularAcceleration, arm) + cross(body.spin, cross(body.spin, arm));
+  }
+};
+
+/// Moves markers with their bodies, to the places and velocities `before` [s] ahead of the end of the step.
+struct PlaceMarkers {
+  static constexpr double kNanoseconds = 40;
+  FluidView f;
+  double before;
+  GROUSER_HD void operator()(int n) const {
+    const BodyMotion& body = f.body[f.bodyOf[n]];
+    const base::Vec3d arm = rotate(body.pose.orientation, f.bodyPoint[n]);
+    const base::Vec3d v = body.velocity + cross(body.spin, arm);
+    const std::uint32_t slot = f.particles + f.fixedMarkers + static_cast<std::uint32_t>(n);
+    setPosition(f, slot, body.pose.position + arm - v * before);
+    const base::Vec3f speed = v.as<float>();
+    f.motion[slot] = {speed.x, speed.y, speed.z, f.motion[slot].w};
   }
 };
 
@@ -273,7 +303,15 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   return force;
 }
 
-/// Sums of the accelerations of a particle, of the viscous power, and of the power of the markers' pressure.
+/// Acceleration of a particle by a marker that is nearer than k.contact [m/s2], from the potential c^2 (1 - r/contact)^2
+/// / 2: walls let nothing pass where the fluid's own pressure is small, as in thin jets.
+GROUSER_HD base::Vec3f contactForce(const FluidConstants& k, const Pair& pair) {
+  const float r = pair.q / k.perLength;
+  if (r >= k.contact || r == 0) return {};
+  return pair.d * (k.sound2 * (k.contact - r) / (k.contact * k.contact * r));
+}
+
+/// Sums of the accelerations of a particle: of all pairs, of viscous forces, and of the pressure of markers.
 struct Force {
   static constexpr double kNanoseconds = 900;
   FluidView f;
@@ -283,36 +321,45 @@ struct Force {
     const base::Vec4f own = f.motion[i];
     const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
     const auto perPower = static_cast<float>(k.power.perUnit);
-    base::Vec3l sum{}, wall{};
-    std::int64_t power = 0;
-    const auto add = [&](const PairForce& force, const base::Vec3f& apart, float share) {
+    base::Vec3l sum{}, viscous{}, wall{};
+    std::int64_t dragPower = 0, wallPower = 0; // of forces of markers at their velocity
+    const auto add = [&](const PairForce& force) {
       sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
-      power += rounded(dot(force.viscous, apart) * (share * perPower));
+      viscous += roundedVector(force.viscous * perAcceleration);
     };
     eachFluidNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
-      const base::Vec3f apart = own.xyz() - other.xyz();
-      add(pairForce(k, pair, own, other, apart, true), apart, 0.5f);
+      add(pairForce(k, pair, own, other, own.xyz() - other.xyz(), true));
     });
     eachMarkerNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
       const base::Vec3f slip = f.ghostVelocity ? own.xyz() - f.ghostVelocity[j - f.particles] : base::Vec3f{};
-      add(pairForce(k, pair, own, other, slip, false), own.xyz(), 1);
-      wall += roundedVector(pair.d * (-k.sound2 * other.w * pair.slope(k) * perAcceleration));
+      const base::Vec3f contact = contactForce(k, pair);
+      PairForce force = pairForce(k, pair, own, other, slip, false);
+      force.pressure += contact;
+      add(force);
+      const base::Vec3f push = pair.d * (-k.sound2 * other.w * pair.slope(k)) + contact;
+      wall += roundedVector(push * perAcceleration);
+      wallPower += rounded(dot(push, other.xyz()) * perPower);
+      dragPower += rounded(dot(force.viscous, other.xyz()) * perPower);
     });
     f.force[i] = sum;
-    // Work of the markers' pressure in both half kicks, at their mean velocity, the one at the end of the step.
+    // Work in both half kicks, at their mean velocity, the one at the end of the step.
     const base::Vec3d end = f.precise[i].velocity + 0.5 * f.timeStep * accelerationOf(f, i);
-    f.losses[i].viscous -= f.timeStep * k.power.value(power);
-    f.losses[i].wall -= f.timeStep * dot(k.acceleration.value(wall), end);
+    const auto loss = [&](const base::Vec3l& force, std::int64_t power) {
+      return f.timeStep * (k.power.value(power) - dot(k.acceleration.value(force), end));
+    };
+    f.losses[i].viscous += loss(viscous, dragPower);
+    f.losses[i].wall += loss(wall, wallPower);
   }
 };
 
-/// Force of the fluid on a marker: the integers of Force with opposite sign.
+/// Force of the fluid on a marker: the integers of Force with opposite sign. Markers of bodies add it to the load.
 struct WallForce {
   static constexpr double kNanoseconds = 500;
   FluidView f;
   const std::uint32_t* list;
+  double perSpacing; ///< [1/m]
 
   GROUSER_HD void operator()(int n) const {
     const FluidConstants& k = f.constants;
@@ -324,10 +371,23 @@ struct WallForce {
     eachFluidNeighbour(f, slot, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
       const base::Vec3f slip = f.ghostVelocity ? f.ghostVelocity[m] - other.xyz() : base::Vec3f{};
-      const PairForce force = pairForce(k, pair, own, other, slip, false);
+      PairForce force = pairForce(k, pair, own, other, slip, false);
+      force.pressure += contactForce(k, pair);
       sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
     });
     f.markerForce[m] = sum;
+    if (m >= f.fixedMarkers) addToBody(m - f.fixedMarkers, sum);
+  }
+
+private:
+  GROUSER_HD void addToBody(std::uint32_t n, const base::Vec3l& sum) const {
+    const std::uint32_t body = f.bodyOf[n];
+    const base::Vec3d arm = rotate(f.body[body].pose.orientation, f.bodyPoint[n]) * perSpacing;
+    const base::Vec3d moment = cross(arm, sum.as<double>());
+    const auto whole = [](double x) { return static_cast<std::int64_t>(floor(x + 0.5)); };
+    const base::Vec3l torque{whole(moment.x), whole(moment.y), whole(moment.z)};
+    BodyLoadQuanta& load = f.bodyLoad[body];
+    for (int a = 0; a < 3; ++a) base::atomicAdd64(&load.force[a], sum[a]), base::atomicAdd64(&load.torque[a], torque[a]);
   }
 };
 

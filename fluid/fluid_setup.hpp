@@ -3,6 +3,7 @@
 
 #include "fluid/fluid_model.hpp"
 
+#include <string>
 #include <vector>
 
 namespace grouser::fluid {
@@ -21,11 +22,26 @@ struct WallMarker {
   base::Vec3d velocity{}; ///< along the wall, whose place does not change [m/s]
 };
 
+/// Motion of a rigid body in the fluid; vectors in world components.
+struct BodyMotion {
+  base::Pose pose;                               ///< of the body's frame at the end of the step
+  base::Vec3d velocity, spin;                    ///< over the step, of the frame's origin [m/s], [rad/s]
+  base::Vec3d acceleration, angularAcceleration; ///< that wall pressures are extrapolated with [m/s2], [rad/s2]
+};
+
+/// A rigid body in the fluid: its markers move with it.
+struct FluidBody {
+  std::string name;                 ///< in messages
+  std::vector<base::Vec3d> markers; ///< in the body's frame [m]
+  BodyMotion start;
+};
+
 struct FluidSetup {
   FluidModel model;
   base::Vec3d periodLow{}, periodHigh{}; ///< periodic boundaries along x and y where high is above low [m]
   std::vector<FluidParticle> particles;
-  std::vector<WallMarker> markers;
+  std::vector<WallMarker> markers; ///< of fixed walls
+  std::vector<FluidBody> bodies;
   /// No shifting where div r falls below this, as at free surfaces: in three dimensions 2.5 for 1.3 spacings. 0: fluid
   /// without free surfaces [-].
   double surfaceDivergence = 0;

@@ -4,6 +4,7 @@
 #include "base/vec.hpp"
 #include "contact/neighbour_view.hpp"
 #include "fluid/fluid_constants.hpp"
+#include "fluid/fluid_setup.hpp"
 
 #include <cstdint>
 
@@ -24,6 +25,12 @@ struct CompressionChange {
 /// the fluid beyond its compression is the loss to walls.
 struct Losses {
   double viscous, diffusion, wall;
+};
+
+/// Load of the fluid on a body about its frame's origin: exact sums, in quanta of acceleration x particle mass, and of
+/// that x spacing.
+struct BodyLoadQuanta {
+  base::Vec3l force, torque;
 };
 
 /// Neighbour rows. Row i of a particle holds fluid neighbours, and from place fluidCount[i] on markers of walls. Row
@@ -60,6 +67,11 @@ struct FluidView {
   base::Vec3l* markerForce;        ///< [markers] force of the fluid, quanta of acceleration x particle mass
   const std::uint32_t* id;         ///< [particles]
   const base::Position* reference; ///< [particles] places when the lists were made
+  std::uint32_t fixedMarkers;      ///< markers of bodies lie behind them
+  const BodyMotion* body;          ///< [bodies]
+  const std::uint32_t* bodyOf;     ///< [markers of bodies] index of the body
+  const base::Vec3d* bodyPoint;    ///< [markers of bodies] place in the body's frame [m]
+  BodyLoadQuanta* bodyLoad;        ///< [bodies]
   FluidRows rows;
   FluidFlags* flags;
 };

@@ -11,21 +11,22 @@ void Lattice::each(const base::Vec3d& low, const base::Vec3d& high,
   constexpr double kRounding = 1e-9; // spacings
   std::int64_t first[3], last[3];
   for (int a = 0; a < 3; ++a) {
-    first[a] = static_cast<std::int64_t>(std::ceil(low[a] / spacing - 0.5 - kRounding));
-    last[a] = static_cast<std::int64_t>(std::ceil(high[a] / spacing - 0.5 - kRounding));
+    first[a] = static_cast<std::int64_t>(std::ceil((low[a] - origin[a]) / spacing - 0.5 - kRounding));
+    last[a] = static_cast<std::int64_t>(std::ceil((high[a] - origin[a]) / spacing - 0.5 - kRounding));
   }
-  if (dimensions == 2) first[1] = 0, last[1] = 1;
-  const auto at = [this](std::int64_t k) { return (static_cast<double>(k) + 0.5) * spacing; };
+  const bool plane = dimensions == 2;
+  if (plane) first[1] = 0, last[1] = 1;
+  const auto at = [this](int axis, std::int64_t k) { return origin[axis] + (static_cast<double>(k) + 0.5) * spacing; };
   for (std::int64_t i = first[0]; i < last[0]; ++i)
     for (std::int64_t j = first[1]; j < last[1]; ++j)
-      for (std::int64_t k = first[2]; k < last[2]; ++k) visit({at(i), at(j), at(k)});
+      for (std::int64_t k = first[2]; k < last[2]; ++k) visit({at(0, i), plane ? 0 : at(1, j), at(2, k)});
 }
 
 std::vector<WallMarker> wallMarkers(const FluidModel& model, const Distance& distance, const base::Vec3d& low,
-                                    const base::Vec3d& high) {
+                                    const base::Vec3d& high, const base::Vec3d& origin) {
   const double depth = std::ceil(model.kernel().support() / model.spacing) * model.spacing;
   std::vector<WallMarker> markers;
-  Lattice{model.spacing, model.dimensions}.each(low, high, [&](const base::Vec3d& p) {
+  Lattice{model.spacing, model.dimensions, origin}.each(low, high, [&](const base::Vec3d& p) {
     const double d = distance(p);
     if (d < 0 && d > -depth) markers.push_back({p});
   });
@@ -33,9 +34,9 @@ std::vector<WallMarker> wallMarkers(const FluidModel& model, const Distance& dis
 }
 
 std::vector<FluidParticle> stillFluid(const FluidModel& model, const Distance& distance, const base::Vec3d& low,
-                                      const base::Vec3d& high, double level) {
+                                      const base::Vec3d& high, double level, const base::Vec3d& origin) {
   std::vector<FluidParticle> particles;
-  Lattice{model.spacing, model.dimensions}.each(low, high, [&](const base::Vec3d& p) {
+  Lattice{model.spacing, model.dimensions, origin}.each(low, high, [&](const base::Vec3d& p) {
     if (!(p.z < level) || distance(p) < 0) return;
     particles.push_back({p, {}, compressionAt(model, -model.density * model.gravity.z * (level - p.z))});
   });

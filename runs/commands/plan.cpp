@@ -238,6 +238,8 @@ std::string switchesText(const scene::Scene& scene) {
   const scene::MechanismSections& m = scene.mechanism;
   text += onOff(!m.empty(), "mechanism",
                 m.empty() ? "no [[body]]" : output::integratorText(setup::solverOptions(scene.run)));
+  text += onOff(scene.fluid.has_value(), "fluid",
+                scene.fluid ? fmt::format("spacing {:g} m", scene.fluid->spacing) : "no [fluid]");
   text += onOff(scene.output.frames, "frames",
                 scene.output.frames ? fmt::format("{:.0f}, one each {} s",
                                                   std::floor(scene.run.duration / scene.run.frameInterval + 1e-9) + 1,
@@ -270,6 +272,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   }
   const double step = setup::chooseTimeStep(scene);
   setup::checkGround(scene, step);
+  text += fluidText(scene, step);
   if (!scene.mechanism.empty())
     text += output::mechanismSize(coupling::Mechanism(setup::contactFreeSetup(scene), step));
   text += bedHeightText(scene);

@@ -18,6 +18,9 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
 /// on why or how. A line without either word tells more of the one before.
 std::string switchesText(const scene::Scene& scene);
 
+/// A part of it: particles, markers, sound speed and step limits of the fluid. Empty without one.
+std::string fluidText(const scene::Scene& scene, double timeStep);
+
 /// A part of it: every pair of materials that can meet, with the values that act between them, and a note where a value
 /// of one material does nothing. Empty where nothing can touch.
 std::string pairsText(const scene::Scene& scene);

@@ -86,14 +86,14 @@ Columns<coupling::GearContacts> gearColumns() {
   return c;
 }
 
-Columns<coupling::Ledger> ledgerColumns(bool touching, bool deforms) {
+Columns<coupling::Ledger> ledgerColumns(bool touching, bool deforms, bool wet) {
   using L = coupling::Ledger;
   Columns<L> c("ledger/");
   c.add("drive_work", "J", "done by drives, moving surfaces and the hitch", &L::driveWork);
   c.add("kinetic", "J", "of grains, vehicle and bodies", &L::kinetic);
   c.add("potential", "J", "in the field of gravity", &L::potential);
   c.add("elastic", "J", "in contacts and springs", &L::elastic);
-  c.add("dissipated", "J", deforms ? "sum of the nine causes below" : "sum of the eight below",
+  c.add("dissipated", "J", deforms || wet ? "sum of the nine causes below" : "sum of the eight below",
         [](const L& l) { return l.dissipated.total(); });
   for (const coupling::DissipationCause& cause : coupling::kDissipationCauses)
     c.add(std::string("dissipated_") + cause.word, "J", cause.help,
@@ -105,6 +105,9 @@ Columns<coupling::Ledger> ledgerColumns(bool touching, bool deforms) {
       c.add(std::string("soil_") + entry.word, "J", entry.help,
             [energy = entry.energy](const L& l) { return l.soil.*energy; });
   }
+  if (wet)
+    c.add("dissipated_fluid", "J", "by viscosity, density diffusion and walls of the fluid",
+          [](const L& l) { return l.dissipated.fluid; });
   c.add("integration_error", "J",
         "lost (or, where negative, made) by steps of finite length: drive work less kinetic, potential, elastic and "
         "dissipated",

@@ -94,7 +94,7 @@ Columns<HitchReading> hitchColumns();
 /// What grains touch of a vehicle.
 Columns<coupling::GearContacts> gearColumns();
 /// Energy and momentum. `touching`: whether vehicle and bed may exchange impulses; `deforms`: a ground of deformable
-/// soil, with energies of its own.
-Columns<coupling::Ledger> ledgerColumns(bool touching = true, bool deforms = false);
+/// soil, with energies of its own; `wet`: a fluid.
+Columns<coupling::Ledger> ledgerColumns(bool touching = true, bool deforms = false, bool wet = false);
 
 } // namespace grouser::output

@@ -2,6 +2,7 @@
 #include "runs/output/frames_file.hpp"
 
 #include "runs/output/field_datasets.hpp"
+#include "runs/output/fluid_datasets.hpp"
 #include "runs/output/soil_datasets.hpp"
 #include "runs/output/xdmf.hpp"
 #include "runs/support/text_file.hpp"
@@ -131,6 +132,7 @@ FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<Fra
     const std::string position = group + "/grains/position";
     const std::uint64_t grains = frames.file_->has(position) ? frames.file_->shape(position)[0] : 0;
     if (grains) counts.insert(std::to_string(grains));
+    if (const std::uint64_t particles = fluidCount(*frames.file_, group)) counts.insert(std::to_string(particles));
     frames.describe(grains, static_cast<std::int64_t>(frames.file_->number(group, "step")),
                     frames.file_->number(group, "time"));
   }
@@ -187,7 +189,7 @@ std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) cons
   std::uint64_t cuts = 0;
   for (const std::vector<double>& places : frame.borders) cuts += places.size();
   return kOwn + (frame.fields ? output::bytesOfFields(frame.fields->grid.count()) : 0) +
-         (frame.soil ? bytesOfSoil(*frame.soil) : 0) + kAName * static_cast<std::uint64_t>(count_) + grains * aGrain +
+         (frame.soil ? bytesOfSoil(*frame.soil) : 0) + (frame.fluid ? bytesOfFluid(*frame.fluid) : 0) + kAName * static_cast<std::uint64_t>(count_) + grains * aGrain +
          partVertices_ * 3 * sizeof(float) + cuts * sizeof(double);
 }
 
@@ -219,6 +221,7 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
   }
   if (frame.fields) writeFields(*file_, group, *frame.fields);
   if (frame.soil) writeSoil(*file_, group, *frame.soil);
+  if (frame.fluid) writeFluid(*file_, group, *frame.fluid);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::vector<double>& places = frame.borders[axis]; !places.empty())
       file_->write(group + "/partition/" + "xyz" [axis], places, { places.size() });
@@ -249,21 +252,26 @@ std::string FramesFile::listVertices(std::size_t grains) {
   return list;
 }
 
+std::string FramesFile::pointsTopology(std::size_t points) {
+  return fmt::format(
+      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
+      points, item(fmt::format("{} 1", points), "UInt", 4, listVertices(points)));
+}
+
 void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
   const std::string group = groupOf(count_++);
   std::string grids;
   if (grains) {
     const std::string at = group + "/grains";
-    const std::string vertices = fmt::format(
-        "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\">{}</Topology>\n",
-        grains, item(fmt::format("{} 1", grains), "UInt", 4, listVertices(grains)));
     std::string attributes;
     for (const GrainDataset& d : kGrainDatasets)
       if (d.name != kPosition && file_->has(at + "/" + d.name))
         attributes += attribute(d.name, "Node", grains, d.width, "Float", at + "/" + d.name);
-    grids += grid("grains", vertices + geometry(grains, at + "/" + kPosition) + attributes +
+    grids += grid("grains", pointsTopology(grains) + geometry(grains, at + "/" + kPosition) + attributes +
                                 attribute("id", "Node", grains, 1, "UInt", at + "/id"));
   }
+  if (const std::uint64_t particles = fluidCount(*file_, group))
+    grids += grid("fluid", pointsTopology(particles) + fluidXdmf(*file_, group));
   if (partTriangles_)
     grids += grid("parts", triangles(partTriangles_, "/parts/triangles") +
                                geometry(partVertices_, group + "/parts/position") +
@@ -290,7 +298,7 @@ std::vector<support::FileField> frameFields() {
   for (const GrainDataset& d : kGrainDatasets)
     fields.push_back(
         {grains + d.name, "float32", d.width == 1 ? "[grains]" : fmt::format("[grains, {}]", d.width), d.unit, d.help});
-  for (const auto& more : {soilFieldFields(frame), soilSurfaceFields(frame)})
+  for (const auto& more : {soilFieldFields(frame), soilSurfaceFields(frame), fluidFields(frame)})
     fields.insert(fields.end(), more.begin(), more.end());
   const char* corners = "places of the corners of each triangle among the vertices";
   const std::vector<support::FileField> others{

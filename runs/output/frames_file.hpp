@@ -44,6 +44,7 @@ private:
   void writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains);
   void writeGrains(support::Hdf5File& file, const Frame& frame, const std::string& group) const;
   std::string listVertices(std::size_t grains);
+  std::string pointsTopology(std::size_t points);
   /// Adds the XML of the next frame, which is in the file.
   void describe(std::size_t grains, std::int64_t step, double time);
   void writeXdmf() const;

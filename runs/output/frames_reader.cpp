@@ -2,6 +2,7 @@
 #include "runs/output/frames_reader.hpp"
 
 #include "base/error.hpp"
+#include "runs/output/fluid_datasets.hpp"
 #include "runs/output/soil_datasets.hpp"
 
 #include <fmt/format.h>
@@ -113,6 +114,8 @@ StoredFrame FramesReader::read(std::size_t frame) const {
     f.radii = perGrain(at + "/radius", f.positions.size());
     f.speeds = perGrain(at + "/speed", f.positions.size());
   }
+  if (f.positions.empty())
+    if (const auto fluid = readFluid(file_, group)) drawFluid(*fluid, f.positions, f.radii, f.speeds);
   if (!parts_.empty()) {
     f.partVertices = points(group + "/parts/position");
     for (const StoredPart& part : parts_)

@@ -59,6 +59,13 @@ struct SoilSurface {
   std::vector<base::Vec3f> shear;           ///< stress on the soil now [Pa]
 };
 
+/// Particles of a fluid in a frame.
+struct FluidPoints {
+  std::vector<base::Vec3f> position, velocity; ///< [m], [m/s]
+  std::vector<float> pressure;                 ///< [Pa]
+  double spacing{};                            ///< initial distance [m]
+};
+
 /// The grains and parts at one time; on several ranks this rank's block of the grains. All arrays of grains have the
 /// same length.
 struct Frame {
@@ -77,6 +84,7 @@ struct Frame {
   std::vector<base::Pose> partPoses;                 ///< one a part
   std::shared_ptr<const terrain::SoilFields> fields; ///< fields of the soil, the same on all ranks; may be null
   std::shared_ptr<const SoilSurface> soil;           ///< of deformable ground, the same on all ranks; may be null
+  std::shared_ptr<const FluidPoints> fluid;          ///< the same on all ranks; may be null
   /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
   std::array<std::vector<double>, 3> borders;
 };

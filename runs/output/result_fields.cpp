@@ -2,6 +2,7 @@
 #include "runs/output/result_fields.hpp"
 
 #include "runs/output/channels.hpp"
+#include "runs/output/fluid_output.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/soil_result.hpp"
 #include "vehicle/observation_table.hpp"
@@ -127,7 +128,8 @@ std::vector<FileField> resultFields() {
   for (const auto& channels :
        {terrainColumns().channels(), surfaceColumns("NAME", true).channels(), obstacleColumns("NAME").channels(),
         hitchColumns().channels(), gearColumns().channels(), ledgerColumns().channels(),
-        ledgerColumns(true, true).channels(), probeColumns({"NAME"}).channels(),
+        ledgerColumns(true, true, false).channels(), ledgerColumns(true, false, true).channels(),
+        fluidColumns({{"NAME", false, {}}}, {"NAME"}).channels(), probeColumns({"NAME"}).channels(),
         mechanismColumns(modelOfAll(), std::vector<bool>(modelOfAll().bodies().size(), true), {}).channels()})
     for (const Channel& c : channels) add(fields, c);
   return fields;

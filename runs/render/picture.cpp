@@ -183,7 +183,7 @@ Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>
       std::vector<Colour> colours;
       for (int i = 0; i < kScaleColours; ++i)
         colours.push_back(heightColour(static_cast<float>(i) / static_cast<float>(kScaleColours - 1)));
-      drawScale(image, font, "grains: z [m]", double{low}, double{low + range}, colours);
+      drawScale(image, font, frame.fluid ? "fluid: z [m]" : "grains: z [m]", double{low}, double{low + range}, colours);
     }
     const double distance = norm(camera.eye - camera.target);
     drawLength(image, font, image.height / (2 * distance * base::tan(0.5 * camera.fieldOfView * base::kPi / 180)));

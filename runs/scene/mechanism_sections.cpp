@@ -194,7 +194,7 @@ void checkCompany(const Section& section, const Scene& scene) {
   const auto touches = [](const Section& body) { return body.has("shape"); };
   const std::vector<Section> bodies = root.list("body");
   const bool anyTouches = std::any_of(bodies.begin(), bodies.end(), touches);
-  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain"})
+  for (const char* other : {"grain", "grains", "source", "plane", "box", "cylinder", "mesh", "terrain", "fluid"})
     if (root.has(other) && !anyTouches && !root.has("vehicle"))
       section.fail("", fmt::format("is incompatible with {}, since no body has a shape that could touch it; add "
                                    "[[body.shape]], or give the mechanism a scene of its own",

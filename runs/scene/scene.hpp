@@ -4,6 +4,7 @@
 #include "base/vec.hpp"
 #include "contact/mixing.hpp"
 #include "runs/scene/choices.hpp"
+#include "runs/scene/fluid_structs.hpp"
 #include "runs/scene/mechanism_structs.hpp"
 #include "runs/scene/surface_structs.hpp"
 #include "vehicle/gear_shapes.hpp"
@@ -343,6 +344,7 @@ struct Scene {
   std::vector<MeshSection> meshes;
   std::optional<Terrain> terrain;
   std::optional<Scm> scm;
+  std::optional<Fluid> fluid;
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;
   Driver driver;

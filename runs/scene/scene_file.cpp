@@ -25,7 +25,8 @@ SectionList allSections() {
   SectionList all;
   for (SectionList (*const subject)() : {detail::runSections, detail::materialSections, detail::grainSections,
                                          detail::surfaceSections, detail::terrainSections, detail::mechanismSections,
-                                         detail::vehicleSections, detail::hitchSections, detail::outputSections})
+                                         detail::vehicleSections, detail::hitchSections, detail::fluidSections,
+                                         detail::outputSections})
     for (SectionEntry& entry : subject()) all.push_back(std::move(entry));
   return all;
 }

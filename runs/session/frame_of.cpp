@@ -40,6 +40,17 @@ base::TriangleMesh groundMesh(const terrain::HeightField& field) {
   return mesh;
 }
 
+std::shared_ptr<const output::FluidPoints> fluidPoints(const fluid::Fluid& fluid) {
+  auto points = std::make_shared<output::FluidPoints>();
+  const fluid::FluidSnapshot now = fluid.snapshot();
+  for (const base::Vec3d& p : now.position) points->position.push_back(p.as<float>());
+  for (const base::Vec3d& v : now.velocity) points->velocity.push_back(v.as<float>());
+  for (const double s : now.compression)
+    points->pressure.push_back(static_cast<float>(fluid::pressureAt(fluid.model(), s)));
+  points->spacing = fluid.model().spacing;
+  return points;
+}
+
 void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contactForces, bool known) {
   frame.withContactForces = contactForces;
   terrain::GrainSnapshot s = grains.snapshot({.contactForces = contactForces && known});

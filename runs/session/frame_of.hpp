@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/sphere_set.hpp"
+#include "fluid/fluid.hpp"
 #include "runs/output/records.hpp"
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
@@ -14,5 +15,8 @@ base::TriangleMesh groundMesh(const terrain::HeightField& field);
 /// Puts the grains of this rank into the frame. `contactForces`: whether frames have them, `known`: whether a step has
 /// been taken that they are of; they are NaN otherwise.
 void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contactForces, bool known);
+
+/// All particles of a fluid.
+std::shared_ptr<const output::FluidPoints> fluidPoints(const fluid::Fluid& fluid);
 
 } // namespace grouser::session

@@ -2,6 +2,7 @@
 #include "runs/session/recorder.hpp"
 
 #include "base/error.hpp"
+#include "runs/output/fluid_datasets.hpp"
 #include "runs/output/former_output.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/plane_mesh.hpp"
@@ -227,6 +228,7 @@ output::Frame Recorder::currentFrame() const {
   if (const coupling::Ground* ground = simulation_.actingGround())
     if (const auto fields = ground->fieldsNow())
       frame.soil = std::make_shared<output::SoilSurface>(output::soilSurface(*fields, *simulation_.ground().surface));
+  if (const coupling::FluidDomain* fluid = simulation_.fluid()) frame.fluid = fluidPoints(fluid->fluid());
   if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p)
       frame.partPoses.push_back(vehicle::partPose(rig->assembly().parts[p], rig->state()));
@@ -243,8 +245,10 @@ output::Frame Recorder::currentFrame() const {
 }
 
 void Recorder::picture(int width) {
-  const output::Frame whole = gathered(currentFrame(), simulation_.comm());
+  output::Frame whole = gathered(currentFrame(), simulation_.comm());
   if (!simulation_.comm().first()) return;
+  std::vector<float> speeds; // not drawn
+  if (whole.fluid) output::drawFluid(*whole.fluid, whole.positions, whole.radii, speeds);
   const setup::DrawnPlanes& planes = record_.planes;
   std::vector<output::FramePart> parts = parts_;
   if (const coupling::Surfaces* surfaces = simulation_.surfaces())

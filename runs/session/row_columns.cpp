@@ -2,6 +2,7 @@
 #include "runs/session/row_columns.hpp"
 
 #include "base/table.hpp"
+#include "runs/output/fluid_output.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "vehicle/observation_table.hpp"
 
@@ -56,6 +57,9 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
                                     s.pressedMost()};
     });
   addSurfaces();
+  if (coupling::FluidDomain* fluid = simulation.fluid())
+    add(output::fluidColumns(simulation.setup().fluid->probes, fluid->bodyNames()),
+        [fluid](const Now&) { return output::fluidReading(*fluid); });
   if (rig && rig->towing())
     add(output::hitchColumns(), [&s = simulation](const Now& now) {
       return output::HitchReading{s.vehicle()->towing()->observe(), now.vehicle.drawbarPull};
@@ -65,7 +69,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
   // A mechanism without contacts has no contact impulses to balance.
   const coupling::Ground* ground = simulation.actingGround();
   add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches(),
-                            ground && ground->traits().deforms),
+                            ground && ground->traits().deforms, simulation.fluid() != nullptr),
       [](const Now& now) { return now.ledger; });
   requirePlotted(channels_, output.plots);
 }
@@ -109,7 +113,8 @@ void RowColumns::addSurfaces() {
           [&s, i](const Now&) { return s.surfaces()->observe(i, s.steps()); });
   const std::vector<coupling::Obstacle>& obstacles = s.setup().ground.obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i)
-    add(output::obstacleColumns(obstacles[i].surface.name), [&s, i](const Now&) { return bodiesOf(s).meanForceOn(i); });
+    if (s.vehicle() || s.mechanism())
+      add(output::obstacleColumns(obstacles[i].surface.name), [&s, i](const Now&) { return bodiesOf(s).meanForceOn(i); });
 }
 
 void RowColumns::add(const std::vector<output::Channel>& channels, Append append) {

@@ -30,9 +30,17 @@ std::vector<SceneSurface> wallsOf(const scene::Scene& scene) {
 
 } // namespace
 
+std::vector<coupling::SurfaceSetup> surfacesAtRest(const scene::Scene& scene) {
+  std::vector<coupling::SurfaceSetup> all;
+  for (const SceneSurface& s : surfacesOf(scene))
+    if (!s.moves) all.push_back(s);
+  for (const SceneSurface& wall : wallsOf(scene)) all.push_back(wall);
+  return all;
+}
+
 std::vector<coupling::Obstacle> obstaclesOf(const scene::Scene& scene) {
   std::vector<coupling::Obstacle> all;
-  if (!scene.vehicle && !scene.mechanism.touches()) return all;
+  if (!scene.vehicle && !scene.mechanism.touches() && !scene.fluid) return all;
   const std::optional<VehicleSurface> own = vehicleSurface(scene);
   const auto add = [&](const coupling::SurfaceSetup& s, std::optional<std::size_t> place) {
     double friction = 0; // bodies use a FoundationTable

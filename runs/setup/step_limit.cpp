@@ -9,6 +9,7 @@
 #include "contact/mixing.hpp"
 #include "contact/restitution.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/fluid_setup.hpp"
 #include "runs/setup/grain_contacts.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/laws.hpp"
@@ -280,6 +281,19 @@ void checkSoftness(const scene::Scene& scene, const ContactPairs& pairs) {
   }
 }
 
+/// Twice the limits that "auto" keeps: half of what makes the lattice of particles unstable.
+void checkFluidStep(const scene::Scene& scene) {
+  const fluid::StepLimits limits = fluidStepLimits(scene);
+  if (!(*scene.run.timeStep > 2 * limits.least())) return;
+  const char* cause = limits.least() == limits.sound   ? "its sound speed"
+                      : limits.least() == limits.force ? "gravity"
+                                                       : "its viscosity";
+  scene.fail("run", "time_step",
+             fmt::format("[s] is above {} s, where the fluid is no longer stable for {}; choose {} s or less, or a "
+                         "larger fluid.spacing",
+                         base::roundedDown(2 * limits.least(), 3), cause, base::roundedDown(limits.least(), 3)));
+}
+
 } // namespace
 
 StepLimit stepLimit(const scene::Scene& scene) {
@@ -298,7 +312,10 @@ double chooseTimeStep(const scene::Scene& scene) {
   const double contact = shortestOf(contacts);
   // Where a contact is to have more or fewer steps than usual, so has all that grains do, down to the limits.
   const double coarser = scene::kStepsPerContact / scene.run.stepsPerContact;
-  double automatic = contact > 0 ? contact / scene.run.stepsPerContact : kVehicleTimeStep;
+  const bool fluidAlone = scene.fluid && !scene.vehicle && scene.mechanism.empty();
+  double automatic = contact > 0   ? contact / scene.run.stepsPerContact
+                     : fluidAlone ? kLongestOfAll
+                                  : kVehicleTimeStep;
   automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step,
                         limit.bounce / scene.run.stepsPerContact});
   for (const auto& [material, radius, largest] : pairs.kinds.kinds)
@@ -306,6 +323,7 @@ double chooseTimeStep(const scene::Scene& scene) {
         std::min(automatic, coarser * kRayleighShare * contact::rayleighTimeOf(scene.material(material), radius));
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
   if (!scene.mechanism.empty() && !scene.vehicle) automatic = std::min(automatic, mechanismTimeStep(scene));
+  if (scene.fluid) automatic = std::min(automatic, fluidStepLimits(scene).least());
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
@@ -322,6 +340,7 @@ double chooseTimeStep(const scene::Scene& scene) {
                                                scene.run.impactSpeed)
                                  : ""));
   }
+  if (scene.fluid) checkFluidStep(scene);
   return *scene.run.timeStep;
 }
 

@@ -33,6 +33,7 @@ template <> struct Layout<std::uint64_t> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::GrainLayout> { using Number = std::int64_t; };
 template <> struct Layout<coupling::TakenOut> { using Number = double; };
 template <> struct Layout<coupling::SurfaceState> { using Number = double; };
+template <> struct Layout<fluid::SavedParticle> { using Number = double; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
 template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 
@@ -88,6 +89,11 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
       archive("/mechanism/touching/forces", t.forces), archive("/mechanism/touching/mean_steps", t.meanSteps);
       archive("/mechanism/touching/applied_work", t.appliedWork);
     }
+  }
+  if (archive.present("/fluid", s.fluid)) {
+    archive("/fluid/steps", s.fluid->fluid.steps);
+    archive("/fluid/particles", s.fluid->fluid.particles);
+    archive("/fluid/accelerations", s.fluid->accelerations);
   }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;

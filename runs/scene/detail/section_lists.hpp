@@ -17,6 +17,7 @@ SectionEntry scmSection();
 SectionList mechanismSections();
 SectionList vehicleSections();
 SectionList hitchSections();
+SectionList fluidSections();
 SectionList outputSections();
 
 } // namespace grouser::scene::detail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/exec.hpp"
+#include "fluid/fluid.hpp"
+#include "multibody/model.hpp"
+#include "multibody/state.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace grouser::coupling {
+
+/// A body of the model in the fluid.
+struct BodyInFluid {
+  std::size_t body{};               ///< index into the model's bodies
+  std::vector<base::Vec3d> markers; ///< in the body's frame [m]
+  double gain{};                    ///< upper bound of ghost inertia over mass or inertia [-]
+};
+
+/// A place where pressure or level is recorded.
+struct FluidProbePoint {
+  std::string name;
+  bool level{};         ///< height of the surface above the point, instead of the pressure there
+  base::Vec3d position; ///< [m]
+};
+
+/// The fluid of a scene.
+struct FluidDomainSetup {
+  fluid::FluidSetup fluid; ///< without bodies
+  std::vector<BodyInFluid> bodies;
+  std::vector<FluidProbePoint> probes;
+  double top{}; ///< upper end of the lines of level probes [m]
+};
+
+/// Fluid of a saved simulation: the state of the particles, and the accelerations that wall pressures are extrapolated
+/// with, six numbers a body [m/s2, rad/s2].
+struct FluidDomainState {
+  fluid::FluidState fluid;
+  std::vector<double> accelerations;
+};
+
+/// The fluid of a simulation and its coupling with rigid bodies, one time step for both.
+///
+/// Loads on bodies are those at their poses at the beginning of a step, as of all contacts; the fluid receives the
+/// opposite integers in two half kicks, at the beginning and at the end of the step.
+///
+/// Pressures of markers hold the acceleration of their body, which follows from these pressures: with that of the last
+/// step the loop has the gain M_g / m of ghost inertia and mass, and diverges where it is above 1. It is therefore
+/// relaxed by 1 / (1 + gain): no gain makes it diverge, and a constant acceleration is reached exactly.
+class FluidDomain {
+public:
+  /// `model`, `bodies`: null without bodies; `former`: a saved state to go on from, or null. Throws base::InputError
+  /// where that is of another scene. `setup` outlives it.
+  FluidDomain(const FluidDomainSetup& setup, const multibody::Model* model, const multibody::State* bodies,
+              const base::Exec& exec, const FluidDomainState* former = nullptr);
+  FluidDomainState save() const;
+
+  /// Adds the loads of the fluid on the bodies at their present poses.
+  void addLoads(multibody::Loads& loads) const;
+  /// One step, in which the bodies have come to `bodies`. Null without bodies.
+  void advance(const multibody::State* bodies);
+
+  const fluid::Fluid& fluid() const { return fluid_; }
+  /// Names of the bodies in the fluid.
+  const std::vector<std::string>& bodyNames() const { return names_; }
+  const std::vector<fluid::BodyLoad>& bodyLoads() const { return loads_; } ///< [N], [N m] about the centre of mass
+
+  /// Values of the probes, in the order of the setup [Pa], [m].
+  std::vector<double> probe();
+
+private:
+  struct Follower {
+    std::size_t body;
+    double relaxation; ///< 1 / (1 + gain) [-]
+    multibody::Twist before;
+    base::Vec3d acceleration, angularAcceleration; ///< relaxed [m/s2], [rad/s2]
+  };
+  fluid::FluidSetup withBodies(const multibody::Model* model, const multibody::State* bodies,
+                               const FluidDomainState* former);
+  fluid::BodyMotion motionOf(const Follower& f, const multibody::State& state) const;
+
+  const FluidDomainSetup& setup_;
+  std::vector<Follower> followers_;
+  std::vector<std::string> names_;
+  fluid::Fluid fluid_;
+  std::vector<fluid::BodyLoad> loads_; ///< one a follower
+};
+
+} // namespace grouser::coupling

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pressure at points and height of the surface on lines: each particle adds to the probes near it, in integers.
+#include "fluid/fluid.hpp"
+#include "fluid/fluid_kernels.cuh"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::fluid {
+
+namespace {
+
+/// Sums of the particles near a point, in the quanta of a marker's.
+struct PointSums {
+  std::int64_t weight, compression;
+  base::Vec3l moment;
+};
+
+/// The pair of a particle with a place given in units, as eachNeighbour() has it. False beyond the support.
+GROUSER_HD bool pairWith(const FluidView& f, int i, const base::Vec3l& place, Pair& pair) {
+  const FluidConstants& k = f.constants;
+  const base::Vec3l apart = k.period.apart(f.position[i], base::fromUnits(place));
+  pair.d = apart.as<float>() * k.metresPerUnit;
+  pair.r2 = dot(pair.d, pair.d);
+  pair.q = sqrtf(pair.r2) * k.perLength;
+  pair.taper = 1 - 0.5f * pair.q;
+  return pair.q < 2;
+}
+
+struct AddToPoints {
+  static constexpr double kNanoseconds = 30;
+  FluidView f;
+  const base::Vec3l* point; ///< [points] units
+  int points;
+  PointSums* sums; ///< [points]
+  GROUSER_HD void operator()(int i) const {
+    const FluidConstants& k = f.constants;
+    for (int p = 0; p < points; ++p) {
+      Pair pair;
+      if (!pairWith(f, i, point[p], pair)) continue;
+      const float w = pair.weight();
+      const auto s = static_cast<float>(f.precise[i].compression);
+      base::atomicAdd64(&sums[p].weight, rounded(w * static_cast<float>(k.weight.perUnit)));
+      base::atomicAdd64(&sums[p].compression, rounded(w * s * static_cast<float>(k.compression.perUnit)));
+      const base::Vec3l moment = roundedVector(pair.d * (w * (1 + s) * static_cast<float>(k.moment.perUnit)));
+      for (int a = 0; a < 3; ++a) base::atomicAdd64(&sums[p].moment[a], moment[a]);
+    }
+  }
+};
+
+/// Sums of W/W(0) at places on vertical lines.
+struct AddToLines {
+  static constexpr double kNanoseconds = 30;
+  FluidView f;
+  const base::Vec3l* foot; ///< [lines] units
+  int lines, places;       ///< places on each line
+  std::int64_t gap;        ///< between those [units]
+  std::int64_t* sums;      ///< [lines, places]
+  GROUSER_HD void operator()(int i) const {
+    const FluidConstants& k = f.constants;
+    const float perGap = 1 / (static_cast<float>(gap) * k.metresPerUnit);
+    for (int n = 0; n < lines; ++n) {
+      base::Vec3l place = foot[n];
+      const std::int64_t z = base::toUnits(f.position[i]).z;
+      const std::int64_t nearest = (z - foot[n].z) / gap;
+      const auto around = static_cast<std::int64_t>(2 / (k.perLength) * perGap) + 1;
+      for (std::int64_t m = nearest - around; m <= nearest + around; ++m) {
+        if (m < 0 || m >= places) continue;
+        place.z = foot[n].z + m * gap;
+        Pair pair;
+        if (pairWith(f, i, place, pair))
+          base::atomicAdd64(&sums[n * places + m], rounded(pair.weight() * static_cast<float>(k.weight.perUnit)));
+        else if (m == nearest && pair.q > 4)
+          break; // far beside the line
+      }
+    }
+  }
+};
+
+base::Vec3l unitsOf(const FluidConstants& k, const base::Vec3d& p) {
+  return k.period.wrapped(base::toUnits(k.scale.fromMetres(p)));
+}
+
+} // namespace
+
+std::vector<double> Fluid::pressuresAt(const std::vector<base::Vec3d>& points) {
+  std::vector<base::Vec3l> places;
+  for (const base::Vec3d& p : points) places.push_back(unitsOf(constants_, p));
+  const base::Array<base::Vec3l> place(exec_, places);
+  base::Array<PointSums> sums(exec_, points.size());
+  base::forEach(exec_, "pressure probes", static_cast<std::int64_t>(particles()),
+                AddToPoints{view(), place.data(), static_cast<int>(points.size()), sums.data()});
+  std::vector<double> pressures;
+  const base::Vec3d pull = model_.gravity * (1 / (model_.soundSpeed * model_.soundSpeed));
+  for (const PointSums& s : sums.toHost()) {
+    const double weight = constants_.weight.value(s.weight);
+    const double rest = constants_.compression.value(s.compression) + dot(pull, constants_.moment.value(s.moment));
+    pressures.push_back(weight > 0 ? pressureAt(model_, rest / weight) : 0.0);
+  }
+  return pressures;
+}
+
+std::vector<double> Fluid::levelsAt(const std::vector<base::Vec3d>& feet, double top) {
+  const double share = model_.volume() * model_.kernel().atCentre();
+  const auto gap = static_cast<std::int64_t>(0.5 * model_.spacing * constants_.scale.perMetre);
+  const double step = static_cast<double>(gap) * constants_.scale.unit;
+  double lowest = top;
+  for (const base::Vec3d& p : feet) lowest = std::min(lowest, p.z);
+  const int places = 1 + static_cast<int>(std::ceil((top - lowest) / step));
+  std::vector<base::Vec3l> units;
+  for (const base::Vec3d& p : feet) units.push_back(unitsOf(constants_, p));
+  const base::Array<base::Vec3l> foot(exec_, units);
+  base::Array<std::int64_t> sums(exec_, feet.size() * static_cast<std::size_t>(places));
+  base::forEach(exec_, "level probes", static_cast<std::int64_t>(particles()),
+                AddToLines{view(), foot.data(), static_cast<int>(feet.size()), places, gap, sums.data()});
+  const std::vector<std::int64_t> all = sums.toHost();
+  std::vector<double> levels;
+  for (std::size_t n = 0; n < feet.size(); ++n) {
+    const std::int64_t* line = all.data() + n * static_cast<std::size_t>(places);
+    const auto filled = [&](int m) { return share * constants_.weight.value(line[m]); };
+    int m = places - 1;
+    while (m >= 0 && filled(m) < 0.5) --m;
+    const double beyond = m >= 0 && m + 1 < places ? (filled(m) - 0.5) / (filled(m) - filled(m + 1)) : 0.0;
+    levels.push_back(m < 0 ? feet[n].z : feet[n].z + (m + beyond) * step);
+  }
+  return levels;
+}
+
+} // namespace grouser::fluid

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/counted.hpp"
+#include "runs/commands/plan.hpp"
+#include "runs/scene/scene.hpp"
+#include "runs/setup/fluid_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grouser::commands {
+
+std::string fluidText(const scene::Scene& scene, double timeStep) {
+  if (!scene.fluid) return {};
+  constexpr double kBytes = 600; // a particle or marker
+  const auto setup = setup::fluidSetup(scene, timeStep);
+  const fluid::FluidModel& m = setup->fluid.model;
+  const setup::FluidTank tank = setup::fluidTank(scene);
+  std::string text;
+  const auto line = [&text](const std::string& what, const std::string& value) {
+    text += fmt::format("  {:<24} {}\n", what, value);
+  };
+  std::size_t ofBodies = 0;
+  for (const coupling::BodyInFluid& b : setup->bodies) ofBodies += b.markers.size();
+  const std::size_t particles = setup->fluid.particles.size(), walls = setup->fluid.markers.size();
+  line("fluid", fmt::format("{}, markers: {} of walls, {} of bodies; about {:.1f} MiB",
+                            base::counted(static_cast<std::int64_t>(particles), "particle"), walls, ofBodies,
+                            kBytes * static_cast<double>(particles + walls + ofBodies) / 1048576));
+  const base::Vec3d size = tank.high - tank.low;
+  line("  tank", m.dimensions == 2 ? fmt::format("{:g} x {:g} m", size.x, size.z)
+                                   : fmt::format("{:g} x {:g} x {:g} m", size.x, size.y, size.z));
+  for (int a = 0; a < 3; ++a) {
+    const double parts = size[a] / m.spacing;
+    if (!(m.dimensions == 2 && a == 1) && !(a == 2 && !scene.fluid->lid) && std::fabs(parts - std::round(parts)) > 1e-6)
+      line("", fmt::format("along {} no whole number of spacings: its wall acts up to {:g} m off", "xyz"[a],
+                           0.5 * m.spacing));
+  }
+  line("  sound speed", fmt::format("{:.4g} m/s", m.soundSpeed));
+  const fluid::StepLimits limits = setup::fluidStepLimits(scene);
+  line("  steps at most", fmt::format("{:.3g} s for sound, {:.3g} s for gravity{}", limits.sound, limits.force,
+                                      m.viscosity > 0 ? fmt::format(", {:.3g} s for viscosity", limits.viscous) : ""));
+  for (const coupling::BodyInFluid& b : setup->bodies)
+    if (b.gain > 1)
+      line("  added mass", fmt::format("up to {:.3g} times that of body {} is that of fluid beside its surface, whose "
+                                       "pressure follows it within {:.0f} steps",
+                                       b.gain, b.body, std::ceil(1 + b.gain)));
+  return text;
+}
+
+} // namespace grouser::commands

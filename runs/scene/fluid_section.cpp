@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keys and checks of [fluid], [[fluid.box]] and [[fluid.probe]].
+#include "runs/scene/detail/section_lists.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace grouser::scene::detail {
+
+namespace {
+
+using base::Section;
+
+constexpr double kFarthest = 1e4; // [m]
+
+base::Table<Fluid> fluidTable() {
+  using S = Fluid;
+  base::Table<S> t("fluid", "Weakly compressible fluid of particles (SPH) in a tank with solid walls, around the planes, "
+                            "boxes, cylinders and meshes of the scene, its rigid terrain and its bodies with shapes");
+  t.add("spacing", &S::spacing, "m", "initial distance of particles").required().atLeast(1e-5).atMost(10);
+  t.add("dimensions", &S::dimensions, "", "3, or 2: the plane y = 0, in which masses and forces count per metre")
+      .atLeast(2)
+      .atMost(3);
+  t.add("tank_low", &S::tankLow, "m",
+        "lower corner of the inner faces of the tank; default: the terrain's borders, from its lowest point")
+      .atLeast(-kFarthest)
+      .atMost(kFarthest);
+  t.add("tank_high", &S::tankHigh, "m", "upper corner of these; required with tank_low")
+      .atLeast(-kFarthest)
+      .atMost(kFarthest);
+  t.add("lid", &S::lid, "", "closes the tank at the top, which is open otherwise");
+  t.add("level", &S::level, "m", "z up to which the tank is filled with fluid at rest")
+      .atLeast(-kFarthest)
+      .atMost(kFarthest);
+  t.add("density", &S::density, "kg/m3", "at zero pressure").atLeast(1).atMost(1e5);
+  t.add("viscosity", &S::viscosity, "Pa s", "dynamic; above 0 the fluid does not slip along walls (operator of Morris)")
+      .atLeast(0)
+      .atMost(1e6);
+  t.add("sound_speed", &S::soundSpeed, "m/s",
+        "numerical, 10 times the flow or more; default: 10 max(expected_speed, sqrt(greatest pressure at rest / "
+        "density))")
+      .above(0)
+      .atMost(1e4);
+  t.add("expected_speed", &S::expectedSpeed, "m/s",
+        "greatest of the flow; default: sqrt(2 g depth), or that of a [[fluid.box]] where it is faster")
+      .above(0)
+      .atMost(1e3);
+  t.add("smoothing", &S::smoothing, "-", "smoothing length over spacing").atLeast(1.2).atMost(2);
+  t.add("artificial_viscosity", &S::artificialViscosity, "-", "alpha of Monaghan (1992)").atLeast(0).atMost(1);
+  t.add("diffusion", &S::diffusion, "-", "delta of the density diffusion of Fourtakas et al. (2019)")
+      .atLeast(0)
+      .atMost(0.5);
+  t.add("shifting", &S::shifting, "-", "factor of Fickian shifting (Lind et al. 2012), off at free surfaces; 0: none")
+      .atLeast(0)
+      .atMost(20);
+  return t;
+}
+
+base::Table<FluidBox> fluidBoxTable() {
+  using S = FluidBox;
+  base::Table<S> t("[fluid.box]", "Fluid that fills a box at the start, hydrostatic below its top");
+  t.add("low", &S::low, "m", "lower corner").required().atLeast(-kFarthest).atMost(kFarthest);
+  t.add("high", &S::high, "m", "upper corner").required().atLeast(-kFarthest).atMost(kFarthest);
+  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e3).atMost(1e3);
+  return t;
+}
+
+base::Table<FluidProbe> fluidProbeTable() {
+  using S = FluidProbe;
+  base::Table<S> t("[fluid.probe]", "Place where pressure or level of the fluid is recorded in every row");
+  t.add("name", &S::name, "", "of its column").required();
+  t.add("kind", &S::kind, "", "pressure at the position, or height of the surface on the vertical line above it");
+  t.add("position", &S::position, "m", "of the probe; of a level the foot of its line")
+      .required()
+      .atLeast(-kFarthest)
+      .atMost(kFarthest);
+  return t;
+}
+
+/// What [fluid] cannot stand beside.
+void checkNeighbours(const Section& section, const Scene& scene) {
+  const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
+  if (grains || (scene.terrain && scene.terrain->granular()))
+    section.fail("", "stands beside grains, whose drag and buoyancy in a fluid are not modelled; remove the grains "
+                     "(terrain.kind = \"rigid\"), or [fluid]");
+  if (scene.deformable())
+    section.fail("", "stands beside deformable soil, which water does not change in this program; set terrain.kind = "
+                     "\"rigid\", or remove [fluid]");
+  const auto moving = [&](const char* list, const auto& surfaces) {
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      if (surfaces[k].moves())
+        scene.fail(list, k, "", "moves by itself, which [fluid] does not follow; make it a [[body]] with a [[drive]]");
+  };
+  moving("plane", scene.planes), moving("box", scene.boxes);
+  moving("cylinder", scene.cylinders), moving("mesh", scene.meshes);
+  for (std::size_t k = 0; k < scene.cylinders.size(); ++k)
+    if (scene.cylinders[k].hollow)
+      scene.fail("cylinder", k, "hollow", "has no thickness, through which fluid would act; use a closed [[mesh]]");
+}
+
+/// low < high, and as many spacings between them as the kernel needs.
+void checkCorners(const Section& section, const char* high, const base::Vec3d& from, const base::Vec3d& to,
+                  double least, bool plane) {
+  for (int a = 0; a < 3; ++a)
+    if (!(plane && a == 1) && !(to[a] - from[a] >= least))
+      section.fail(high, fmt::format("[m] lies {:.4g} m above the lower corner along {}, less than {:g} m; raise it",
+                                     to[a] - from[a], "xyz"[a], least));
+}
+
+void checkTank(const Section& section, const Fluid& fluid, const Scene& scene) {
+  if (fluid.tankLow.has_value() != fluid.tankHigh.has_value())
+    section.fail(fluid.tankLow ? "tank_low" : "tank_high",
+                 fmt::format("[m] requires tank_{}; give both corners", fluid.tankLow ? "high" : "low"));
+  if (!fluid.tankLow && !scene.terrain)
+    section.fail("", "has no walls to hold it; give tank_low and tank_high, or a rigid [terrain]");
+  if (fluid.dimensions == 2 && (scene.terrain || scene.vehicle))
+    section.fail("dimensions", "= 2 is for a tank without terrain or vehicle; use 3");
+  if (fluid.tankLow)
+    checkCorners(section, "tank_high", *fluid.tankLow, *fluid.tankHigh, 4 * fluid.spacing, fluid.dimensions == 2);
+  if (fluid.level && fluid.tankLow && !(*fluid.level > fluid.tankLow->z && *fluid.level <= fluid.tankHigh->z))
+    section.fail("level", fmt::format("[m] lies outside the tank, which reaches from z = {:g} to {:g} m; correct it",
+                                      fluid.tankLow->z, fluid.tankHigh->z));
+}
+
+void checkBox(const Section& section, const FluidBox& box, const Fluid& fluid) {
+  const bool plane = fluid.dimensions == 2;
+  checkCorners(section, "high", box.low, box.high, fluid.spacing, plane);
+  if (!fluid.tankLow) return;
+  for (int a = 0; a < 3; ++a)
+    if (!(plane && a == 1) && (box.low[a] < (*fluid.tankLow)[a] || box.high[a] > (*fluid.tankHigh)[a]))
+      section.fail(box.low[a] < (*fluid.tankLow)[a] ? "low" : "high",
+                   fmt::format("[m] lies outside the tank along {}, from {:g} to {:g} m; correct it", "xyz"[a],
+                               (*fluid.tankLow)[a], (*fluid.tankHigh)[a]));
+}
+
+void checkProbe(const Section& section, const FluidProbe& probe, const Fluid& fluid) {
+  const auto usual = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
+  if (probe.name.empty() || !std::all_of(probe.name.begin(), probe.name.end(), usual))
+    section.fail("name", "names a column: use letters, digits, _ and -");
+  for (const FluidProbe& other : fluid.probes)
+    if (other.name == probe.name) section.fail("name", "is that of another probe; choose another");
+}
+
+void checkFluid(const Section& section, Fluid& fluid, const Scene& scene) {
+  checkNeighbours(section, scene);
+  checkTank(section, fluid, scene);
+  if (fluid.soundSpeed && fluid.expectedSpeed)
+    section.fail("expected_speed", "[m/s] has no effect beside sound_speed; remove one of them");
+  for (const Section& box : section.list("box")) {
+    fluid.boxes.push_back(box.read(fluidBoxTable()));
+    checkBox(box, fluid.boxes.back(), fluid);
+  }
+  for (const Section& one : section.list("probe")) {
+    const FluidProbe probe = one.read(fluidProbeTable());
+    checkProbe(one, probe, fluid);
+    fluid.probes.push_back(probe);
+  }
+  if (!fluid.level && fluid.boxes.empty())
+    section.fail("level", "is missing, and there is no [[fluid.box]]: there is no fluid; add one of them");
+}
+
+} // namespace
+
+SectionList fluidSections() {
+  const base::Table<FluidBox> boxes = fluidBoxTable();
+  const base::Table<FluidProbe> probes = fluidProbeTable();
+  SectionEntry entry = optional("fluid", &Scene::fluid, fluidTable(), checkFluid, {"box", "probe"});
+  entry.write = [boxes, probes, write = std::move(entry.write)](const Scene& scene) {
+    std::string text = write(scene);
+    if (!scene.fluid) return text;
+    for (const FluidBox& box : scene.fluid->boxes) text += written<FluidBox>("[[fluid.box]]", boxes, box);
+    for (const FluidProbe& probe : scene.fluid->probes) text += written<FluidProbe>("[[fluid.probe]]", probes, probe);
+    return text;
+  };
+  entry.describe = [boxes, probes, describe = std::move(entry.describe)] {
+    return describe() + "\n" + base::describe(boxes) + "\n" + base::describe(probes);
+  };
+  for (const std::string& key : fullKeys("fluid.box", boxes)) entry.keys.push_back(key);
+  for (const std::string& key : fullKeys("fluid.probe", probes)) entry.keys.push_back(key);
+  return {entry};
+}
+
+} // namespace grouser::scene::detail
