@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/ledger_entries.hpp"
 
+#include "fluid/fluid.hpp"
+
 namespace grouser::coupling {
 
 void enterGrains(Ledger& l, const terrain::GrainLedger& g) {

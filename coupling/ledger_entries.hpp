@@ -4,11 +4,14 @@
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "coupling/ledger.hpp"
-#include "fluid/fluid.hpp"
 #include "multibody/readings.hpp"
 #include "terrain/grain_model.hpp"
 
 /// What the rooms below measure of their own, as entries of the ledger of all.
+namespace grouser::fluid {
+struct FluidTotals;
+}
+
 namespace grouser::coupling {
 
 /// What the contacts of a vehicle's parts hold and have lost.

@@ -2,6 +2,7 @@
 #include "coupling/simulation.hpp"
 
 #include "base/error.hpp"
+#include "coupling/fluid_domain.hpp"
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/placed_on_bed.hpp"
@@ -54,6 +55,8 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
   start_ = wholeLedger();
   addGrains();
 }
+
+Simulation::~Simulation() = default;
 
 /// What stops a grain in `advance`, with the cause that energies and parts show.
 template <class Advance> void Simulation::namingCause(const Advance& advance) {
@@ -384,6 +387,8 @@ void Simulation::checkEnergy(const Ledger& now) {
     remedy += "; most has been dissipated where shoes touch " + mostDissipating(vehicle_->assembly(), vehicle_->save());
   throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
+
+FluidDomain* fluidOf(const Simulation& simulation) { return simulation.fluid_.get(); }
 
 std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation) {
   std::vector<spheredecomp::CutReport> all;

@@ -28,6 +28,8 @@ class GrainFault;
 
 namespace grouser::coupling {
 
+class FluidDomain;
+
 /// A scene that runs: grains, vehicle, or both, or a mechanism. Built settled; `step()` is the whole of the physics.
 /// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
 class Simulation {
@@ -39,6 +41,7 @@ public:
   /// InputError when the state is of another scene.
   Simulation(SimulationSetup setup, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {},
              SphereSets* spheres = nullptr);
+  ~Simulation();
   Simulation(const Simulation&) = delete; // its parts refer to setup_ and to each other
   Simulation& operator=(const Simulation&) = delete;
   SimulationState save() const;
@@ -67,7 +70,6 @@ public:
   const GranularGround* granularGround() const { return granular_; } ///< the same where it is grains; else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
-  FluidDomain* fluid() const { return fluid_.get(); } ///< null without; probing it does not change the state
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
   /// Restarts the means of the observers: those of the rows after every row. Only a vehicle has those of a watch.
   void restartMeans(Means of = Means::rows) {
@@ -93,6 +95,7 @@ public:
   std::string stateHash() const;
 
 private:
+  friend FluidDomain* fluidOf(const Simulation& simulation);
   friend terrain::SoilFields fieldsOf(Simulation& simulation, const terrain::FieldGrid& grid);
   void command();
   bool canStepAhead() const;
@@ -153,6 +156,9 @@ void require(const Simulation& simulation, const Input& input);
 /// Place of a body among those of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the
 /// nearest name.
 std::int32_t bodyIndex(const Simulation& simulation, const std::string& name);
+
+/// Its fluid, which probing does not change; null without.
+FluidDomain* fluidOf(const Simulation& simulation);
 
 /// How the meshes of vehicle and scene were cut; those of parts that touch nothing have no entry.
 std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation);

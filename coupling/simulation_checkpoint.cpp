@@ -4,6 +4,7 @@
 #include "base/bits.hpp"
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "coupling/fluid_domain.hpp"
 #include "coupling/placed_on_bed.hpp"
 
 namespace grouser::coupling {
@@ -20,7 +21,7 @@ std::string SimulationState::hash(const base::Comm& comm) const {
   if (fluid) {
     for (const fluid::SavedParticle& p : fluid->fluid.particles)
       for (const double number : {p.position.x, p.position.y, p.position.z, p.velocity.x, p.velocity.y, p.velocity.z,
-                                  p.compression})
+                                  p.compression, p.acceleration.x, p.acceleration.y, p.acceleration.z})
         hash.add(base::bitsAs<std::uint64_t>(number));
     for (const double number : fluid->accelerations) hash.add(base::bitsAs<std::uint64_t>(number));
   }

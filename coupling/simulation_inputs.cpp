@@ -53,7 +53,7 @@ void require(const Simulation& simulation, const Input& input) {
                                                              : "right ",
                                          range.name, v, std::isfinite(v) ? "is out of range" : "is no finite number",
                                          -range.most, range.most, range.unit));
-  if (simulation.fluid() && input.kind == InputKind::gravity)
+  if (fluidOf(simulation) && input.kind == InputKind::gravity)
     throw base::InputError("gravity cannot be set in a scene with [fluid]; set run.gravity");
   if (simulation.vehicle()) return simulation.vehicle()->require(input);
   if (simulation.mechanism()) return simulation.mechanism()->require(input);

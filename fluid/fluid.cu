@@ -91,21 +91,33 @@ FluidSetup withParticles(FluidSetup setup, const FluidState& state) {
 Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec)
     : Fluid(withParticles(setup, state), exec) {
   steps_ = state.steps;
+  if (state.bodyLoads.size() != 2 * bodyLoad_.size())
+    throw base::InputError("the state is of a fluid with other bodies; resume with the scene that was run");
+  // Forces are those at the velocities of the middle of the last step.
   std::vector<Losses> losses(particles());
+  std::vector<base::Vec3l> force(particles());
   const std::vector<std::uint32_t> slot = slotsById();
-  for (std::size_t k = 0; k < losses.size(); ++k) losses[slot[k]] = state.particles[k].losses;
-  losses_.assign(losses);
+  for (std::size_t k = 0; k < losses.size(); ++k) {
+    losses[slot[k]] = state.particles[k].losses;
+    force[slot[k]] = constants_.acceleration.quantise(state.particles[k].acceleration);
+  }
+  losses_.assign(losses), force_.assign(force);
+  for (std::size_t b = 0; b < bodyLoad_.size(); ++b)
+    bodyLoad_.host()[b] = {state.bodyLoads[2 * b], state.bodyLoads[2 * b + 1]};
 }
 
 FluidState Fluid::save() const {
   const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
   const std::vector<PreciseMotion> precise = precise_.toHost();
   const std::vector<Losses> losses = losses_.toHost();
-  FluidState state{steps_, {}};
+  const std::vector<base::Vec3l> force = force_.toHost();
+  FluidState state{steps_, {}, {}};
   state.particles.reserve(particles());
   for (const std::uint32_t i : slotsById())
-    state.particles.push_back(
-        {constants_.scale.toMetres(position[i]), precise[i].velocity, precise[i].compression, losses[i]});
+    state.particles.push_back({constants_.scale.toMetres(position[i]), precise[i].velocity, precise[i].compression,
+                               constants_.acceleration.value(force[i]), losses[i]});
+  for (std::size_t b = 0; b < bodyLoad_.size(); ++b)
+    state.bodyLoads.insert(state.bodyLoads.end(), {bodyLoad_.host()[b].force, bodyLoad_.host()[b].torque});
   return state;
 }
 

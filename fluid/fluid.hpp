@@ -5,6 +5,7 @@
 #include "base/exec.hpp"
 #include "fluid/fluid_lists.hpp"
 #include "fluid/fluid_setup.hpp"
+#include "fluid/fluid_state.hpp"
 #include "fluid/fluid_view.hpp"
 
 #include <cstdint>
@@ -22,24 +23,6 @@ struct FluidTotals {
   double total() const { return kinetic + potential + internal + viscousLoss + diffusionLoss + wallLoss; }
 };
 
-/// Force [N] and torque about the origin of a body's frame [N m], world components.
-struct BodyLoad {
-  base::Vec3d force, torque;
-};
-
-/// A particle between two steps.
-struct SavedParticle {
-  base::Vec3d position, velocity; ///< [m], [m/s]
-  double compression;             ///< [-]
-  Losses losses;                  ///< since the start [J/kg]
-};
-
-/// All that later steps of a fluid depend on, and its losses.
-struct FluidState {
-  std::int64_t steps{};
-  std::vector<SavedParticle> particles; ///< in the order of FluidSetup
-};
-
 /// Particles on the host, in the order of FluidSetup.
 struct FluidSnapshot {
   std::vector<base::Vec3d> position, velocity; ///< [m], [m/s]
@@ -50,7 +33,7 @@ struct FluidSnapshot {
 /// density diffusion, walls by extrapolation, one sweep of forces a step.
 ///
 /// A step: half a kick; half a drift; compression from the velocities at mid-step; half a drift; pressures of the
-/// walls; forces; half a kick. Second order in time, but for viscosity and diffusion, which are of first order. The
+/// walls; forces; half a kick. Second order in time, but for diffusion, which is of first order. The
 /// state is the same on any device and number of threads.
 class Fluid {
 public:
@@ -80,8 +63,8 @@ public:
   std::vector<BodyLoad> bodyLoads() const;
   /// Pressure of the fluid at these points [Pa], extrapolated as to a marker at rest; 0 where no particle is near.
   std::vector<double> pressuresAt(const std::vector<base::Vec3d>& points);
-  /// Height of the surface on vertical lines through (x, y) of `feet` [m]: the highest place below `top` whose particles
-  /// fill half of the kernel; the foot's z where there is none.
+  /// Height of the surface on vertical lines through (x, y) of `feet` [m]: the highest place below `top` whose
+  /// particles fill half of the kernel; the foot's z where there is none.
   std::vector<double> levelsAt(const std::vector<base::Vec3d>& feet, double top);
   /// Exact sum of the forces between particles and from walls, in quanta: zero.
   base::Vec3l forceBalance() const;

@@ -82,9 +82,10 @@ std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t
 }
 
 std::string bodyFaultText(const std::string& name, double way, const FluidModel& model, std::int64_t step) {
-  return fmt::format("step {}, time {:.4g} s: {} moves by up to {:.3g} m in one step, more than {:.3g} m, half the skin "
-                     "of the neighbour lists of the fluid; use a smaller time step, or limit what drives it",
-                     step, static_cast<double>(step) * model.timeStep, name, way, 0.5 * model.skin());
+  return fmt::format(
+      "step {}, time {:.4g} s: {} moves by up to {:.3g} m in one step, more than {:.3g} m, half the skin "
+      "of the neighbour lists of the fluid; use a smaller time step, or limit what drives it",
+      step, static_cast<double>(step) * model.timeStep, name, way, 0.5 * model.skin());
 }
 
 } // namespace grouser::fluid

@@ -303,8 +303,8 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   return force;
 }
 
-/// Acceleration of a particle by a marker that is nearer than k.contact [m/s2], from the potential c^2 (1 - r/contact)^2
-/// / 2: walls let nothing pass where the fluid's own pressure is small, as in thin jets.
+/// Acceleration of a particle by a marker that is nearer than k.contact [m/s2], from the potential c^2 (1 -
+/// r/contact)^2 / 2: walls let nothing pass where the fluid's own pressure is small, as in thin jets.
 GROUSER_HD base::Vec3f contactForce(const FluidConstants& k, const Pair& pair) {
   const float r = pair.q / k.perLength;
   if (r >= k.contact || r == 0) return {};
@@ -387,7 +387,8 @@ private:
     const auto whole = [](double x) { return static_cast<std::int64_t>(floor(x + 0.5)); };
     const base::Vec3l torque{whole(moment.x), whole(moment.y), whole(moment.z)};
     BodyLoadQuanta& load = f.bodyLoad[body];
-    for (int a = 0; a < 3; ++a) base::atomicAdd64(&load.force[a], sum[a]), base::atomicAdd64(&load.torque[a], torque[a]);
+    for (int a = 0; a < 3; ++a)
+      base::atomicAdd64(&load.force[a], sum[a]), base::atomicAdd64(&load.torque[a], torque[a]);
   }
 };
 

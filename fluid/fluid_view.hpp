@@ -5,6 +5,7 @@
 #include "contact/neighbour_view.hpp"
 #include "fluid/fluid_constants.hpp"
 #include "fluid/fluid_setup.hpp"
+#include "fluid/fluid_state.hpp"
 
 #include <cstdint>
 
@@ -19,12 +20,6 @@ struct alignas(32) PreciseMotion {
 /// Changes of compression in a step [-]: by flow, and by density diffusion.
 struct CompressionChange {
   double flow, diffusion;
-};
-
-/// Work per mass that a particle has lost since the start [J/kg]. Markers store no energy: what their pressure does to
-/// the fluid beyond its compression is the loss to walls.
-struct Losses {
-  double viscous, diffusion, wall;
 };
 
 /// Load of the fluid on a body about its frame's origin: exact sums, in quanta of acceleration x particle mass, and of

@@ -12,9 +12,9 @@ namespace grouser::output {
 /// What a row holds of a fluid.
 struct FluidReading {
   fluid::FluidTotals totals;
-  double mass;                          ///< [kg]
-  std::vector<double> probes;           ///< in the order of the scene [Pa], [m]
-  std::vector<fluid::BodyLoad> bodies;  ///< [N], [N m]
+  double mass;                         ///< [kg]
+  std::vector<double> probes;          ///< in the order of the scene [Pa], [m]
+  std::vector<fluid::BodyLoad> bodies; ///< [N], [N m]
   std::int64_t rebuilds;
 };
 

@@ -189,8 +189,9 @@ std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) cons
   std::uint64_t cuts = 0;
   for (const std::vector<double>& places : frame.borders) cuts += places.size();
   return kOwn + (frame.fields ? output::bytesOfFields(frame.fields->grid.count()) : 0) +
-         (frame.soil ? bytesOfSoil(*frame.soil) : 0) + (frame.fluid ? bytesOfFluid(*frame.fluid) : 0) + kAName * static_cast<std::uint64_t>(count_) + grains * aGrain +
-         partVertices_ * 3 * sizeof(float) + cuts * sizeof(double);
+         (frame.soil ? bytesOfSoil(*frame.soil) : 0) + (frame.fluid ? bytesOfFluid(*frame.fluid) : 0) +
+         kAName * static_cast<std::uint64_t>(count_) + grains * aGrain + partVertices_ * 3 * sizeof(float) +
+         cuts * sizeof(double);
 }
 
 void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group, std::uint64_t grains) {

@@ -16,8 +16,9 @@ constexpr double kFarthest = 1e4; // [m]
 
 base::Table<Fluid> fluidTable() {
   using S = Fluid;
-  base::Table<S> t("fluid", "Weakly compressible fluid of particles (SPH) in a tank with solid walls, around the planes, "
-                            "boxes, cylinders and meshes of the scene, its rigid terrain and its bodies with shapes");
+  base::Table<S> t("fluid",
+                   "Weakly compressible fluid of particles (SPH) in a tank with solid walls, around the planes, "
+                   "boxes, cylinders and meshes of the scene, its rigid terrain and its bodies with shapes");
   t.add("spacing", &S::spacing, "m", "initial distance of particles").required().atLeast(1e-5).atMost(10);
   t.add("dimensions", &S::dimensions, "", "3, or 2: the plane y = 0, in which masses and forces count per metre")
       .atLeast(2)

@@ -31,15 +31,16 @@ struct FluidProbe {
 
 /// [fluid]
 struct Fluid {
-  double spacing = 0;                           ///< [m]
-  int dimensions = 3;                           ///< 2: the plane y = 0, per metre
-  std::optional<base::Vec3d> tankLow, tankHigh; ///< [m] inner faces; empty: the terrain's borders, from its lowest point
-  bool lid = false;                             ///< the tank is closed above
-  std::optional<double> level;                  ///< [m] up to which the tank is filled
-  double density = 1000, viscosity = 0;         ///< [kg/m3], [Pa s]
-  std::optional<double> soundSpeed;             ///< [m/s]
-  std::optional<double> expectedSpeed;          ///< [m/s] for the sound speed; empty: sqrt(2 g depth)
-  double smoothing = 1.3;                       ///< [-] of the spacing
+  double spacing = 0; ///< [m]
+  int dimensions = 3; ///< 2: the plane y = 0, per metre
+  std::optional<base::Vec3d> tankLow,
+      tankHigh;                         ///< [m] inner faces; empty: the terrain's borders, from its lowest point
+  bool lid = false;                     ///< the tank is closed above
+  std::optional<double> level;          ///< [m] up to which the tank is filled
+  double density = 1000, viscosity = 0; ///< [kg/m3], [Pa s]
+  std::optional<double> soundSpeed;     ///< [m/s]
+  std::optional<double> expectedSpeed;  ///< [m/s] for the sound speed; empty: sqrt(2 g depth)
+  double smoothing = 1.3;               ///< [-] of the spacing
   double artificialViscosity = 0.02, diffusion = 0.1; ///< [-]
   double shifting = 0;                                ///< [-]
   std::vector<FluidBox> boxes;

@@ -23,10 +23,10 @@ namespace {
 /// All of a scene file, in the order in which it is read, written and described.
 SectionList allSections() {
   SectionList all;
-  for (SectionList (*const subject)() : {detail::runSections, detail::materialSections, detail::grainSections,
-                                         detail::surfaceSections, detail::terrainSections, detail::mechanismSections,
-                                         detail::vehicleSections, detail::hitchSections, detail::fluidSections,
-                                         detail::outputSections})
+  for (SectionList (*const subject)() :
+       {detail::runSections, detail::materialSections, detail::grainSections, detail::surfaceSections,
+        detail::terrainSections, detail::mechanismSections, detail::vehicleSections, detail::hitchSections,
+        detail::fluidSections, detail::outputSections})
     for (SectionEntry& entry : subject()) all.push_back(std::move(entry));
   return all;
 }

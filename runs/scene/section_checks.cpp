@@ -154,9 +154,9 @@ void checkSettling(const Section& run, const Scene& scene) {
 void checkSomethingMoves(const Scene& scene) {
   if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
       scene.mechanism.nothing() && !scene.fluid)
-    throw base::InputError(fmt::format(
-        "{}: there is nothing to simulate; add [terrain], [vehicle], [fluid], [[grain]], [[grains]], [[source]] or [[body]]",
-        scene.file.string()));
+    throw base::InputError(fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [fluid], "
+                                       "[[grain]], [[grains]], [[source]] or [[body]]",
+                                       scene.file.string()));
 }
 
 } // namespace

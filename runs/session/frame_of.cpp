@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/session/frame_of.hpp"
 
+#include "fluid/fluid.hpp"
+
 #include <array>
 #include <cstdint>
 #include <limits>

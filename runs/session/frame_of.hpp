@@ -2,10 +2,13 @@
 #pragma once
 
 #include "base/sphere_set.hpp"
-#include "fluid/fluid.hpp"
 #include "runs/output/records.hpp"
 #include "terrain/grains.hpp"
 #include "terrain/height_field.hpp"
+
+namespace grouser::fluid {
+class Fluid;
+}
 
 namespace grouser::session {
 

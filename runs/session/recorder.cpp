@@ -2,6 +2,7 @@
 #include "runs/session/recorder.hpp"
 
 #include "base/error.hpp"
+#include "coupling/fluid_domain.hpp"
 #include "runs/output/fluid_datasets.hpp"
 #include "runs/output/former_output.hpp"
 #include "runs/output/mechanism_output.hpp"
@@ -228,7 +229,7 @@ output::Frame Recorder::currentFrame() const {
   if (const coupling::Ground* ground = simulation_.actingGround())
     if (const auto fields = ground->fieldsNow())
       frame.soil = std::make_shared<output::SoilSurface>(output::soilSurface(*fields, *simulation_.ground().surface));
-  if (const coupling::FluidDomain* fluid = simulation_.fluid()) frame.fluid = fluidPoints(fluid->fluid());
+  if (const coupling::FluidDomain* fluid = coupling::fluidOf(simulation_)) frame.fluid = fluidPoints(fluid->fluid());
   if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
     for (std::size_t p = 0; p < rig->assembly().parts.size(); ++p)
       frame.partPoses.push_back(vehicle::partPose(rig->assembly().parts[p], rig->state()));

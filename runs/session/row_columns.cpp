@@ -2,6 +2,7 @@
 #include "runs/session/row_columns.hpp"
 
 #include "base/table.hpp"
+#include "coupling/fluid_domain.hpp"
 #include "runs/output/fluid_output.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "vehicle/observation_table.hpp"
@@ -57,7 +58,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
                                     s.pressedMost()};
     });
   addSurfaces();
-  if (coupling::FluidDomain* fluid = simulation.fluid())
+  if (coupling::FluidDomain* fluid = coupling::fluidOf(simulation))
     add(output::fluidColumns(simulation.setup().fluid->probes, fluid->bodyNames()),
         [fluid](const Now&) { return output::fluidReading(*fluid); });
   if (rig && rig->towing())
@@ -69,7 +70,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
   // A mechanism without contacts has no contact impulses to balance.
   const coupling::Ground* ground = simulation.actingGround();
   add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches(),
-                            ground && ground->traits().deforms, simulation.fluid() != nullptr),
+                            ground && ground->traits().deforms, coupling::fluidOf(simulation) != nullptr),
       [](const Now& now) { return now.ledger; });
   requirePlotted(channels_, output.plots);
 }
@@ -114,7 +115,8 @@ void RowColumns::addSurfaces() {
   const std::vector<coupling::Obstacle>& obstacles = s.setup().ground.obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (s.vehicle() || s.mechanism())
-      add(output::obstacleColumns(obstacles[i].surface.name), [&s, i](const Now&) { return bodiesOf(s).meanForceOn(i); });
+      add(output::obstacleColumns(obstacles[i].surface.name),
+          [&s, i](const Now&) { return bodiesOf(s).meanForceOn(i); });
 }
 
 void RowColumns::add(const std::vector<output::Channel>& channels, Append append) {

@@ -82,8 +82,8 @@ int axisAcross(const scene::Scene& scene, const coupling::MechanismSetup& mechan
   const base::Quat turned = mechanism.model.bodies()[s.body].pose.orientation * s.pose_B.orientation;
   const Vec3d across = transposedTimes(turned.matrix(), Vec3d{0, 1, 0});
   for (int a = 0; a < 3; ++a) {
-    const bool fits = !s.mesh && (s.shape.shape == SurfaceShape::box ||
-                                  (s.shape.shape == SurfaceShape::cylinder && a == 2));
+    const bool fits =
+        !s.mesh && (s.shape.shape == SurfaceShape::box || (s.shape.shape == SurfaceShape::cylinder && a == 2));
     if (fits && std::fabs(across[a]) > 1 - 1e-9) return a;
   }
   scene.fail("body", s.body - mechanism.ofVehicle.bodies, "shape",
@@ -116,13 +116,16 @@ std::vector<coupling::BodyInFluid> bodiesInFluid(const scene::Scene& scene, cons
     for (const coupling::BodyShape& s : mechanism.shapes) {
       if (s.body != b) continue;
       if (2 * coupling::halfThickness(s) < dx)
-        scene.fail("body", b - mechanism.ofVehicle.bodies, "shape",
-                   fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m: no marker of the fluid lies within; "
-                               "make it thicker, or the spacing smaller",
-                               2 * coupling::halfThickness(s), dx));
+        scene.fail(
+            "body", b - mechanism.ofVehicle.bodies, "shape",
+            fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m: no marker of the fluid lies within; "
+                        "make it thicker, or the spacing smaller",
+                        2 * coupling::halfThickness(s), dx));
       for (const Vec3d& p : shapeMarkers(s, dx, depth, plane ? axisAcross(scene, mechanism, s) : -1)) {
         const Vec3d p_B = s.pose_B.toWorld(p);
-        const auto within = [&p_B](const coupling::BodyShape* o) { return distanceFrom(*o, o->pose_B.toBody(p_B)) < 0; };
+        const auto within = [&p_B](const coupling::BodyShape* o) {
+          return distanceFrom(*o, o->pose_B.toBody(p_B)) < 0;
+        };
         if (std::any_of(former.begin(), former.end(), within)) continue;
         in.markers.push_back(p_B);
         if (distanceFrom(s, p) > -dx) shifting += face, turning += face * norm2(p_B);
@@ -134,8 +137,7 @@ std::vector<coupling::BodyInFluid> bodiesInFluid(const scene::Scene& scene, cons
     const double ghost = 2 * 0.5 * model.density * dx;
     const auto& I = bodies[b].inertia_B.m;
     if (!bodies[b].fixed)
-      in.gain = std::max(ghost * shifting / bodies[b].mass,
-                         ghost * turning / std::min({I[0][0], I[1][1], I[2][2]}));
+      in.gain = std::max(ghost * shifting / bodies[b].mass, ghost * turning / std::min({I[0][0], I[1][1], I[2][2]}));
     all.push_back(std::move(in));
   }
   return all;

@@ -31,8 +31,7 @@ double topOf(const scene::Fluid& fluid) {
 
 /// Greatest depth at the start [m].
 double depthOf(const scene::Scene& scene) {
-  const double bottom =
-      scene.fluid->tankLow ? scene.fluid->tankLow->z : readSurface(scene).bounds().lowest;
+  const double bottom = scene.fluid->tankLow ? scene.fluid->tankLow->z : readSurface(scene).bounds().lowest;
   const double depth = topOf(*scene.fluid) - bottom;
   if (!(depth > 0))
     scene.fail("fluid", "level",
@@ -87,6 +86,21 @@ std::vector<fluid::FluidParticle> particlesOf(const scene::Scene& scene, const f
   return all;
 }
 
+/// Moves a place nearer to a body than half a spacing out to that, along the slope of the distance: the lattice fills
+/// the space beside a body as a whole, and its first particles would else touch markers.
+void keepOff(const coupling::MechanismSetup& mechanism, const fluid::FluidModel& model, Vec3d& place) {
+  const double near = 0.5 * model.spacing, probe = 0.01 * model.spacing, d = distanceFromBodies(mechanism, place);
+  if (d >= near) return;
+  Vec3d slope;
+  for (int a = 0; a < 3; ++a) {
+    if (model.dimensions == 2 && a == 1) continue;
+    Vec3d up = place, down = place;
+    up[a] += probe, down[a] -= probe;
+    slope[a] = distanceFromBodies(mechanism, up) - distanceFromBodies(mechanism, down);
+  }
+  if (norm(slope) > 0) place += slope * ((near - d) / norm(slope));
+}
+
 } // namespace
 
 FluidTank fluidTank(const scene::Scene& scene) {
@@ -139,15 +153,17 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   setup.fluid.markers = fluid::wallMarkers(m, solid, tank.low - out, tank.high + out, tank.low);
   coupling::MechanismSetup mechanism;
   if (scene.mechanism.touches()) mechanism = mechanismSetup(scene), setup.bodies = bodiesInFluid(scene, mechanism, m);
-  const double near = 0.5 * m.spacing * (1 - 1e-6);
   const fluid::Distance free = [&](const Vec3d& p) {
     const double d = solid(p);
-    return mechanism.shapes.empty() || d < 0 ? d : std::min(d, distanceFromBodies(mechanism, p) - near);
+    return mechanism.shapes.empty() || d < 0 ? d : std::min(d, distanceFromBodies(mechanism, p));
   };
   setup.fluid.particles = particlesOf(scene, m, tank, free);
+  if (!mechanism.shapes.empty())
+    for (fluid::FluidParticle& p : setup.fluid.particles) keepOff(mechanism, m, p.position);
   if (setup.fluid.particles.empty())
-    scene.fail("fluid", "", "holds no particle: its level and boxes lie in solids or are thinner than the spacing; "
-                            "correct them");
+    scene.fail("fluid", "",
+               "holds no particle: its level and boxes lie in solids or are thinner than the spacing; "
+               "correct them");
   for (const scene::FluidProbe& p : scene.fluid->probes)
     setup.probes.push_back({p.name, p.kind == scene::FluidProbeKind::level, p.position});
   setup.top = tank.high.z;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "coupling/fluid_domain.hpp"
+#include "coupling/fluid_domain_setup.hpp"
 
 #include <optional>
 #include <string>

@@ -73,7 +73,7 @@ void checkMechanism(const Section& root, const scene::Scene& scene) {
 
 /// Grains feel all surfaces, vehicles those that rest.
 void requireFelt(const Section& section, const scene::Scene& scene, const SceneSurface& s) {
-  const bool others = scene.vehicle || scene.mechanism.touches();
+  const bool others = scene.vehicle || scene.mechanism.touches() || scene.fluid;
   if (others && !s.moves) return;
   if (others)
     section.fail("",

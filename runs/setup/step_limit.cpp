@@ -313,9 +313,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   // Where a contact is to have more or fewer steps than usual, so has all that grains do, down to the limits.
   const double coarser = scene::kStepsPerContact / scene.run.stepsPerContact;
   const bool fluidAlone = scene.fluid && !scene.vehicle && scene.mechanism.empty();
-  double automatic = contact > 0   ? contact / scene.run.stepsPerContact
-                     : fluidAlone ? kLongestOfAll
-                                  : kVehicleTimeStep;
+  double automatic = contact > 0 ? contact / scene.run.stepsPerContact : fluidAlone ? kLongestOfAll : kVehicleTimeStep;
   automatic = std::min({automatic, std::min(1.0, kCalmShare * coarser) * limit.calm, limit.step,
                         limit.bounce / scene.run.stepsPerContact});
   for (const auto& [material, radius, largest] : pairs.kinds.kinds)

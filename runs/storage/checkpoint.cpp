@@ -93,6 +93,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
   if (archive.present("/fluid", s.fluid)) {
     archive("/fluid/steps", s.fluid->fluid.steps);
     archive("/fluid/particles", s.fluid->fluid.particles);
+    archive("/fluid/body_loads", s.fluid->fluid.bodyLoads);
     archive("/fluid/accelerations", s.fluid->accelerations);
   }
   if (archive.present("/grains", s.grains)) {

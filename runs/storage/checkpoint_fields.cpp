@@ -60,8 +60,11 @@ constexpr Meaning kMeanings[] = {
      "of pull in joints: steps, greatest that is sound, whether it was above, growth of swings a step and in all"},
     {"mechanism/control", "s, -", "of steps that an error controls: the next, how many, rejected, smallest, largest"},
     {"fluid/steps", "-", "of the fluid since the start"},
-    {"fluid/particles", "m, m/s, -, J/kg",
-     "of each particle: place, velocity, compression, and losses by viscosity, density diffusion and walls"},
+    {"fluid/particles", "m, m/s, -, m/s2, J/kg",
+     "of each particle: place, velocity, compression, acceleration by pairs, and losses by viscosity, density "
+     "diffusion "
+     "and walls"},
+    {"fluid/body_loads", "-", "of the fluid on each body: force and torque, in whole quanta"},
     {"fluid/accelerations", "m/s2, rad/s2",
      "of each body in the fluid, relaxed: linear and angular, with which pressures of its surface are extrapolated"},
     {"grains/total", "-", "grains that are there"},

@@ -18,7 +18,7 @@ LIBRARIES = {
     'terrain': {'base', 'contact'},
     'vehicle': {'base', 'contact', 'spheredecomp', 'multibody'},
     'scm': {'base', 'contact', 'terrain'},
-    'coupling': {'base', 'contact', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle'},
+    'coupling': {'base', 'contact', 'fluid', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle'},
     'assets': {'base'},
 }
 # The rooms of the program stand on the libraries and on the rooms before them, but not on those of the same line.

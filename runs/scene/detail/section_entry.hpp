@@ -100,9 +100,9 @@ SectionEntry required(const std::string& name, Where where, const base::Table<S>
 }
 
 /// [name], that may be absent.
-template <class S, class Where>
-SectionEntry optional(const std::string& name, Where where, const base::Table<S>& table, CheckOf<S> check = {},
-                      const std::vector<std::string>& subsections = {}) {
+template <class S, class Where> SectionEntry optional(const std::string& name, Where where, const base::Table<S>& table,
+                                                      CheckOf<S> check = {},
+                                                      const std::vector<std::string>& subsections = {}) {
   return {name,
           readerOfOne<S>(name, where, table, check, subsections),
           [=](const Scene& scene) {

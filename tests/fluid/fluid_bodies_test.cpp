@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies, walls and probes of the particle fluid, and states that it goes on from.
+#include "base/error.hpp"
+#include "tests/fluid/water.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace grouser::fluid {
+namespace {
+
+using base::Vec3d;
+
+// --- bodies
+
+/// A cube of 8 spacings, held under water: markers in a lattice of its own, turned about z.
+FluidSetup cubeInWater(double turn) {
+  FluidSetup s;
+  FluidModel& m = s.model = water(3, 0.05);
+  m.gravity = {0, 0, -kGravity};
+  m.soundSpeed = soundSpeedFor(std::sqrt(2 * kGravity * 0.8), 0, m.density);
+  m.timeStep = stepLimits(m, 0.1 * m.soundSpeed, kGravity).least();
+  const Vec3d low{-0.2, -0.2, -0.2}, high{1.2, 1.2, 1.1}, half{0.2, 0.2, 0.2};
+  const base::Pose pose{{0.5, 0.5, 0.4}, {std::cos(turn / 2), 0, 0, std::sin(turn / 2)}};
+  const Distance walls = tank({0, 0, 0}, {1, 1, 1.1});
+  const Distance free = [&](const Vec3d& p) {
+    const Vec3d q = pose.toBody(p);
+    const double out = std::max({std::abs(q.x) - half.x, std::abs(q.y) - half.y, std::abs(q.z) - half.z});
+    return std::min(walls(p), out - 0.0249);
+  };
+  s.markers = wallMarkers(m, walls, low, high);
+  s.particles = stillFluid(m, free, low, high, 0.8);
+  FluidBody cube{"cube", {}, {pose, {}, {}, {}, {}}};
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      for (int k = 0; k < 8; ++k)
+        if (std::min({i, j, k}) < 3 || std::max({i, j, k}) > 4)
+          cube.markers.push_back({(i - 3.5) * 0.05, (j - 3.5) * 0.05, (k - 3.5) * 0.05});
+  s.bodies.push_back(cube);
+  return s;
+}
+
+/// Archimedes: the mean lift is the weight of the displaced fluid.
+TEST(Fluid, ABodyIsLiftedByTheWeightOfTheFluidItDisplaces) {
+  const FluidSetup s = cubeInWater(0);
+  Fluid fluid(s, testExec());
+  Vec3d force, torque;
+  constexpr int kSteps = 300;
+  for (int k = 0; k < kSteps; ++k) {
+    fluid.step({s.bodies[0].start});
+    force += fluid.bodyLoads()[0].force * (1.0 / kSteps), torque += fluid.bodyLoads()[0].torque * (1.0 / kSteps);
+  }
+  const double weight = s.model.density * 0.4 * 0.4 * 0.4 * kGravity;
+  EXPECT_NEAR(force.z / weight, 1, 0.02);
+  EXPECT_LT(std::hypot(force.x, force.y), 0.005 * weight);
+  EXPECT_LT(norm(torque), 0.005 * weight * 0.2);
+}
+
+/// What a moving body gives the fluid in work and momentum the fluid has: the sum over all is closed.
+TEST(Fluid, WorkAndMomentumOfAMovingBodyAreThoseOfTheFluid) {
+  FluidSetup s = cubeInWater(0);
+  s.model.gravity = {}, s.model.viscosity = 1;
+  for (FluidParticle& p : s.particles) p.compression = 0.002;
+  Fluid fluid(s, testExec());
+  const FluidTotals start = fluid.totals();
+  const double dt = s.model.timeStep;
+  double work = 0;
+  BodyMotion motion = s.bodies[0].start;
+  for (int k = 0; k < 200; ++k) {
+    const double ramp = std::min(1.0, k / 100.0);
+    motion.velocity = Vec3d{0.5, 0, 0.2} * ramp, motion.spin = {0, 0, 0.4 * ramp};
+    motion.pose.position += motion.velocity * dt;
+    const double half = 0.5 * motion.spin.z * dt;
+    motion.pose.orientation = base::Quat{std::cos(half), 0, 0, std::sin(half)} * motion.pose.orientation;
+    const auto power = [&] {
+      const BodyLoad l = fluid.bodyLoads()[0];
+      return dot(l.force, motion.velocity) + dot(l.torque, motion.spin);
+    };
+    work -= 0.5 * dt * power();
+    fluid.step({motion});
+    work -= 0.5 * dt * power();
+    EXPECT_EQ(fluid.forceBalance(), base::Vec3l{});
+  }
+  const FluidTotals end = fluid.totals();
+  EXPECT_GT(work, 1);
+  EXPECT_NEAR(end.total() - start.total(), work, 0.01 * work);
+}
+
+/// A state goes on with the same bits, in whatever order of particles and however old its lists were.
+TEST(Fluid, GoesOnFromASavedState) {
+  FluidSetup s = cubeInWater(0.3);
+  s.model.shifting = 1, s.surfaceDivergence = 2.75;
+  BodyMotion motion = s.bodies[0].start;
+  const auto next = [&] {
+    motion.velocity = {0.3, 0, 0};
+    motion.pose.position += motion.velocity * s.model.timeStep;
+    return std::vector<BodyMotion>{motion};
+  };
+  Fluid straight(s, testExec());
+  for (int k = 0; k < 37; ++k) straight.step(next());
+  FluidSetup later = s;
+  later.bodies[0].start = motion;
+  Fluid resumed(later, straight.save(), testExec());
+  EXPECT_EQ(resumed.hash(), straight.hash());
+  EXPECT_EQ(resumed.totals().total(), straight.totals().total());
+  for (int k = 0; k < 25; ++k) {
+    const std::vector<BodyMotion> now = next();
+    straight.step(now), resumed.step(now);
+  }
+  EXPECT_EQ(resumed.hash(), straight.hash());
+  EXPECT_EQ(resumed.steps(), 62);
+  later.particles.pop_back();
+  EXPECT_THROW(Fluid(later, straight.save(), testExec()), base::InputError);
+}
+
+/// A particle shot at a wall, without fluid around it, comes back as fast as it came; at up to a tenth of the sound
+/// speed, from places opposite a marker and between markers, it never gets behind the first layer.
+TEST(Fluid, NothingPassesAWall) {
+  for (const double speed : {0.05, 0.5, 1.0})
+    for (const double beside : {0.0, 0.025}) {
+      FluidSetup s;
+      FluidModel& m = s.model = water(3, 0.05);
+      m.timeStep = 1e-4;
+      s.markers = wallMarkers(m, [](const Vec3d& p) { return p.z; }, {-0.3, -0.3, -0.2}, {0.3, 0.3, 0.01});
+      s.particles = {{{0.025 + beside, 0.025 + beside, 0.1}, {0, 0, -speed}, 0}};
+      Fluid fluid(s, testExec());
+      double lowest = 1;
+      for (int k = 0; k < static_cast<int>(0.25 / (speed * m.timeStep)); ++k) {
+        fluid.step();
+        lowest = std::min(lowest, fluid.snapshot().position[0].z);
+      }
+      EXPECT_GT(lowest, -0.025) << speed << " " << beside;
+      EXPECT_NEAR(fluid.snapshot().velocity[0].z / speed, 1, 0.01) << speed << " " << beside;
+      EXPECT_NEAR(fluid.totals().total(), 0.5 * m.mass() * speed * speed, 0.01 * 0.5 * m.mass() * speed * speed);
+    }
+}
+
+// --- probes
+
+/// Pressure and level of still water at a wall, in the middle and above; dry places.
+TEST(Fluid, ProbesReadPressureAndLevel) {
+  Fluid fluid(tankOfWater(), testExec());
+  const std::vector<double> p =
+      fluid.pressuresAt({{0.3, 0.2, 0.2}, {0, 0.2, 0.3}, {0.3, 0.2, 0}, {0.3, 0.2, 0.5}, {0.3, 0.2, 0.8}});
+  const double scale = 1000 * kGravity;
+  EXPECT_NEAR(p[0], 0.3 * scale, 0.005 * scale);
+  EXPECT_NEAR(p[1], 0.2 * scale, 0.005 * scale);
+  EXPECT_NEAR(p[2], 0.5 * scale, 0.01 * scale);
+  EXPECT_NEAR(p[3], 0, 0.03 * scale);
+  EXPECT_EQ(p[4], 0);
+  const std::vector<double> level = fluid.levelsAt({{0.3, 0.2, 0}, {0.31, 0.21, -0.1}, {5, 5, 0.1}}, 0.9);
+  EXPECT_NEAR(level[0], 0.5, 0.0025);
+  EXPECT_NEAR(level[1], 0.5, 0.0025);
+  EXPECT_EQ(level[2], 0.1);
+}
+
+/// Motion of a body that is too quick for the lists is refused with name and remedy.
+TEST(Fluid, ABodyThatOutrunsTheListsIsAFault) {
+  FluidSetup s = cubeInWater(0);
+  Fluid fluid(s, testExec());
+  BodyMotion motion = s.bodies[0].start;
+  motion.velocity = {0.2 * s.model.spacing / s.model.timeStep, 0, 0};
+  std::string message;
+  try {
+    fluid.step({motion});
+  } catch (const base::SimulationError& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("cube moves by up to"), std::string::npos) << message;
+  EXPECT_NE(message.find("use a smaller time step"), std::string::npos) << message;
+}
+
+} // namespace
+} // namespace grouser::fluid

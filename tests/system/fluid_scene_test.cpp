@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes with a fluid: floating bodies against closed forms, energies, resumed runs, and one answer.
+#include "base/error.hpp"
+#include "coupling/fluid_domain.hpp"
+#include "coupling/simulation.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "tests/device_under_test.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace grouser::coupling {
+namespace {
+
+constexpr double kWaterGravity = 9.81; // [m/s2]
+
+std::string waterTank(const std::string& more) {
+  return "version = 1\n[run]\nduration = 3.0\n[material.wood]\ndensity = 500\nfoundation_modulus = 1e7\nrestitution = "
+         "0.3\nfriction = 0.3\n[fluid]\ndimensions = 2\nspacing = 0.025\ntank_low = [-0.5, 0, 0]\ntank_high = [0.5, 0, "
+         "0.6]\nlevel = 0.4\n" +
+         more;
+}
+
+/// A square of 0.2 m, eight spacings, one metre thick.
+std::string floatingBox(double mass, double z, const std::string& more = {}) {
+  return fmt::format("[[body]]\nname = \"box\"\nmaterial = \"wood\"\nmass = {}\nbox = [0.2, 1, 0.2]\nposition = [0, 0, "
+                     "{}]\n{}\n[[body.shape]]\nkind = \"box\"\nsize = [0.2, 1, 0.2]\n",
+                     mass, z, more);
+}
+
+Simulation madeFluid(const std::string& text, int threads = 1) {
+  return Simulation(setup::simulationSetup(setup::parseScene(text, "fluid.toml")), testExec(threads),
+                    [](double, double) {});
+}
+
+double heightOf(const Simulation& s) { return s.mechanism()->state().pose[0].position.z; }
+
+/// A box of half the density of water comes to rest half under water, within a tenth of a spacing; its mean load is its
+/// weight.
+TEST(FluidScene, ABoxFloatsAtItsDraught) {
+  Simulation s = madeFluid(waterTank(floatingBox(20, 0.42)));
+  double height = 0, lift = 0;
+  int samples = 0;
+  while (s.time() < 3) {
+    s.step();
+    if (s.time() < 1.5) continue;
+    height += heightOf(s), lift += fluidOf(s)->bodyLoads()[0].force.z, ++samples;
+  }
+  height /= samples, lift /= samples;
+  // Water: particles of the setup, and the box displaces 0.02 m2 of it.
+  const double volume = static_cast<double>(s.setup().fluid->fluid.particles.size()) * 0.025 * 0.025;
+  EXPECT_NEAR(height, volume + 0.02, 0.0025);
+  EXPECT_NEAR(lift / (20 * kWaterGravity), 1, 0.02);
+}
+
+/// A box of a fiftieth of the density of water, whose ghost inertia is above its mass: it bobs, and is not thrown.
+TEST(FluidScene, ALightBoxIsNotThrown) {
+  Simulation s = madeFluid(waterTank(floatingBox(0.4, 0.49)));
+  ASSERT_GT(s.setup().fluid->bodies[0].gain, 10);
+  double highest = 0, fastest = 0;
+  while (s.time() < 0.8) {
+    s.step();
+    highest = std::max(highest, heightOf(s)), fastest = std::max(fastest, norm(s.mechanism()->state().twist[0].v));
+  }
+  EXPECT_LT(highest, 0.53);
+  EXPECT_LT(fastest, 0.5);
+}
+
+/// All energies but the step's error, which is small against what was exchanged.
+TEST(FluidScene, EnergiesClose) {
+  Simulation s = madeFluid(waterTank(floatingBox(20, 0.45)));
+  while (s.time() < 0.5) s.step();
+  const Ledger l = s.ledger();
+  EXPECT_GT(l.dissipated.fluid, 0);
+  EXPECT_LT(std::fabs(l.integrationError), 0.01 * std::fabs(l.potential));
+  EXPECT_LT(std::fabs(l.residual), 1e-9);
+}
+
+/// A driven body: the drive's work is in the water.
+TEST(FluidScene, WorkOfADriveGoesIntoTheWater) {
+  Simulation s = madeFluid(waterTank(floatingBox(20, 0.2) +
+                                     "[[joint]]\nname = \"rail\"\ntype = \"prismatic\"\nbodies = [\"world\", "
+                                     "\"box\"]\npoint = [0, 0, 0.2]\naxis = [1, 0, 0]\n[[drive]]\nname = "
+                                     "\"motor\"\njoint = \"rail\"\nimposes = \"position\"\ntime = [0, 1]\nvalues = "
+                                     "[0, 0.2]\n"));
+  while (s.time() < 0.6) s.step();
+  const Ledger l = s.ledger();
+  EXPECT_GT(l.driveWork, 1);
+  EXPECT_LT(std::fabs(l.integrationError), 0.02 * l.driveWork);
+}
+
+TEST(FluidScene, HasOneAnswerOnAnyThreadsAndWhenResumed) {
+  const std::string text = waterTank(floatingBox(5, 0.42));
+  Simulation one = madeFluid(text, 1), two = madeFluid(text, 2);
+  for (int k = 0; k < 150; ++k) one.step(), two.step();
+  EXPECT_EQ(one.stateHash(), two.stateHash());
+  Simulation resumed(setup::simulationSetup(setup::parseScene(text, "fluid.toml")), testExec(2), one.save());
+  EXPECT_EQ(resumed.stateHash(), one.stateHash());
+  for (int k = 0; k < 77; ++k) one.step(), resumed.step();
+  EXPECT_EQ(resumed.stateHash(), one.stateHash());
+  EXPECT_EQ(resumed.ledger().dissipated.fluid, one.ledger().dissipated.fluid);
+}
+
+/// A state without its fluid, or of more bodies, is of another scene.
+TEST(FluidScene, RefusesTheStateOfAnotherScene) {
+  const SimulationSetup setup =
+      setup::simulationSetup(setup::parseScene(waterTank(floatingBox(5, 0.42)), "fluid.toml"));
+  SimulationState state = Simulation(setup, testExec(1), [](double, double) {}).save();
+  state.fluid->accelerations.push_back(0);
+  EXPECT_THROW(Simulation(setup, testExec(1), state), base::InputError);
+  state.fluid.reset();
+  EXPECT_THROW(Simulation(setup, testExec(1), state), base::InputError);
+}
+
+} // namespace
+} // namespace grouser::coupling
