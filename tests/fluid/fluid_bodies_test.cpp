@@ -116,6 +116,26 @@ TEST(Fluid, GoesOnFromASavedState) {
   EXPECT_THROW(Fluid(later, straight.save(), testExec()), base::InputError);
 }
 
+/// Particles, loads of a moving and turning body, and probes: the same bits from both backends.
+TEST(Fluid, BodiesAndProbesHaveTheSameBitsOnCuda) {
+  if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
+  FluidSetup s = cubeInWater(0.3);
+  s.model.viscosity = 0.5;
+  Fluid host(s, base::cpuExec(2)), device(s, base::cudaExec());
+  BodyMotion motion = s.bodies[0].start;
+  for (int k = 0; k < 200; ++k) {
+    motion.velocity = {0.004 * k, 0, 0}, motion.acceleration = {1, 0, 0}, motion.spin = {0, 0, 0.002 * k};
+    motion.pose.position += motion.velocity * s.model.timeStep;
+    host.step({motion}), device.step({motion});
+  }
+  EXPECT_EQ(host.hash(), device.hash());
+  EXPECT_EQ(host.bodyLoads()[0].force, device.bodyLoads()[0].force);
+  EXPECT_EQ(host.bodyLoads()[0].torque, device.bodyLoads()[0].torque);
+  const std::vector<Vec3d> places{{0, 0.5, 0.1}, {0.5, 0.5, 0.7}};
+  EXPECT_EQ(host.pressuresAt(places), device.pressuresAt(places));
+  EXPECT_EQ(host.levelsAt(places, 1.0), device.levelsAt(places, 1.0));
+}
+
 /// A particle shot at a wall, without fluid around it, comes back as fast as it came; at up to a tenth of the sound
 /// speed, from places opposite a marker and between markers, it never gets behind the first layer.
 TEST(Fluid, NothingPassesAWall) {

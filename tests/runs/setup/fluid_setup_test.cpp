@@ -49,11 +49,22 @@ TEST(FluidSetup, FillsTheTankBelowTheLevelAndBoxesOnce) {
   for (const fluid::FluidParticle& p : plane.fluid.particles) EXPECT_EQ(p.position.y, 0);
 }
 
-/// Three layers of markers behind floor and walls; above the tank none, with a lid three more.
+/// Markers are the places of the lattice within three spacings of the tank's inner faces.
 TEST(FluidSetup, WallsAreThreeLayersThick) {
-  const std::size_t open = made(head() + fluid()).fluid.markers.size(), outer = 16 * 14, inner = 10 * 8;
-  EXPECT_EQ(open, outer * 3 + (outer - inner) * 13);
-  EXPECT_EQ(made(head() + fluid("level = 0.5\nlid = true\n")).fluid.markers.size(), outer * 6 + (outer - inner) * 10);
+  const auto count = [](bool lid) {
+    std::size_t all = 0;
+    for (int i = -3; i < 13; ++i)
+      for (int j = -3; j < 11; ++j)
+        for (int k = -3; k < 13; ++k) {
+          const auto beyond = [](int n, int places) { return std::max({0.0, -n - 0.5, n + 0.5 - places}); };
+          const double x = beyond(i, 10), y = beyond(j, 8), z = lid || k < 0 ? beyond(k, 10) : 0;
+          const double out = std::sqrt(x * x + y * y + z * z);
+          all += out > 0 && out < 3;
+        }
+    return all;
+  };
+  EXPECT_EQ(made(head() + fluid()).fluid.markers.size(), count(false));
+  EXPECT_EQ(made(head() + fluid("level = 0.5\nlid = true\n")).fluid.markers.size(), count(true));
 }
 
 /// A box in the tank takes the place of fluid and has markers; so has a plane.
@@ -118,7 +129,7 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
   const std::string probe = "[[fluid.probe]]\nposition = [0, 0, 0]\nname = ";
   const std::vector<std::pair<std::string, std::string>> all = {
       {fluid(""), "fluid.level is missing, and there is no [[fluid.box]]"},
-      {"[fluid]\nlevel = 1\n", "fluid.spacing"},
+      {"[fluid]\nlevel = 1\n", "lacks the required key spacing"},
       {"[fluid]\nspacing = 0.1\nlevel = 1\n", "has no walls to hold it; give tank_low and tank_high"},
       {"[fluid]\nspacing = 0.1\nlevel = 1\ntank_low = [0, 0, 0]\n", "requires tank_high"},
       {fluid("level = 0.5\n", "tank_high = [1, 0.3, 1]\n"), "above the lower corner along y, less than 0.4 m"},
