@@ -117,6 +117,10 @@ class FilesOfResults(FolderTest):
         bodies["run.duration"] = 0.01
         bodies["body"][0]["probe_size"] = [0.1, 0.1, 0.1]
         self.run_and_look(bodies, "bodies")
+        water = grouser.Scene.read(ROOT / "runs/scenes/floating_box.toml")
+        water["run.duration"] = 0.002
+        water["fluid"]["probe"] = [{"name": "wall", "kind": "pressure", "position": [1.0, 0.0, 0.1]}]
+        self.run_and_look(water, "water")
         bushing = grouser.Scene.read(ROOT / "runs/mechanisms/andrews.toml")
         bushing["run.duration"] = 0.001
         bushing.add("bushing", name="rubber", bodies=["K1", "K2"], point=[0, 0, 0], stiffness=[1.0, 1.0, 1.0])
