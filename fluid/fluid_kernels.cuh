@@ -322,7 +322,7 @@ struct Force {
     const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
     const auto perPower = static_cast<float>(k.power.perUnit);
     base::Vec3l sum{}, viscous{}, wall{};
-    std::int64_t dragPower = 0, wallPower = 0; // of forces of markers at their velocity
+    std::int64_t dragPower = 0, wallPower = 0; // marker forces times marker velocity
     const auto add = [&](const PairForce& force) {
       sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
       viscous += roundedVector(force.viscous * perAcceleration);

@@ -92,7 +92,7 @@ std::shared_ptr<const FluidPoints> readFluid(const support::Hdf5File& file, cons
 
 void drawFluid(const FluidPoints& fluid, std::vector<base::Vec3f>& positions, std::vector<float>& radii,
                std::vector<float>& speeds) {
-  constexpr double kRadius = 0.75; // of the spacing: spheres of a lattice leave no gap
+  constexpr double kRadius = 0.75; // [spacings]; spheres on a lattice then leave no gap
   positions.insert(positions.end(), fluid.position.begin(), fluid.position.end());
   radii.insert(radii.end(), fluid.position.size(), static_cast<float>(kRadius * fluid.spacing));
   for (const base::Vec3f& v : fluid.velocity) speeds.push_back(norm(v));

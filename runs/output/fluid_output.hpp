@@ -9,7 +9,7 @@
 
 namespace grouser::output {
 
-/// What a row holds of a fluid.
+/// Fluid data of one row.
 struct FluidReading {
   fluid::FluidTotals totals;
   double mass;                         ///< [kg]

@@ -79,7 +79,7 @@ base::Table<FluidProbe> fluidProbeTable() {
   return t;
 }
 
-/// What [fluid] cannot stand beside.
+/// Refuses sections that exclude a fluid.
 void checkNeighbours(const Section& section, const Scene& scene) {
   const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
   if (grains || (scene.terrain && scene.terrain->granular()))

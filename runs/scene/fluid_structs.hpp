@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-/// What a scene file says of a fluid: plain structs, one a section. Keys, units, ranges and meanings stand in
-/// fluid_section.cpp.
+/// The fluid sections of a scene file as plain structs. fluid_section.cpp defines their keys, units and ranges.
 namespace grouser::scene {
 
 /// [[fluid.box]]: fluid at the start.

@@ -106,7 +106,7 @@ std::vector<coupling::BodyInFluid> bodiesInFluid(const scene::Scene& scene, cons
                                                  const fluid::FluidModel& model) {
   const double dx = model.spacing, depth = std::ceil(model.kernel().support() / dx) * dx;
   const bool plane = model.dimensions == 2;
-  const double face = plane ? dx : dx * dx; // of a marker
+  const double face = plane ? dx : dx * dx; // area per marker [m2]; [m] in two dimensions
   const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
   std::vector<coupling::BodyInFluid> all;
   for (std::size_t b = mechanism.ofVehicle.bodies; b < bodies.size(); ++b) {

@@ -59,7 +59,7 @@ TEST(Fluid, ABodyIsLiftedByTheWeightOfTheFluidItDisplaces) {
   EXPECT_LT(norm(torque), 0.005 * weight * 0.2);
 }
 
-/// What a moving body gives the fluid in work and momentum the fluid has: the sum over all is closed.
+/// The energy of the fluid grows by the work of a moving body, and all forces sum to zero.
 TEST(Fluid, WorkAndMomentumOfAMovingBodyAreThoseOfTheFluid) {
   FluidSetup s = cubeInWater(0);
   s.model.gravity = {}, s.model.viscosity = 1;
