@@ -17,7 +17,7 @@ fluid::Fluid makeFluid(const fluid::FluidSetup& setup, const FluidDomainState* f
 
 FluidDomain::FluidDomain(const FluidDomainSetup& setup, const multibody::Model* model, const multibody::State* bodies,
                          const base::Exec& exec, const FluidDomainState* former)
-    : setup_(setup), fluid_(makeFluid(withBodies(model, bodies, former), former, exec)), loads_(fluid_.bodyLoads()) {}
+    : setup_(setup), fluid_(makeFluid(withBodies(model, bodies, former), former, exec)) {}
 
 fluid::FluidSetup FluidDomain::withBodies(const multibody::Model* model, const multibody::State* bodies,
                                           const FluidDomainState* former) {
@@ -52,9 +52,10 @@ FluidDomainState FluidDomain::save() const {
 }
 
 void FluidDomain::addLoads(multibody::Loads& loads) const {
+  const std::vector<fluid::BodyLoad> ofFluid = bodyLoads();
   for (std::size_t k = 0; k < followers_.size(); ++k) {
     multibody::Wrench& wrench = loads.external[followers_[k].body];
-    wrench.force += loads_[k].force, wrench.torque += loads_[k].torque;
+    wrench.force += ofFluid[k].force, wrench.torque += ofFluid[k].torque;
   }
 }
 
@@ -69,7 +70,12 @@ void FluidDomain::advance(const multibody::State* bodies) {
     motions.push_back(motionOf(f, *bodies));
   }
   fluid_.step(motions);
-  loads_ = fluid_.bodyLoads();
+  totals_.reset();
+}
+
+const fluid::FluidTotals& FluidDomain::totals() {
+  if (!totals_) totals_ = fluid_.totals();
+  return *totals_;
 }
 
 std::vector<double> FluidDomain::probe() {

@@ -7,6 +7,7 @@
 #include "multibody/model.hpp"
 #include "multibody/state.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,9 @@ public:
   const fluid::Fluid& fluid() const { return fluid_; }
   /// Names of the bodies in the fluid.
   const std::vector<std::string>& bodyNames() const { return names_; }
-  const std::vector<fluid::BodyLoad>& bodyLoads() const { return loads_; } ///< [N], [N m] about the centre of mass
+  std::vector<fluid::BodyLoad> bodyLoads() const { return fluid_.bodyLoads(); } ///< [N], [N m] about the centre of mass
+  /// Totals after the last step, which are summed once however often they are read.
+  const fluid::FluidTotals& totals();
 
   /// Values of the probes, in the order of the setup [Pa], [m].
   std::vector<double> probe();
@@ -56,7 +59,7 @@ private:
   std::vector<Follower> followers_;
   std::vector<std::string> names_;
   fluid::Fluid fluid_;
-  std::vector<fluid::BodyLoad> loads_; ///< one a follower
+  std::optional<fluid::FluidTotals> totals_; ///< empty until they are read after a step
 };
 
 } // namespace grouser::coupling

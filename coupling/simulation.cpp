@@ -258,7 +258,7 @@ Ledger Simulation::wholeLedger() {
   if (vehicle_) vehicle_->addTo(l);
   if (surfaces_) surfaces_->addTo(l);
   if (mechanism_) mechanism_->addTo(l);
-  if (fluid_) enterFluid(l, fluid_->fluid().totals());
+  if (fluid_) enterFluid(l, fluid_->totals());
   return l;
 }
 

@@ -35,6 +35,16 @@ struct Pair {
   GROUSER_HD float weight() const { return taper * taper * (taper * taper) * (1 + 2 * q); }
 };
 
+/// The pair at a distance from neighbour to point, in units; within the support where q < 2.
+GROUSER_HD Pair pairAt(const FluidConstants& k, const base::Vec3f& units) {
+  Pair pair;
+  pair.d = units * k.metresPerUnit;
+  pair.r2 = dot(pair.d, pair.d);
+  pair.q = sqrtf(pair.r2) * k.perLength;
+  pair.taper = 1 - 0.5f * pair.q;
+  return pair;
+}
+
 /// Calls visit(pair, j) for the neighbours within the support at the places [first, last) of row i.
 template <class Visit>
 GROUSER_HD void eachNeighbour(const FluidView& f, int i, std::uint32_t first, std::uint32_t last, const Visit& visit) {
@@ -45,13 +55,8 @@ GROUSER_HD void eachNeighbour(const FluidView& f, int i, std::uint32_t first, st
     const std::uint32_t j = f.rows.slot[f.rows.at(i, n)];
     const base::Vec3i apart =
         periodic ? k.period.apart(f.position[j], here).as<std::int32_t>() : base::difference(f.position[j], here);
-    Pair pair;
-    pair.d = apart.as<float>() * k.metresPerUnit;
-    pair.r2 = dot(pair.d, pair.d);
-    pair.q = sqrtf(pair.r2) * k.perLength;
-    if (pair.q >= 2) continue;
-    pair.taper = 1 - 0.5f * pair.q;
-    visit(pair, j);
+    const Pair pair = pairAt(k, apart.as<float>());
+    if (pair.q < 2) visit(pair, j);
   }
 }
 /// Fluid neighbours of the particle or marker in slot i.
@@ -121,6 +126,11 @@ GROUSER_HD void moveBy(const FluidView& f, int i, const base::Vec3d& move) {
     }
   }
   raiseFault(f.flags, FluidFault::range, f.id[i]);
+}
+
+/// From the origin of its body to marker n of the bodies [m], world components.
+GROUSER_HD base::Vec3d armOf(const FluidView& f, std::uint32_t n) {
+  return rotate(f.body[f.bodyOf[n]].pose.orientation, f.bodyPoint[n]);
 }
 
 /// Puts slot i at a place [m] within the range of positions.
@@ -255,7 +265,7 @@ private:
     if (m < f.fixedMarkers) return {};
     const std::uint32_t n = m - f.fixedMarkers;
     const BodyMotion& body = f.body[f.bodyOf[n]];
-    const base::Vec3d arm = rotate(body.pose.orientation, f.bodyPoint[n]);
+    const base::Vec3d arm = armOf(f, n);
     return body.acceleration + cross(body.angularAcceleration, arm) + cross(body.spin, cross(body.spin, arm));
   }
 };
@@ -267,7 +277,7 @@ struct PlaceMarkers {
   double before;
   GROUSER_HD void operator()(int n) const {
     const BodyMotion& body = f.body[f.bodyOf[n]];
-    const base::Vec3d arm = rotate(body.pose.orientation, f.bodyPoint[n]);
+    const base::Vec3d arm = armOf(f, static_cast<std::uint32_t>(n));
     const base::Vec3d v = body.velocity + cross(body.spin, arm);
     const std::uint32_t slot = f.particles + f.fixedMarkers + static_cast<std::uint32_t>(n);
     setPosition(f, slot, body.pose.position + arm - v * before);
@@ -382,7 +392,7 @@ struct WallForce {
 private:
   GROUSER_HD void addToBody(std::uint32_t n, const base::Vec3l& sum) const {
     const std::uint32_t body = f.bodyOf[n];
-    const base::Vec3d arm = rotate(f.body[body].pose.orientation, f.bodyPoint[n]) * perSpacing;
+    const base::Vec3d arm = armOf(f, n) * perSpacing;
     const base::Vec3d moment = cross(arm, sum.as<double>());
     const auto whole = [](double x) { return static_cast<std::int64_t>(floor(x + 0.5)); };
     const base::Vec3l torque{whole(moment.x), whole(moment.y), whole(moment.z)};

@@ -16,15 +16,9 @@ struct PointSums {
   base::Vec3l moment;
 };
 
-/// The pair of a particle with a place given in units, as eachNeighbour() has it. False beyond the support.
-GROUSER_HD bool pairWith(const FluidView& f, int i, const base::Vec3l& place, Pair& pair) {
-  const FluidConstants& k = f.constants;
-  const base::Vec3l apart = k.period.apart(f.position[i], base::fromUnits(place));
-  pair.d = apart.as<float>() * k.metresPerUnit;
-  pair.r2 = dot(pair.d, pair.d);
-  pair.q = sqrtf(pair.r2) * k.perLength;
-  pair.taper = 1 - 0.5f * pair.q;
-  return pair.q < 2;
+/// The pair of particle i with a place [units].
+GROUSER_HD Pair pairWith(const FluidView& f, int i, const base::Vec3l& place) {
+  return pairAt(f.constants, f.constants.period.apart(f.position[i], base::fromUnits(place)).as<float>());
 }
 
 struct AddToPoints {
@@ -36,8 +30,8 @@ struct AddToPoints {
   GROUSER_HD void operator()(int i) const {
     const FluidConstants& k = f.constants;
     for (int p = 0; p < points; ++p) {
-      Pair pair;
-      if (!pairWith(f, i, point[p], pair)) continue;
+      const Pair pair = pairWith(f, i, point[p]);
+      if (pair.q >= 2) continue;
       const float w = pair.weight();
       const auto s = static_cast<float>(f.precise[i].compression);
       base::atomicAdd64(&sums[p].weight, rounded(w * static_cast<float>(k.weight.perUnit)));
@@ -58,20 +52,17 @@ struct AddToLines {
   std::int64_t* sums;      ///< [lines, places]
   GROUSER_HD void operator()(int i) const {
     const FluidConstants& k = f.constants;
-    const float perGap = 1 / (static_cast<float>(gap) * k.metresPerUnit);
+    const std::int64_t z = base::toUnits(f.position[i]).z;
+    const auto reach = static_cast<std::int64_t>(2 / (k.perLength * k.metresPerUnit));
     for (int n = 0; n < lines; ++n) {
-      base::Vec3l place = foot[n];
-      const std::int64_t z = base::toUnits(f.position[i]).z;
-      const std::int64_t nearest = (z - foot[n].z) / gap;
-      const auto around = static_cast<std::int64_t>(2 / (k.perLength) * perGap) + 1;
-      for (std::int64_t m = nearest - around; m <= nearest + around; ++m) {
-        if (m < 0 || m >= places) continue;
+      base::Vec3l place{foot[n].x, foot[n].y, z};
+      if (pairWith(f, i, place).q >= 2) continue; // beside the line
+      const std::int64_t first = (z - reach - foot[n].z) / gap, last = (z + reach - foot[n].z) / gap + 1;
+      for (std::int64_t m = first < 0 ? 0 : first; m <= last && m < places; ++m) {
         place.z = foot[n].z + m * gap;
-        Pair pair;
-        if (pairWith(f, i, place, pair))
+        const Pair pair = pairWith(f, i, place);
+        if (pair.q < 2)
           base::atomicAdd64(&sums[n * places + m], rounded(pair.weight() * static_cast<float>(k.weight.perUnit)));
-        else if (m == nearest && pair.q > 4)
-          break; // far beside the line
       }
     }
   }

@@ -5,7 +5,7 @@ namespace grouser::output {
 
 FluidReading fluidReading(coupling::FluidDomain& fluid) {
   const fluid::Fluid& f = fluid.fluid();
-  return {f.totals(), f.model().mass() * static_cast<double>(f.particles()), fluid.probe(), fluid.bodyLoads(),
+  return {fluid.totals(), f.model().mass() * static_cast<double>(f.particles()), fluid.probe(), fluid.bodyLoads(),
           f.rebuilds()};
 }
 
