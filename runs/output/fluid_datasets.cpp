@@ -2,6 +2,7 @@
 #include "runs/output/fluid_datasets.hpp"
 
 #include "base/error.hpp"
+#include "runs/output/flat.hpp"
 #include "runs/output/xdmf.hpp"
 
 #include <fmt/format.h>
@@ -40,14 +41,10 @@ std::uint64_t bytesOfFluid(const FluidPoints& fluid) {
 
 void writeFluid(support::Hdf5File& file, const std::string& frame, const FluidPoints& fluid) {
   for (const FluidDataset& d : kDatasets) {
-    if (d.scalars) {
+    if (d.scalars)
       file.write(datasetOf(frame, d), fluid.*d.scalars, {(fluid.*d.scalars).size()});
-      continue;
-    }
-    Numbers numbers;
-    numbers.reserve(3 * (fluid.*d.vectors).size());
-    for (const base::Vec3f& v : fluid.*d.vectors) numbers.insert(numbers.end(), {v.x, v.y, v.z});
-    file.write(datasetOf(frame, d), numbers, {(fluid.*d.vectors).size(), 3});
+    else
+      file.write(datasetOf(frame, d), flat(fluid.*d.vectors), {(fluid.*d.vectors).size(), 3});
   }
   file.attribute(groupOf(frame), "spacing", fluid.spacing);
 }

@@ -2,6 +2,7 @@
 #include "runs/output/frames_file.hpp"
 
 #include "runs/output/field_datasets.hpp"
+#include "runs/output/flat.hpp"
 #include "runs/output/fluid_datasets.hpp"
 #include "runs/output/soil_datasets.hpp"
 #include "runs/output/xdmf.hpp"
@@ -22,21 +23,6 @@ namespace {
 constexpr std::size_t kVertexBlock = std::size_t{1} << 20;
 
 using xdmf::attribute, xdmf::geometry, xdmf::grid, xdmf::item, xdmf::triangles;
-
-std::vector<float> flat(const std::vector<base::Vec3d>& points) {
-  std::vector<float> out;
-  out.reserve(3 * points.size());
-  for (const base::Vec3d& p : points)
-    for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(p[i]));
-  return out;
-}
-
-std::vector<float> flat(const std::vector<base::Vec3f>& vectors) {
-  std::vector<float> out;
-  out.reserve(3 * vectors.size());
-  for (const base::Vec3f& v : vectors) out.insert(out.end(), {v.x, v.y, v.z});
-  return out;
-}
 
 std::vector<float> speedsOf(const Frame& frame) {
   std::vector<float> speeds;

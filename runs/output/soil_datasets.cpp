@@ -2,6 +2,7 @@
 #include "runs/output/soil_datasets.hpp"
 
 #include "base/error.hpp"
+#include "runs/output/flat.hpp"
 #include "runs/output/xdmf.hpp"
 
 #include <fmt/format.h>
@@ -24,20 +25,8 @@ struct SoilDataset {
   const char *unit, *help;
 };
 
-Numbers flat(const std::vector<base::Vec3f>& vectors) {
-  Numbers all;
-  for (const base::Vec3f& v : vectors) all.insert(all.end(), {v.x, v.y, v.z});
-  return all;
-}
-
 const SoilDataset kSoilDatasets[] = {
-    {"position", 3,
-     [](const SoilSurface& s) {
-       Numbers all;
-       for (const base::Vec3d& v : s.mesh.vertices)
-         for (int a = 0; a < 3; ++a) all.push_back(static_cast<float>(v[a]));
-       return all;
-     },
+    {"position", 3, [](const SoilSurface& s) { return flat(s.mesh.vertices); },
      [](SoilSurface& s, Numbers n) {
        for (std::size_t v = 0; v + 2 < n.size(); v += 3)
          s.mesh.vertices.push_back({double{n[v]}, double{n[v + 1]}, double{n[v + 2]}});
