@@ -14,7 +14,7 @@ base::FixedPoint pairTerms(double largest) { return base::fixedPointFor(largest,
 
 } // namespace
 
-FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, const base::Vec3d& high) {
+FluidConstants fluidConstants(const FluidModel& model, double lowest, const base::Vec3d& low, const base::Vec3d& high) {
   const Wendland kernel = model.kernel();
   const double h = kernel.length(), c = model.soundSpeed, volume = model.volume(), reach = kernel.support();
   FluidConstants k;
@@ -32,8 +32,8 @@ FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, c
   k.artificial = static_cast<float>(model.artificialViscosity * h * c);
   k.laminar = static_cast<float>(2 * model.viscosity / model.density);
   k.central = model.centralViscosity ? static_cast<float>(model.dimensions + 2) : 0.0f;
-  // Between markers of a plane layer the nearest are 0.5 spacings away in two dimensions, 0.71 in three.
-  const double contact = model.dimensions == 2 ? 0.7 : 0.8; // spacings; undisturbed particles are one or more away
+  // A point between markers of a plane layer is 0.5 spacings away from the nearest in two dimensions, 0.71 in three.
+  const double contact = model.dimensions == 2 ? 0.7 : 0.85; // spacings; undisturbed particles are one or more away
   k.contact = static_cast<float>(contact * model.spacing);
   k.diffusion = static_cast<float>(-2 * model.diffusion * h * c);
   k.gravityOverSound2 = (model.gravity * (1 / (c * c))).as<float>();
@@ -46,7 +46,7 @@ FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, c
   const double stress = most / ((1 - most) * (1 - most)), spread = (1 + stress) * (1 + stress);
   const double laminar = 2 * model.viscosity / model.density * (model.centralViscosity ? model.dimensions + 2 : 1);
   const double viscous = (model.artificialViscosity * h * c + 2 * laminar) * centre * apart; // walls: 2 u_w
-  const double force = 2 * stress * c * c * steep + spread * viscous + c * c / k.contact;
+  const double force = 2 * stress * c * c * steep + spread * viscous;
   const double hydrostatic = base::norm(model.gravity) * reach / (c * c);
   k.rate = pairTerms(steep * apart + 2 * model.diffusion * h * c * centre * (2 * most + hydrostatic));
   k.acceleration = pairTerms(force);
@@ -57,7 +57,7 @@ FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, c
   k.speed = pairTerms(model.greatestSpeed());
   k.gradient = pairTerms((1 + k.shiftSeed) * steep);
   k.divergence = pairTerms(steep * reach);
-  k.greatestSpeed = model.greatestSpeed();
+  k.greatestSpeed = model.greatestSpeed(), k.lowest = lowest;
   return k;
 }
 

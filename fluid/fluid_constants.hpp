@@ -33,9 +33,10 @@ struct FluidConstants {
   base::FixedPoint gradient, divergence;               ///< shifting: V grad W [1/m], V r.grad W [-]
 
   double greatestSpeed{}; ///< [m/s]
+  double lowest;          ///< height below which a particle has left the walls; minus infinity without [m]
 };
 
-/// `low`, `high`: periodic boundaries [m] along each axis where high is above low.
-FluidConstants fluidConstants(const FluidModel& model, const base::Vec3d& low, const base::Vec3d& high);
+/// `lowest`: see FluidConstants; `low`, `high`: periodic boundaries [m] along each axis where high is above low.
+FluidConstants fluidConstants(const FluidModel& model, double lowest, const base::Vec3d& low, const base::Vec3d& high);
 
 } // namespace grouser::fluid

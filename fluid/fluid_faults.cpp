@@ -60,24 +60,28 @@ const FluidModel& checkedModel(const FluidSetup& setup) {
   return m;
 }
 
-std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step) {
-  const auto id = static_cast<std::uint32_t>(fault);
-  const double time = static_cast<double>(step) * model.timeStep;
+std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step, const FluidParticle& particle) {
   const auto text = [&]() -> std::string {
+    const double percent = 100 * std::abs(particle.compression);
     switch (static_cast<FluidFault>(fault >> 32)) {
     case FluidFault::speed:
-      return fmt::format("is faster than sound ({:.4g} m/s)", model.soundSpeed);
+      return fmt::format("moves at {:.4g} m/s, faster than sound ({:.4g} m/s)", norm(particle.velocity),
+                         model.soundSpeed);
     case FluidFault::compression:
-      return fmt::format("is compressed or stretched by more than {:.0f} %", 100 * kGreatestCompression);
+      return fmt::format("is {} by {:.1f} %, more than {:.0f} %", particle.compression > 0 ? "compressed" : "stretched",
+                         percent, 100 * kGreatestCompression);
     case FluidFault::displacement:
       return "has moved by more than half the skin of the neighbour lists in one step";
     case FluidFault::range:
       break;
     }
-    return "has left the range of positions";
+    return "has left the walls or the range of positions";
   };
   const bool lost = static_cast<FluidFault>(fault >> 32) == FluidFault::range;
-  return fmt::format("step {}, time {:.4g} s: fluid particle {} {}; {}", step, time, id, text(),
+  const base::Vec3d& r = particle.position;
+  return fmt::format("step {}, time {:.4g} s: fluid particle {} at ({:.4g}, {:.4g}, {:.4g}) m {}; {}", step,
+                     static_cast<double>(step) * model.timeStep, static_cast<std::uint32_t>(fault), r.x, r.y, r.z,
+                     text(),
                      lost ? "close the walls that it left by" : "use a smaller time step or a higher sound speed");
 }
 

@@ -22,6 +22,18 @@ GROUSER_HD std::int64_t rounded(float quanta) {
 
 GROUSER_HD base::Vec3l roundedVector(const base::Vec3f& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
+/// The same for terms beyond 32 bits.
+GROUSER_HD std::int64_t roundedLong(float quanta) {
+#if defined(__CUDA_ARCH__)
+  return __float2ll_rn(quanta);
+#else
+  return std::llrintf(quanta);
+#endif
+}
+GROUSER_HD base::Vec3l roundedLong(const base::Vec3f& v) {
+  return {roundedLong(v.x), roundedLong(v.y), roundedLong(v.z)};
+}
+
 /// A pair within the kernel's support.
 struct Pair {
   base::Vec3f d; ///< from the neighbour to this point [m]
@@ -120,7 +132,8 @@ GROUSER_HD void moveBy(const FluidView& f, int i, const base::Vec3d& move) {
   const auto inRange = [](std::int64_t u) { return fabs(static_cast<double>(u)) < kRange; };
   if (norm(move) * scale.perMetre < kRange) { // and is a number
     const base::Vec3l to = base::toUnits(f.position[i]) + base::Vec3l{units(move.x), units(move.y), units(move.z)};
-    if (inRange(to.x) && inRange(to.y) && inRange(to.z)) {
+    if (inRange(to.x) && inRange(to.y) && inRange(to.z) &&
+        scale.unit * static_cast<double>(to.z) > f.constants.lowest) {
       f.position[i] = base::fromUnits(f.constants.period.wrapped(to));
       return;
     }
@@ -313,12 +326,13 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   return force;
 }
 
-/// Acceleration of a particle by a marker that is nearer than k.contact [m/s2], from the potential c^2 (1 -
-/// r/contact)^2 / 2: walls let nothing pass where the fluid's own pressure is small, as in thin jets.
+/// Acceleration of a particle by a marker that is nearer than k.contact [m/s2], from the potential 3 c^2 (1 -
+/// r/contact)^2: walls let nothing pass where the fluid's own pressure is small, as in thin jets. The barrier between
+/// markers is 0.34 c^2 in three dimensions, 0.49 c^2 in two, above the 0.3 c^2 of fluid at the greatest compression.
 GROUSER_HD base::Vec3f contactForce(const FluidConstants& k, const Pair& pair) {
   const float r = pair.q / k.perLength;
   if (r >= k.contact || r == 0) return {};
-  return pair.d * (k.sound2 * (k.contact - r) / (k.contact * k.contact * r));
+  return pair.d * (6 * k.sound2 * (k.contact - r) / (k.contact * k.contact * r));
 }
 
 /// Sums of the accelerations of a particle: of all pairs, of viscous forces, and of the pressure of markers.
@@ -344,13 +358,13 @@ struct Force {
     eachMarkerNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
       const base::Vec3f slip = f.ghostVelocity ? own.xyz() - f.ghostVelocity[j - f.particles] : base::Vec3f{};
-      const base::Vec3f contact = contactForce(k, pair);
-      PairForce force = pairForce(k, pair, own, other, slip, false);
-      force.pressure += contact;
+      const PairForce force = pairForce(k, pair, own, other, slip, false);
       add(force);
-      const base::Vec3f push = pair.d * (-k.sound2 * other.w * pair.slope(k)) + contact;
-      wall += roundedVector(push * perAcceleration);
-      wallPower += rounded(dot(push, other.xyz()) * perPower);
+      const base::Vec3f push = pair.d * (-k.sound2 * other.w * pair.slope(k)), contact = contactForce(k, pair);
+      const base::Vec3l repelled = roundedLong(contact * perAcceleration);
+      sum += repelled;
+      wall += roundedVector(push * perAcceleration) + repelled;
+      wallPower += rounded(dot(push, other.xyz()) * perPower) + roundedLong(dot(contact, other.xyz()) * perPower);
       dragPower += rounded(dot(force.viscous, other.xyz()) * perPower);
     });
     f.force[i] = sum;
@@ -381,9 +395,9 @@ struct WallForce {
     eachFluidNeighbour(f, slot, [&](const Pair& pair, std::uint32_t j) {
       const base::Vec4f other = f.motion[j];
       const base::Vec3f slip = f.ghostVelocity ? f.ghostVelocity[m] - other.xyz() : base::Vec3f{};
-      PairForce force = pairForce(k, pair, own, other, slip, false);
-      force.pressure += contactForce(k, pair);
-      sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
+      const PairForce force = pairForce(k, pair, own, other, slip, false);
+      sum += roundedVector((force.pressure + force.viscous) * perAcceleration) +
+             roundedLong(contactForce(k, pair) * perAcceleration);
     });
     f.markerForce[m] = sum;
     if (m >= f.fixedMarkers) addToBody(m - f.fixedMarkers, sum);
