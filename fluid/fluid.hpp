@@ -63,8 +63,8 @@ public:
   std::vector<BodyLoad> bodyLoads() const;
   /// Pressure of the fluid at these points [Pa], extrapolated as to a marker at rest; 0 where no particle is near.
   std::vector<double> pressuresAt(const std::vector<base::Vec3d>& points);
-  /// Height of the surface on vertical lines through (x, y) of `feet` [m]: the highest place below `top` whose
-  /// particles fill half of the kernel; the foot's z where there is none.
+  /// Levels that wires read which stand upright on `feet` [m]: the foot's z plus the length below `top` along which
+  /// particles fill half of the kernel, without gaps of air.
   std::vector<double> levelsAt(const std::vector<base::Vec3d>& feet, double top);
   /// Exact sum of the forces between particles and from walls, in quanta: zero.
   base::Vec3l forceBalance() const;

@@ -109,10 +109,15 @@ std::vector<double> Fluid::levelsAt(const std::vector<base::Vec3d>& feet, double
   for (std::size_t n = 0; n < feet.size(); ++n) {
     const std::int64_t* line = all.data() + n * static_cast<std::size_t>(places);
     const auto filled = [&](int m) { return share * constants_.weight.value(line[m]); };
-    int m = places - 1;
-    while (m >= 0 && filled(m) < 0.5) --m;
-    const double beyond = m >= 0 && m + 1 < places ? (filled(m) - 0.5) / (filled(m) - filled(m + 1)) : 0.0;
-    levels.push_back(m < 0 ? feet[n].z : feet[n].z + (m + beyond) * step);
+    // Places nearer to a floor than the smoothing length are filled less than the fluid above them.
+    int lowestWet = 0;
+    while (lowestWet < places && filled(lowestWet) < 0.5) ++lowestWet;
+    double wet = lowestWet * step <= model_.kernel().length() ? lowestWet : 0; // places
+    for (int m = lowestWet; m + 1 < places; ++m) {
+      const double high = std::max(filled(m), filled(m + 1)), low = std::min(filled(m), filled(m + 1));
+      wet += low >= 0.5 ? 1 : high >= 0.5 ? (high - 0.5) / (high - low) : 0;
+    }
+    levels.push_back(feet[n].z + (lowestWet < places ? wet * step : 0.0));
   }
   return levels;
 }

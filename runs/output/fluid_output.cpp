@@ -31,7 +31,7 @@ Columns<FluidReading> fluidColumns(const std::vector<coupling::FluidProbePoint>&
   c.add("rebuilds", "-", "neighbour lists built so far", &F::rebuilds);
   for (std::size_t k = 0; k < probes.size(); ++k)
     c.add("probes/" + probes[k].name, probes[k].level ? "m" : "Pa",
-          probes[k].level ? "height of the surface above the probe"
+          probes[k].level ? "z of the foot plus wetted length of the wire"
                           : "pressure at the probe; 0 where no particle is near",
           [k](const F& f) { return f.probes[k]; });
   for (std::size_t k = 0; k < bodies.size(); ++k) {

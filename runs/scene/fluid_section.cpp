@@ -71,8 +71,9 @@ base::Table<FluidProbe> fluidProbeTable() {
   using S = FluidProbe;
   base::Table<S> t("[fluid.probe]", "Place where pressure or level of the fluid is recorded in every row");
   t.add("name", &S::name, "", "of its column").required();
-  t.add("kind", &S::kind, "", "pressure at the position, or height of the surface on the vertical line above it");
-  t.add("position", &S::position, "m", "of the probe; of a level the foot of its line")
+  t.add("kind", &S::kind, "",
+        "pressure at the position, or level on a vertical wire from there: its z plus the wetted length");
+  t.add("position", &S::position, "m", "of the probe; of a level the foot of its wire, on the ground")
       .required()
       .atLeast(-kFarthest)
       .atMost(kFarthest);

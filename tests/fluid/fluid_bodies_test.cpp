@@ -176,10 +176,19 @@ TEST(Fluid, ProbesReadPressureAndLevel) {
   EXPECT_NEAR(p[2], 0.5 * scale, 0.01 * scale);
   EXPECT_NEAR(p[3], 0, 0.03 * scale);
   EXPECT_EQ(p[4], 0);
-  const std::vector<double> level = fluid.levelsAt({{0.3, 0.2, 0}, {0.31, 0.21, -0.1}, {5, 5, 0.1}}, 0.9);
+  const std::vector<double> level = fluid.levelsAt({{0.3, 0.2, 0}, {0.31, 0.21, -0.01}, {5, 5, 0.1}}, 0.9);
   EXPECT_NEAR(level[0], 0.5, 0.0025);
   EXPECT_NEAR(level[1], 0.5, 0.0025);
   EXPECT_EQ(level[2], 0.1);
+}
+
+/// A sheet of water in the air wets a wire along its thickness.
+TEST(Fluid, LevelProbesDoNotCountAir) {
+  FluidSetup s = tankOfWater();
+  const auto inAir = [](const FluidParticle& p) { return p.position.z < 0.2; };
+  s.particles.erase(std::remove_if(s.particles.begin(), s.particles.end(), inAir), s.particles.end());
+  const double sheet = Fluid(s, testExec()).levelsAt({{0.3, 0.2, 0}}, 0.9).front();
+  EXPECT_NEAR(sheet, 0.3, 0.05 * s.model.spacing + 0.0025);
 }
 
 /// Motion of a body that is too quick for the lists is refused with name and remedy.

@@ -433,6 +433,9 @@ TEST(Fluid, AFaultNamesStepParticleAndRemedy) {
   EXPECT_NE(messageOf(lost, 9000).find("has left the walls or the range of positions; close the walls"),
             std::string::npos)
       << messageOf(lost, 9000);
+  // A particle that falls beside a wall.
+  lost.model = water(3, 0.1), lost.particles = {{{0, 0, 0}, {0, 0, -9}, 0}}, lost.markers = {{{1, 0, 0}}};
+  EXPECT_NE(messageOf(lost, 900).find("m has left the walls"), std::string::npos) << messageOf(lost, 900);
 }
 
 // --- lattice
