@@ -112,8 +112,9 @@ std::vector<double> Fluid::levelsAt(const std::vector<base::Vec3d>& feet, double
     // Places nearer to a floor than the smoothing length are filled less than the fluid above them.
     int lowestWet = 0;
     while (lowestWet < places && filled(lowestWet) < 0.5) ++lowestWet;
-    double wet = lowestWet * step <= model_.kernel().length() ? lowestWet : 0; // places
-    for (int m = lowestWet; m + 1 < places; ++m) {
+    const int first = lowestWet * step <= model_.kernel().length() ? lowestWet : std::max(0, lowestWet - 1);
+    double wet = first == lowestWet ? first : 0; // places
+    for (int m = first; m + 1 < places; ++m) {
       const double high = std::max(filled(m), filled(m + 1)), low = std::min(filled(m), filled(m + 1));
       wet += low >= 0.5 ? 1 : high >= 0.5 ? (high - 0.5) / (high - low) : 0;
     }

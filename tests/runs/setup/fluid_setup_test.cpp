@@ -160,6 +160,9 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
       {fluid() + "[material.sand]\nstiffness = 1e4\nrestitution = 0.5\n[[grain]]\nposition = [0.5, 0.4, 0.9]\nradius = "
                  "0.01\nmaterial = \"sand\"\n",
        "stands beside grains, whose drag and buoyancy"},
+      {fluid() + "[vehicle]\nspec = \"" GROUSER_SOURCE_DIR
+                 "/assets/vehicles/light_tracked.toml\"\nchassis = \"fixed\"\n",
+       "stands beside a [vehicle], whose hull and tracks no fluid acts on"},
   };
   for (const auto& [text, says] : all) {
     const std::string message = messageOf(head() + text);
