@@ -19,7 +19,7 @@ inline SimulationSetup oneTrack(double timeStep) {
   setup.vehicle->spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
   setup.vehicle->clearance = 0.001, setup.vehicle->onTerrain = true;
   setup.vehicle->single = true, setup.vehicle->guide = vehicle::HullGuide::pitching;
-  setup.vehicle->sphereRadius = 0.01, setup.vehicle->sphereRadiusGiven = true;
+  setup.vehicle->sphereRadius = 0.02, setup.vehicle->sphereRadiusGiven = true;
   setup.vehicle->driver.tensionRamp = 0.05, setup.vehicle->driver.weightRamp = 0.1;
   return setup;
 }

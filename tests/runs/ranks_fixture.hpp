@@ -25,8 +25,8 @@ protected:
                               commands);
   }
   /// `grouser WORDS`, on 1 rank without a launcher.
-  Outcome run(int ranks, const std::string& words) const {
-    return shell((ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : "") + "\"$grouser\" " + words);
+  Outcome run(int ranks, const std::string& words, const std::string& before = "") const {
+    return shell(before + (ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : "") + "\"$grouser\" " + words);
   }
 
   /// A loose bed of 450 grains that falls and slides on its floor.

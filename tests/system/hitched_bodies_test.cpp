@@ -6,6 +6,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/message_of.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -46,8 +47,9 @@ std::string tow(const std::string& more = {}, const std::string& ground = "kind 
 }
 
 std::unique_ptr<Simulation> made(const std::string& text) {
-  return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, "tow.toml")), base::cpuExec(1),
-                                      [](double, double) {});
+  return std::make_unique<Simulation>(
+      setup::simulationSetup(setup::parseScene(text, "tow.toml")), base::cpuExec(1), [](double, double) {},
+      base::Comm{}, nullptr, sharedSpheres());
 }
 void advanceTo(Simulation& s, double time) {
   while (s.time() < time - 0.5 * s.timeStep()) s.step();
@@ -89,7 +91,8 @@ TEST(HitchedBodies, HaveOneAnswerWhenResumed) {
   const std::string text = tow();
   const auto straight = made(text), first = made(text);
   advanceTo(*straight, 0.05), advanceTo(*first, 0.03);
-  Simulation resumed(setup::simulationSetup(setup::parseScene(text, "tow.toml")), base::cpuExec(2), first->save());
+  Simulation resumed(setup::simulationSetup(setup::parseScene(text, "tow.toml")), base::cpuExec(2), first->save(), {},
+                     sharedSpheres());
   EXPECT_EQ(resumed.stateHash(), first->stateHash());
   advanceTo(resumed, 0.05);
   EXPECT_EQ(resumed.stateHash(), straight->stateHash());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `mpirun -np N grouser run`: the same bits on any number of ranks, and one clear end when something breaks.
 #include "tests/runs/ranks_fixture.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -77,10 +78,10 @@ TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
 TEST_F(OnRanks, VehicleOnDeformableSoilHasTheBitsOfOneRankAndThread) {
   const std::string words = "run '" GROUSER_SOURCE_DIR "/runs/scenes/scm_drive.toml' --steps 700 --hash "
                             "--set output.frames=false --set output.picture=false --set output.plots=false ";
-  const std::string one = run(1, words + "--threads 1 --out one").hash();
+  const std::string one = run(1, words + "--threads 1 --out one", withSharedCache()).hash();
   EXPECT_EQ(one.find("state-hash"), 0u) << one;
-  EXPECT_EQ(run(1, words + "--threads 2 --out threads").hash(), one);
-  EXPECT_EQ(run(2, words + "--threads 1 --out ranks").hash(), one);
+  EXPECT_EQ(run(1, words + "--threads 2 --out threads", withSharedCache()).hash(), one);
+  EXPECT_EQ(run(2, words + "--threads 1 --out ranks", withSharedCache()).hash(), one);
 }
 
 TEST_F(OnRanks, SurfacesAndMeshesMoveAndMeasureAsOnOneRank) {
