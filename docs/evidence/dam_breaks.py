@@ -8,7 +8,7 @@ CASE      spheric2    runs/scenes/spheric2.toml against spheric2.csv
           lobovsky    runs/scenes/dam_break.toml against lobovsky.csv
           koshizuka   docs/evidence/koshizuka_oka.toml against the front of Koshizuka and Oka (1996)
 PICTURE   file to write, *.png
-FOLDER    results of `grouser run`, one or more; the picture names each by its spacing
+FOLDER    results of `grouser run`, one or more, whose names stand in the picture
 
 A level's arrival is the time when it first exceeds 2 cm (spheric2), or 5 % of the initial depth (lobovsky). Impulses are
 integrals of the pressure from 0.39 to 0.6 s (P1 to P4) and from 1 to 2.5 s (P5 to P8). Files hold means over 10 ms of
@@ -49,11 +49,6 @@ def arrival(time, values, least):
 def impulse(time, values, start, end):
     inside = (time >= start) & (time <= end)
     return np.trapz(values[inside], time[inside])
-
-
-def spacing(folder):
-    with h5py.File(folder / "frames.h5") as file:
-        return float(file["fluid"].attrs["spacing"]) if "spacing" in file["fluid"].attrs else np.nan
 
 
 def curves(figure_rows, names, measured, runs, time, label):
