@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/gather.cuh"
 #include "base/hash.hpp"
-#include "base/math.hpp"
 #include "fluid/fluid_faults.hpp"
 #include "fluid/fluid_kernels.cuh"
 
@@ -17,20 +16,10 @@ namespace grouser::fluid {
 
 namespace {
 constexpr double kGreatestShift = 0.1; ///< in a step [spacings]
-
-/// Height below all fixed walls and particles at the start [m].
-double lowestOf(const FluidSetup& setup) {
-  if (setup.markers.empty()) return -base::kInfinity;
-  double lowest = base::kInfinity;
-  for (const WallMarker& m : setup.markers) lowest = std::min(lowest, m.position.z);
-  for (const FluidParticle& p : setup.particles) lowest = std::min(lowest, p.position.z);
-  return lowest - setup.model.spacing;
-}
 } // namespace
 
 Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec)
-    : model_(checkedModel(setup)),
-      constants_(fluidConstants(model_, lowestOf(setup), setup.periodLow, setup.periodHigh)), exec_(exec),
+    : model_(checkedModel(setup)), constants_(fluidConstants(setup)), exec_(exec),
       surfaceDivergence_(setup.surfaceDivergence),
       lists_(
           exec,

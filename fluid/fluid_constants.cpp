@@ -2,7 +2,9 @@
 #include "fluid/fluid_constants.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace grouser::fluid {
@@ -12,9 +14,20 @@ namespace {
 /// A pair term of at most `largest` takes at most 2^30 quanta.
 base::FixedPoint pairTerms(double largest) { return base::fixedPointFor(largest, 30); }
 
+/// Height below all fixed walls and particles at the start [m].
+double lowestOf(const FluidSetup& setup) {
+  if (setup.markers.empty()) return -base::kInfinity;
+  double lowest = base::kInfinity;
+  for (const WallMarker& m : setup.markers) lowest = std::min(lowest, m.position.z);
+  for (const FluidParticle& p : setup.particles) lowest = std::min(lowest, p.position.z);
+  return lowest - setup.model.spacing;
+}
+
 } // namespace
 
-FluidConstants fluidConstants(const FluidModel& model, double lowest, const base::Vec3d& low, const base::Vec3d& high) {
+FluidConstants fluidConstants(const FluidSetup& setup) {
+  const FluidModel& model = setup.model;
+  const base::Vec3d &low = setup.periodLow, &high = setup.periodHigh;
   const Wendland kernel = model.kernel();
   const double h = kernel.length(), c = model.soundSpeed, volume = model.volume(), reach = kernel.support();
   FluidConstants k;
@@ -57,7 +70,7 @@ FluidConstants fluidConstants(const FluidModel& model, double lowest, const base
   k.speed = pairTerms(model.greatestSpeed());
   k.gradient = pairTerms((1 + k.shiftSeed) * steep);
   k.divergence = pairTerms(steep * reach);
-  k.greatestSpeed = model.greatestSpeed(), k.lowest = lowest;
+  k.greatestSpeed = model.greatestSpeed(), k.lowest = lowestOf(setup);
   return k;
 }
 

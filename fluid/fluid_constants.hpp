@@ -4,7 +4,7 @@
 #include "base/fixed_point.hpp"
 #include "base/period.hpp"
 #include "base/position.hpp"
-#include "fluid/fluid_model.hpp"
+#include "fluid/fluid_setup.hpp"
 
 namespace grouser::fluid {
 
@@ -33,10 +33,9 @@ struct FluidConstants {
   base::FixedPoint gradient, divergence;               ///< shifting: V grad W [1/m], V r.grad W [-]
 
   double greatestSpeed{}; ///< [m/s]
-  double lowest;          ///< height below which a particle has left the walls; minus infinity without [m]
+  double lowest{};        ///< height below which a particle has left the walls; minus infinity without [m]
 };
 
-/// `lowest`: see FluidConstants; `low`, `high`: periodic boundaries [m] along each axis where high is above low.
-FluidConstants fluidConstants(const FluidModel& model, double lowest, const base::Vec3d& low, const base::Vec3d& high);
+FluidConstants fluidConstants(const FluidSetup& setup);
 
 } // namespace grouser::fluid

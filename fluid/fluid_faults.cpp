@@ -62,14 +62,13 @@ const FluidModel& checkedModel(const FluidSetup& setup) {
 
 std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step, const FluidParticle& particle) {
   const auto text = [&]() -> std::string {
-    const double percent = 100 * std::abs(particle.compression);
     switch (static_cast<FluidFault>(fault >> 32)) {
     case FluidFault::speed:
       return fmt::format("moves at {:.4g} m/s, faster than sound ({:.4g} m/s)", norm(particle.velocity),
                          model.soundSpeed);
     case FluidFault::compression:
       return fmt::format("is {} by {:.1f} %, more than {:.0f} %", particle.compression > 0 ? "compressed" : "stretched",
-                         percent, 100 * kGreatestCompression);
+                         100 * std::abs(particle.compression), 100 * kGreatestCompression);
     case FluidFault::displacement:
       return "has moved by more than half the skin of the neighbour lists in one step";
     case FluidFault::range:

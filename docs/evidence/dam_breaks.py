@@ -65,49 +65,50 @@ def curves(figure_rows, names, measured, runs, time, label):
     return figure
 
 
+def compareLevels(folder, run, measured, time, names, least, depth):
+    """Prints rms errors of levels and arrivals; all of `run` is compared."""
+    print(f"{folder}: level, rms error [% of the initial depth]; arrival, measured, both in {time}")
+    for name in names:
+        error = run[name] - np.interp(run[time], measured[time], measured[name])
+        print(f"  {name[:2]}  {100 * np.sqrt(np.mean(error**2)) / depth:5.1f}", end="")
+        wet = measured[name][0] > least
+        print("" if wet else f"  {arrival(run[time], run[name], least):.3f}"
+              f"  {arrival(measured[time], measured[name], least):.3f}")
+
+
 def spheric2(folders):
-    measured = columns(HERE / "spheric2.csv")
-    t = measured["time"]
+    measured, time = columns(HERE / "spheric2.csv"), "time"
+    levels, pressures = [f"H{k}" for k in range(1, 5)], [f"P{k}" for k in range(1, 9)]
     runs = {}
     for folder in folders:
         series = columns(folder / "timeseries.csv")
-        now = series["time"]
-        run = runs[folder.name] = {"time": now}
-        print(f"{folder.name}: level, rms error to 2 s [% of 0.55 m]; arrival [s], measured [s]")
-        for name in ("H1", "H2", "H3", "H4"):
-            run[name] = series[f"fluid.probes.{name}"]
-            early = now <= 2
-            error = run[name][early] - np.interp(now[early], t, measured[name])
-            print(f"  {name}  {100 * np.sqrt(np.mean(error**2)) / 0.55:5.1f}", end="")
-            print("" if name == "H4" else f"  {arrival(now, run[name], 0.02):.3f}  {arrival(t, measured[name], 0.02):.3f}")
+        run = runs[folder.name] = {name: series[f"fluid.probes.{name}"] for name in levels + pressures}
+        run[time] = series[time]
+        early = run[time] <= 2
+        compareLevels(folder.name, {name: values[early] for name, values in run.items()}, measured, time, levels, 0.02,
+                      0.55)
         print(f"{folder.name}: impulse over the measured [-]; arrival above 300 Pa [s], measured [s]")
-        for k in range(1, 9):
-            name, span = f"P{k}", (0.39, 0.6) if k < 5 else (1.0, 2.5)
-            run[name] = series[f"fluid.probes.{name}"]
-            share = impulse(now, run[name], *span) / impulse(t, measured[name], *span)
-            print(f"  {name}  {share:5.2f}  {arrival(now, run[name], 300):.3f}  {arrival(t, measured[name], 300):.3f}")
-    figure = curves(3, [f"H{k}" for k in range(1, 5)] + [f"P{k}" for k in range(1, 9)], measured, runs, "time", "t [s]")
+        for name in pressures:
+            span = (0.39, 0.6) if name < "P5" else (1.0, 2.5)
+            share = impulse(run[time], run[name], *span) / impulse(measured[time], measured[name], *span)
+            print(f"  {name}  {share:5.2f}  {arrival(run[time], run[name], 300):.3f}"
+                  f"  {arrival(measured[time], measured[name], 300):.3f}")
+    figure = curves(3, levels + pressures, measured, runs, time, "t [s]")
     for axis in figure.axes[4:]:
         axis.set_ylim(-3000, 13000)
     return figure
 
 
 def lobovsky(folders):
-    measured = columns(HERE / "lobovsky.csv")
-    t = measured["t sqrt(g/H)"]
+    measured, time = columns(HERE / "lobovsky.csv"), "t sqrt(g/H)"
+    levels = [f"H{k}/H" for k in range(1, 5)]
     runs = {}
     for folder in folders:
         series = columns(folder / "timeseries.csv")
-        now = series["time"] * np.sqrt(GRAVITY / DEPTH)
-        run = runs[folder.name] = {"t sqrt(g/H)": now}
-        print(f"{folder.name}: level, rms error to t* = {now[-1]:.1f} [% of the depth]; arrival t*, measured")
-        for name in ("H1/H", "H2/H", "H3/H", "H4/H"):
-            run[name] = series[f"fluid.probes.{name[:2]}"] / DEPTH
-            error = run[name] - np.interp(now, t, measured[name])
-            print(f"  {name[:2]}  {100 * np.sqrt(np.mean(error**2)):5.1f}", end="")
-            print("" if name == "H1/H" else
-                  f"  {arrival(now, run[name], 0.05):.3f}  {arrival(t, measured[name], 0.05):.3f}")
-    figure = curves(1, ["H1/H", "H2/H", "H3/H", "H4/H"], measured, runs, "t sqrt(g/H)", "t sqrt(g/H)")
+        run = runs[folder.name] = {name: series[f"fluid.probes.{name[:2]}"] / DEPTH for name in levels}
+        run[time] = series["time"] * np.sqrt(GRAVITY / DEPTH)
+        compareLevels(folder.name, run, measured, time, levels, 0.05, 1)
+    figure = curves(1, levels, measured, runs, time, time)
     for axis in figure.axes:
         axis.set_xlim(0, 7)
     return figure

@@ -163,6 +163,33 @@ TEST(Fluid, NothingPassesAWall) {
     }
 }
 
+/// Work against the contact of a plane layer of markers, in the middle between them, beside its closed form: in fluid
+/// at the greatest compression, c^2 s = 0.3 c^2, no particle is pressed through.
+TEST(Fluid, TheBarrierOfAWallIsAboveTheGreatestPressure) {
+  const auto barrier = [](int dimensions) {
+    FluidSetup s;
+    const FluidModel& m = s.model = water(dimensions, 0.05);
+    const double dx = m.spacing;
+    for (const double x : {-1.5, -0.5, 0.5, 1.5})
+      for (const double y : {-1.5, -0.5, 0.5, 1.5})
+        if (dimensions == 3 || y == 0.5) s.markers.push_back({{x * dx, dimensions == 3 ? y * dx : 0, 0}});
+    constexpr int kParts = 200;
+    double work = 0;
+    for (int k = 0; k < kParts; ++k) {
+      s.particles = {{{0, 0, (k + 0.5) / kParts * dx}, {}, 0}};
+      const Fluid fluid(s, testExec());
+      for (const Vec3d& f : fluid.markerForces()) work -= f.z * dx / kParts;
+      EXPECT_EQ(fluid.forceBalance(), base::Vec3l{});
+    }
+    return work / (m.mass() * m.soundSpeed * m.soundSpeed);
+  };
+  const double three = 1 - std::sqrt(0.5) / 0.85, two = 1 - 0.5 / 0.7;
+  EXPECT_NEAR(barrier(3), 4 * 3 * three * three, 1e-4);
+  EXPECT_NEAR(barrier(2), 2 * 3 * two * two, 1e-4);
+  EXPECT_GT(barrier(3), kGreatestCompression);
+  EXPECT_GT(barrier(2), kGreatestCompression);
+}
+
 // --- probes
 
 /// Pressure and level of still water at a wall, in the middle and above; dry places.
@@ -185,8 +212,7 @@ TEST(Fluid, ProbesReadPressureAndLevel) {
 /// A sheet of water in the air wets a wire along its thickness.
 TEST(Fluid, LevelProbesDoNotCountAir) {
   FluidSetup s = tankOfWater();
-  const auto inAir = [](const FluidParticle& p) { return p.position.z < 0.2; };
-  s.particles.erase(std::remove_if(s.particles.begin(), s.particles.end(), inAir), s.particles.end());
+  std::erase_if(s.particles, [](const FluidParticle& p) { return p.position.z < 0.2; });
   const double sheet = Fluid(s, testExec()).levelsAt({{0.3, 0.2, 0}}, 0.9).front();
   EXPECT_NEAR(sheet, 0.3, 0.05 * s.model.spacing + 0.0025);
 }
