@@ -190,6 +190,18 @@ TEST(Fluid, TheBarrierOfAWallIsAboveTheGreatestPressure) {
   EXPECT_GT(barrier(2), kGreatestCompression);
 }
 
+/// Contact close to a marker, far beyond the pair terms of the fluid: closed form, and exactly opposite.
+TEST(Fluid, ContactNearAMarkerKeepsItsSize) {
+  FluidSetup s;
+  const FluidModel& m = s.model = water(3, 0.05);
+  s.markers = {{{0, 0, 0}}};
+  s.particles = {{{0, 0, 0.1 * m.spacing}, {}, 0}};
+  const Fluid fluid(s, testExec());
+  const double force = m.mass() * 6 * m.soundSpeed * m.soundSpeed * (0.85 - 0.1) / (0.85 * 0.85 * m.spacing);
+  EXPECT_NEAR(-fluid.markerForces()[0].z / force, 1, 1e-5);
+  EXPECT_EQ(fluid.forceBalance(), base::Vec3l{});
+}
+
 // --- probes
 
 /// Pressure and level of still water at a wall, in the middle and above; dry places.
