@@ -3,74 +3,116 @@
 
 #include "base/error.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace grouser::coupling {
 
 using base::Vec3d;
 
 namespace {
 
-fluid::Fluid makeFluid(const fluid::FluidSetup& setup, const FluidDomainState* former, const base::Exec& exec) {
-  return former ? fluid::Fluid(setup, former->fluid, exec) : fluid::Fluid(setup, exec);
+constexpr std::size_t kNumbers = 18; ///< of a saved body
+
+fluid::Fluid makeFluid(const fluid::FluidSetup& setup, const FluidDomainState* former, const base::Exec& exec,
+                       contact::PartitionOptions ranks, const base::Comm& comm) {
+  ranks.comm = comm;
+  return former ? fluid::Fluid(setup, former->fluid, exec, ranks) : fluid::Fluid(setup, exec, ranks);
 }
 
 } // namespace
 
+/// All that a saved body has, three numbers each.
+template <class Follower> static auto numbersOf(Follower& f) {
+  return std::array{&f.acceleration, &f.angularAcceleration, &f.before.v, &f.before.w, &f.sum.v, &f.sum.w};
+}
+
 FluidDomain::FluidDomain(const FluidDomainSetup& setup, const multibody::Model* model, const multibody::State* bodies,
-                         const base::Exec& exec, const FluidDomainState* former)
-    : setup_(setup), fluid_(makeFluid(withBodies(model, bodies, former), former, exec)) {}
+                         const base::Exec& exec, const base::Comm& comm, const FluidDomainState* former)
+    : setup_(setup), fluid_(makeFluid(withBodies(model, bodies, former), former, exec, setup.partition, comm)),
+      waited_(former ? former->waited : 0) {}
 
 fluid::FluidSetup FluidDomain::withBodies(const multibody::Model* model, const multibody::State* bodies,
                                           const FluidDomainState* former) {
   fluid::FluidSetup all = setup_.fluid;
-  if (former && former->accelerations.size() != 6 * setup_.bodies.size())
+  if (former && former->bodies.size() != kNumbers * setup_.bodies.size())
     throw base::InputError("the fluid of the checkpoint has other bodies; resume with the scene that was run");
   for (std::size_t k = 0; k < setup_.bodies.size(); ++k) {
     const BodyInFluid& b = setup_.bodies[k];
-    Follower f{b.body, 1 / (1 + b.gain), bodies->twist[b.body], {}, {}};
+    const auto column = std::find(columns_.begin(), columns_.end(), b.column);
+    Follower f{.body = b.body,
+               .about = b.about,
+               .column = static_cast<std::size_t>(column - columns_.begin()),
+               .relaxation = 1 / (1 + b.gain),
+               .before = bodies->twist[b.body]};
+    if (column == columns_.end()) columns_.push_back(b.column);
     if (former) {
-      const double* a = former->accelerations.data() + 6 * k;
-      f.acceleration = {a[0], a[1], a[2]}, f.angularAcceleration = {a[3], a[4], a[5]};
+      const double* n = former->bodies.data() + kNumbers * k;
+      for (Vec3d* v : numbersOf(f)) *v = {n[0], n[1], n[2]}, n += 3;
     }
     followers_.push_back(f);
-    names_.push_back(model->bodies()[b.body].name);
-    all.bodies.push_back({"body \"" + names_.back() + "\"", b.markers, motionOf(f, *bodies)});
+    all.bodies.push_back(
+        {"body \"" + model->bodies()[b.body].name + "\"", b.markers, motionOf(f, *bodies, f.before), b.touches});
   }
+  if (bodies) keepArms(*bodies);
   return all;
 }
 
-fluid::BodyMotion FluidDomain::motionOf(const Follower& f, const multibody::State& state) const {
-  const multibody::Twist& V = state.twist[f.body];
-  return {state.pose[f.body], V.v, V.w, f.acceleration, f.angularAcceleration};
+fluid::BodyMotion FluidDomain::motionOf(const Follower& f, const multibody::State& state,
+                                        const multibody::Twist& mean) const {
+  return {state.pose[f.body], mean.v, mean.w, f.acceleration, f.angularAcceleration};
 }
 
 FluidDomainState FluidDomain::save() const {
-  FluidDomainState state{fluid_.save(), {}};
+  FluidDomainState state{fluid_.save(), {}, waited_};
   for (const Follower& f : followers_)
-    for (const Vec3d& a : {f.acceleration, f.angularAcceleration})
-      state.accelerations.insert(state.accelerations.end(), {a.x, a.y, a.z});
+    for (const Vec3d* v : numbersOf(f)) state.bodies.insert(state.bodies.end(), {v->x, v->y, v->z});
   return state;
 }
 
-void FluidDomain::addLoads(multibody::Loads& loads) const {
+Vec3d FluidDomain::addLoads(multibody::Loads& loads) const {
   const std::vector<fluid::BodyLoad> ofFluid = bodyLoads();
+  Vec3d sum;
   for (std::size_t k = 0; k < followers_.size(); ++k) {
     multibody::Wrench& wrench = loads.external[followers_[k].body];
     wrench.force += ofFluid[k].force, wrench.torque += ofFluid[k].torque;
+    sum += ofFluid[k].force;
   }
+  return sum;
+}
+
+std::vector<fluid::BodyLoad> FluidDomain::columnLoads() const {
+  std::vector<fluid::BodyLoad> sums(columns_.size());
+  const std::vector<fluid::BodyLoad> ofFluid = bodyLoads();
+  for (std::size_t k = 0; k < followers_.size(); ++k) {
+    fluid::BodyLoad& sum = sums[followers_[k].column];
+    sum.force += ofFluid[k].force;
+    sum.torque += ofFluid[k].torque + cross(arms_[k], ofFluid[k].force);
+  }
+  return sums;
+}
+
+void FluidDomain::keepArms(const multibody::State& state) {
+  arms_.clear();
+  for (const Follower& f : followers_) arms_.push_back(state.pose[f.body].position - state.pose[f.about].position);
 }
 
 void FluidDomain::advance(const multibody::State* bodies) {
-  const double perStep = 1 / fluid_.model().timeStep;
+  for (Follower& f : followers_) f.sum.v += bodies->twist[f.body].v, f.sum.w += bodies->twist[f.body].w;
+  if (++waited_ < setup_.stepsPerStep) return;
+  const double perStep = 1 / fluid_.model().timeStep, share = 1.0 / static_cast<double>(waited_);
   std::vector<fluid::BodyMotion> motions;
   for (Follower& f : followers_) {
     const multibody::Twist& now = bodies->twist[f.body];
     f.acceleration += f.relaxation * ((now.v - f.before.v) * perStep - f.acceleration);
     f.angularAcceleration += f.relaxation * ((now.w - f.before.w) * perStep - f.angularAcceleration);
-    f.before = now;
-    motions.push_back(motionOf(f, *bodies));
+    motions.push_back(motionOf(f, *bodies, {f.sum.v * share, f.sum.w * share}));
+    f.before = now, f.sum = {};
   }
+  waited_ = 0;
   fluid_.step(motions);
   totals_.reset();
+  if (bodies) keepArms(*bodies);
 }
 
 const fluid::FluidTotals& FluidDomain::totals() {

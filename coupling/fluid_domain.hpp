@@ -13,10 +13,11 @@
 
 namespace grouser::coupling {
 
-/// The fluid of a simulation and its coupling with rigid bodies, one time step for both.
+/// The fluid of a simulation and its coupling with rigid bodies.
 ///
-/// Loads on bodies are those at their poses at the beginning of a step, as of all contacts; the fluid receives the
-/// opposite integers in two half kicks, at the beginning and at the end of the step.
+/// A step of the fluid is one or several of the bodies' (FluidDomainSetup::stepsPerStep): contacts of a vehicle bear
+/// shorter steps than a fluid. Loads on bodies are those at the beginning of a step of the fluid, as of all contacts;
+/// the fluid receives the opposite integers in two half kicks, at the beginning and at the end of its step.
 ///
 /// Pressures of markers hold the acceleration of their body, which follows from these pressures: with that of the last
 /// step the loop has the gain M_g / m of ghost inertia and mass, and diverges where it is above 1. It is therefore
@@ -26,18 +27,21 @@ public:
   /// `model`, `bodies`: null without bodies; `former`: a saved state to go on from, or null. Throws base::InputError
   /// where that is of another scene. `setup` outlives it.
   FluidDomain(const FluidDomainSetup& setup, const multibody::Model* model, const multibody::State* bodies,
-              const base::Exec& exec, const FluidDomainState* former = nullptr);
+              const base::Exec& exec, const base::Comm& comm = {}, const FluidDomainState* former = nullptr);
   FluidDomainState save() const;
 
-  /// Adds the loads of the fluid on the bodies at their present poses.
-  void addLoads(multibody::Loads& loads) const;
-  /// One step, in which the bodies have come to `bodies`. Null without bodies.
+  /// Adds the loads of the fluid on the bodies at their present poses. Returns the sum of their forces [N].
+  base::Vec3d addLoads(multibody::Loads& loads) const;
+  /// One step of the simulation, in which the bodies have come to `bodies`; null without bodies. The last of
+  /// stepsPerStep is one of the fluid.
   void advance(const multibody::State* bodies);
 
   const fluid::Fluid& fluid() const { return fluid_; }
-  /// Names of the bodies in the fluid.
-  const std::vector<std::string>& bodyNames() const { return names_; }
   std::vector<fluid::BodyLoad> bodyLoads() const { return fluid_.bodyLoads(); } ///< [N], [N m] about the centre of mass
+  /// Columns of the output (BodyInFluid::column), in the order of their first bodies.
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// Sum of the loads of each column, torques about the centres of mass of BodyInFluid::about.
+  std::vector<fluid::BodyLoad> columnLoads() const;
   /// Totals after the last step, which are summed once however often they are read.
   const fluid::FluidTotals& totals();
 
@@ -46,19 +50,22 @@ public:
 
 private:
   struct Follower {
-    std::size_t body;
-    double relaxation; ///< 1 / (1 + gain) [-]
-    multibody::Twist before;
-    base::Vec3d acceleration, angularAcceleration; ///< relaxed [m/s2], [rad/s2]
+    std::size_t body, about, column;
+    double relaxation;              ///< 1 / (1 + gain) [-]
+    multibody::Twist before, sum{}; ///< at the last step of the fluid, and summed over the steps since
+    base::Vec3d acceleration{}, angularAcceleration{}; ///< relaxed [m/s2], [rad/s2]
   };
   fluid::FluidSetup withBodies(const multibody::Model* model, const multibody::State* bodies,
                                const FluidDomainState* former);
-  fluid::BodyMotion motionOf(const Follower& f, const multibody::State& state) const;
+  fluid::BodyMotion motionOf(const Follower& f, const multibody::State& state, const multibody::Twist& mean) const;
+  void keepArms(const multibody::State& state);
 
   const FluidDomainSetup& setup_;
   std::vector<Follower> followers_;
-  std::vector<std::string> names_;
+  std::vector<base::Vec3d> arms_; ///< of the followers, from the centres that torques are recorded about [m]
+  std::vector<std::string> columns_;
   fluid::Fluid fluid_;
+  std::int64_t waited_{0};                   ///< steps since the last of the fluid
   std::optional<fluid::FluidTotals> totals_; ///< empty until they are read after a step
 };
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/subdomain.hpp"
 #include "fluid/fluid_setup.hpp"
 #include "fluid/fluid_state.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +16,10 @@ namespace grouser::coupling {
 /// A body of the model in the fluid.
 struct BodyInFluid {
   std::size_t body{};               ///< index into the model's bodies
+  std::size_t about{};              ///< body about whose centre of mass its torque is recorded
+  std::string column;               ///< of the output, in which the loads of bodies are summed
   std::vector<base::Vec3d> markers; ///< in the body's frame [m]
+  bool touches{};                   ///< as in FluidBody
   double gain{};                    ///< upper bound of ghost inertia over mass or inertia [-]
 };
 
@@ -29,14 +35,19 @@ struct FluidDomainSetup {
   fluid::FluidSetup fluid; ///< without bodies
   std::vector<BodyInFluid> bodies;
   std::vector<FluidProbePoint> probes;
-  double top{}; ///< upper end of the lines of level probes [m]
+  contact::PartitionOptions partition; ///< but for the ranks
+  int stepsPerStep = 1;                ///< of the simulation in a step of the fluid, whose loads hold for all of them
+  double top{};                        ///< upper end of the lines of level probes [m]
+  std::optional<base::Pose> chassis;   ///< where the vehicle was assumed to stand at the start; empty without one
 };
 
-/// Fluid of a saved simulation: the state of the particles, and the accelerations that wall pressures are extrapolated
-/// with, six numbers a body [m/s2, rad/s2].
+/// Fluid of a saved simulation.
 struct FluidDomainState {
   fluid::FluidState fluid;
-  std::vector<double> accelerations;
+  /// 18 numbers a body: acceleration that wall pressures are extrapolated with, velocity at the last step of the fluid,
+  /// and the sum of those since, each linear and angular [m/s2, rad/s2, m/s, rad/s].
+  std::vector<double> bodies;
+  std::int64_t waited{}; ///< steps of the simulation since the last step of the fluid
 };
 
 } // namespace grouser::coupling

@@ -83,7 +83,7 @@ void Simulation::step(StepObserver* observer) {
   done(Stage::boundaries);
   if (touching_) touching_->computeContacts(observer);
   if (touching_) base::synchronize(exec_), touching_->collectLoads();
-  if (fluid_ && touching_) fluid_->addLoads(touching_->stepLoads());
+  addFluidLoads();
   done(Stage::partLoads);
   if (surfaces_) surfaces_->computeContacts(*laid_.grains, steps_, listsEnded);
   if (ground_) ground_->beginStep();
@@ -190,7 +190,16 @@ void Simulation::makeFluid(const FluidDomainState* former) {
   if (!setup_.fluid) return;
   const multibody::Model* model = touching_ ? &touching_->model() : nullptr;
   const multibody::State* bodies = touching_ ? &touching_->state() : nullptr;
-  fluid_ = std::make_unique<FluidDomain>(*setup_.fluid, model, bodies, exec_, former);
+  if (vehicle_ && norm(model->bodies()[0].pose.position - setup_.fluid->chassis->position) > 1e-6)
+    throw base::InputError("the vehicle starts on an obstacle of the scene, and the fluid was made for one on the "
+                           "ground; move vehicle.position");
+  fluid_ = std::make_unique<FluidDomain>(*setup_.fluid, model, bodies, exec_, comm_, former);
+}
+
+void Simulation::addFluidLoads() {
+  if (!fluid_ || !touching_) return;
+  const base::Vec3d force = fluid_->addLoads(touching_->stepLoads());
+  if (vehicle_) vehicle_->setFluidForce(force);
 }
 
 /// Throws InputError where a body of the mechanism overlaps something at the start.

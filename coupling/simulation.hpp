@@ -118,6 +118,7 @@ private:
   void makeActingGround();
   void makeMechanism(SphereSets* spheres);
   void makeFluid(const FluidDomainState* former);
+  void addFluidLoads();
   void makeVehicle(SphereSets* spheres, std::optional<double> lift = {});
   void requireRoomForBodies();
   void makeSurfaces(const SurfaceStates* former);

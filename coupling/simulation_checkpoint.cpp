@@ -23,7 +23,7 @@ std::string SimulationState::hash(const base::Comm& comm) const {
       for (const double number : {p.position.x, p.position.y, p.position.z, p.velocity.x, p.velocity.y, p.velocity.z,
                                   p.compression, p.acceleration.x, p.acceleration.y, p.acceleration.z})
         hash.add(base::bitsAs<std::uint64_t>(number));
-    for (const double number : fluid->accelerations) hash.add(base::bitsAs<std::uint64_t>(number));
+    for (const double number : fluid->bodies) hash.add(base::bitsAs<std::uint64_t>(number));
   }
   Inputs set;
   set.restore(inputs);

@@ -213,7 +213,7 @@ std::string VehicleRig::judgeRest() {
   const double g = norm(gravity_);
   const Vec3d down = g > 0 ? gravity_ * (1 / g) : Vec3d{0, 0, -1};
   return driver_.judge(state_.time, dot(state_.twist[assembly_.chassis].v, down),
-                       g > 0 ? -dot(groundForce(alarmMeans_), down) / (carried_ * g) : 0.0);
+                       g > 0 ? -dot(groundForce(alarmMeans_) + fluidForce_, down) / (carried_ * g) : 0.0);
 }
 
 /// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.

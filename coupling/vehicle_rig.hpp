@@ -38,6 +38,8 @@ public:
 
   void collectLoads() override;
   void advance() override;
+  /// Of a fluid on all bodies in this step [N], which carries a part of a vehicle at rest.
+  void setFluidForce(const base::Vec3d& force) { fluidForce_ = force; }
 
   const multibody::Model& model() const override { return assembly_.model; }
   const multibody::Solver& solver() const override { return *solver_; }
@@ -112,7 +114,8 @@ private:
   double thickestStone_, heading_; ///< for observers [m], [rad]
   std::unique_ptr<vehicle::Observer> observer_;
   std::optional<Watch> watch_;
-  double carried_; ///< mass that the ground carries at rest [kg]: the vehicle and the bodies beside it
+  double carried_;         ///< mass that the ground carries at rest [kg]: the vehicle and the bodies beside it
+  base::Vec3d fluidForce_; ///< in this step [N]
   vehicle::BlowMeter blows_;
   PartContacts::RunningGear gear_;
   ForceMeans alarmMeans_;

@@ -18,43 +18,53 @@ namespace {
 constexpr double kGreatestShift = 0.1; ///< in a step [spacings]
 } // namespace
 
-Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec)
+Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec, const contact::PartitionOptions& ranks)
     : model_(checkedModel(setup)), constants_(fluidConstants(setup)), exec_(exec),
-      surfaceDivergence_(setup.surfaceDivergence),
+      surfaceDivergence_(setup.surfaceDivergence), comm_(ranks.comm), rebalances_(ranks.rebalance),
+      particles_(setup.particles.size()),
       lists_(
           exec,
           static_cast<std::int64_t>(std::ceil((model_.kernel().support() + model_.skin()) * constants_.scale.perMetre)),
           constants_.period),
       fixedMarkers_(static_cast<std::uint32_t>(setup.markers.size())), body_(exec, setup.bodies.size()),
       bodyLoad_(exec, setup.bodies.size()), flags_(exec, 1) {
-  const std::size_t particles = setup.particles.size();
+  const auto positionOf = [this](const base::Vec3d& at) {
+    return base::fromUnits(constants_.period.wrapped(base::toUnits(constants_.scale.fromMetres(at))));
+  };
+  std::vector<base::Position> everywhere;
+  for (const FluidParticle& p : setup.particles) everywhere.push_back(positionOf(p.position));
+  const std::vector<std::uint32_t> mine = divide(everywhere, ranks);
+  const std::size_t particles = slots_ = mine.size();
   std::vector<base::Position> position;
   std::vector<base::Vec4f> motion;
   std::vector<PreciseMotion> precise;
   position.reserve(particles), motion.reserve(particles), precise.reserve(particles);
-  const auto place = [&](const base::Vec3d& at, const base::Vec3d& velocity, double compression) {
-    const base::Vec3l units = base::toUnits(constants_.scale.fromMetres(at));
-    position.push_back(base::fromUnits(constants_.period.wrapped(units)));
+  const auto place = [&](const base::Position& at, const base::Vec3d& velocity, double compression) {
+    position.push_back(at);
     const base::Vec3f v = velocity.as<float>();
     motion.push_back({v.x, v.y, v.z, static_cast<float>(compression)});
   };
-  for (const FluidParticle& p : setup.particles) {
-    place(p.position, p.velocity, p.compression);
+  for (const std::uint32_t i : mine) {
+    const FluidParticle& p = setup.particles[i];
+    place(everywhere[i], p.velocity, p.compression);
     precise.push_back({p.velocity, p.compression});
   }
-  for (const WallMarker& m : setup.markers) place(m.position, m.velocity, 0);
+  for (const WallMarker& m : setup.markers) place(positionOf(m.position), m.velocity, 0);
   std::vector<std::uint32_t> bodyOf;
+  std::vector<float> bodyContact;
   std::vector<base::Vec3d> bodyPoint;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const FluidBody& body = setup.bodies[b];
+    bodyContact.push_back(body.touches ? 0.0F : constants_.contact);
     bodyName_.push_back(body.name), bodyReach_.push_back(0), body_.host()[b] = body.start;
     for (const base::Vec3d& p : body.markers) {
-      place(body.start.pose.toWorld(p), {}, 0);
+      place(positionOf(body.start.pose.toWorld(p)), {}, 0);
       bodyOf.push_back(static_cast<std::uint32_t>(b)), bodyPoint.push_back(p);
       bodyReach_[b] = std::max(bodyReach_[b], norm(p));
     }
   }
   bodyOf_ = base::Array(exec, bodyOf), bodyPoint_ = base::Array(exec, bodyPoint);
+  bodyContact_ = base::Array(exec, bodyContact);
   const std::size_t markers = setup.markers.size() + bodyPoint.size();
   position_ = base::Array(exec, position), motion_ = base::Array(exec, motion), precise_ = base::Array(exec, precise);
   reference_ = base::Array<base::Position>(exec, particles);
@@ -65,15 +75,16 @@ Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec)
   shift_ = base::Array<base::Vec3d>(exec, shifted), divergence_ = base::Array<float>(exec, shifted);
   ghostVelocity_ = base::Array<base::Vec3f>(exec, model_.viscosity > 0 ? markers : 0);
   markerForce_ = base::Array<base::Vec3l>(exec, markers);
-  id_ = base::Array<std::uint32_t>(exec, particles);
-  base::iota(exec, id_.data(), particles);
+  id_ = base::Array(exec, mine);
   body_.upload();
   placeBodies(0);
   rebuild();
   computeForces();
   losses_.zero();
+  *flags_.host() = {kNoFault, 0, 0};
   bodyLoad_.download();
   base::synchronize(exec_);
+  agree();
 }
 
 namespace {
@@ -88,18 +99,22 @@ FluidSetup withParticles(FluidSetup setup, const FluidState& state) {
 }
 } // namespace
 
-Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec)
-    : Fluid(withParticles(setup, state), exec) {
+Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec,
+             const contact::PartitionOptions& ranks)
+    : Fluid(withParticles(setup, state), exec, ranks) {
   steps_ = state.steps;
   if (state.bodyLoads.size() != 2 * bodyLoad_.size())
     throw base::InputError("the state is of a fluid with other bodies; resume with the scene that was run");
   // Forces are those at the velocities of the middle of the last step.
-  std::vector<Losses> losses(particles());
-  std::vector<base::Vec3l> force(particles());
-  const std::vector<std::uint32_t> slot = slotsById();
-  for (std::size_t k = 0; k < losses.size(); ++k) {
-    losses[slot[k]] = state.particles[k].losses;
-    force[slot[k]] = constants_.acceleration.quantise(state.particles[k].acceleration);
+  std::vector<Losses> losses(slots_);
+  std::vector<base::Vec3l> force(slots_);
+  const std::vector<std::uint32_t> id = id_.toHost(),
+                                   ghost = subdomain_ ? base::toHost(exec_, subdomain_->ghostMarks(), slots_)
+                                                      : std::vector<std::uint32_t>(slots_);
+  for (std::size_t i = 0; i < slots_; ++i) {
+    if (ghost[i]) continue;
+    losses[i] = state.particles[id[i]].losses;
+    force[i] = constants_.acceleration.quantise(state.particles[id[i]].acceleration);
   }
   losses_.assign(losses), force_.assign(force);
   for (std::size_t b = 0; b < bodyLoad_.size(); ++b)
@@ -107,13 +122,13 @@ Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec&
 }
 
 FluidState Fluid::save() const {
-  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
-  const std::vector<PreciseMotion> precise = precise_.toHost();
-  const std::vector<Losses> losses = losses_.toHost();
-  const std::vector<base::Vec3l> force = force_.toHost();
+  const std::vector<base::Position> position = byId(position_);
+  const std::vector<PreciseMotion> precise = byId(precise_);
+  const std::vector<Losses> losses = byId(losses_);
+  const std::vector<base::Vec3l> force = byId(force_);
   FluidState state{steps_, {}, {}};
   state.particles.reserve(particles());
-  for (const std::uint32_t i : slotsById())
+  for (std::size_t i = 0; i < particles_; ++i)
     state.particles.push_back({constants_.scale.toMetres(position[i]), precise[i].velocity, precise[i].compression,
                                constants_.acceleration.value(force[i]), losses[i]});
   for (std::size_t b = 0; b < bodyLoad_.size(); ++b)
@@ -126,7 +141,7 @@ FluidView Fluid::view() {
           model_.timeStep,
           model_.gravity,
           model_.attraction,
-          static_cast<std::uint32_t>(particles()),
+          static_cast<std::uint32_t>(slots_),
           position_.data(),
           motion_.data(),
           precise_.data(),
@@ -142,26 +157,30 @@ FluidView Fluid::view() {
           fixedMarkers_,
           body_.device().data(),
           bodyOf_.data(),
+          bodyContact_.data(),
           bodyPoint_.data(),
           bodyLoad_.device().data(),
           lists_.rows(),
-          flags_.device().data()};
+          flags_.device().data(),
+          subdomain_ ? subdomain_->ghostMarks() : nullptr};
 }
 
 template <class T> void Fluid::permute(base::Array<T>& array) {
   if (array.empty()) return;
-  auto sorted = base::Array<T>::unset(exec_, particles());
-  base::forEach(exec_, "sort fluid", static_cast<std::int64_t>(particles()),
+  auto sorted = base::Array<T>::unset(exec_, slots_);
+  base::forEach(exec_, "sort fluid", static_cast<std::int64_t>(slots_),
                 base::Gather<T>{lists_.order(), array.data(), sorted.data()});
-  base::copyOnDevice(exec_, array.data(), sorted.data(), particles() * sizeof(T));
+  base::copyOnDevice(exec_, array.data(), sorted.data(), slots_ * sizeof(T));
 }
 
 void Fluid::rebuild() {
-  lists_.sort(position_.data(), particles(), markers());
+  if (subdomain_) migrate();
+  lists_.sort(position_.data(), slots_, markers());
   permute(position_), permute(motion_), permute(precise_), permute(force_), permute(losses_), permute(id_);
-  lists_.build(position_.data());
+  if (subdomain_) subdomain_->sorted(lists_.order(), slots_);
+  lists_.build(position_.data(), subdomain_ ? subdomain_->ghostMarks() : nullptr);
   markerForce_.zero(); // markers without fluid neighbours are not computed
-  base::copyOnDevice(exec_, reference_.data(), position_.data(), particles() * sizeof(base::Position));
+  base::copyOnDevice(exec_, reference_.data(), position_.data(), slots_ * sizeof(base::Position));
   listEnded_ = false, bodiesMoved_ = 0;
   ++rebuilds_;
 }
@@ -189,7 +208,7 @@ void Fluid::advanceBodies(const std::vector<BodyMotion>& bodies) {
 }
 
 void Fluid::computeContinuity() {
-  const auto n = static_cast<std::int64_t>(particles());
+  const auto n = static_cast<std::int64_t>(slots_);
   if (model_.shifting > 0)
     base::forEach(exec_, "continuity and shifting", n, Continuity<true>{view()});
   else
@@ -199,31 +218,35 @@ void Fluid::computeContinuity() {
 void Fluid::computeForces() {
   const base::Array<std::uint32_t>& wet = lists_.wetMarkers();
   base::forEach(exec_, "wall pressures", static_cast<std::int64_t>(wet.size()), Extrapolate{view(), wet.data()});
-  base::forEach(exec_, "store stress", static_cast<std::int64_t>(particles()), StoreStress{view()});
-  base::forEach(exec_, "fluid forces", static_cast<std::int64_t>(particles()), Force{view()});
+  base::forEach(exec_, "store stress", static_cast<std::int64_t>(slots_), StoreStress{view()});
+  base::forEach(exec_, "fluid forces", static_cast<std::int64_t>(slots_), Force{view()});
   bodyLoad_.device().zero();
   base::forEach(exec_, "wall forces", static_cast<std::int64_t>(wet.size()),
                 WallForce{view(), wet.data(), 1 / model_.spacing});
 }
 
 void Fluid::step(const std::vector<BodyMotion>& bodies) {
-  const auto n = static_cast<std::int64_t>(particles());
   advanceBodies(bodies);
+  const auto n = static_cast<std::int64_t>(slots_);
   *flags_.host() = {kNoFault, 0, 0};
   flags_.upload();
   const double skin = model_.skin(), shiftFactor = model_.shifting * model_.kernel().length() * model_.timeStep;
   const double greatestShift = model_.shifting > 0 ? kGreatestShift * model_.spacing : 0.0;
   base::forEach(exec_, "fluid kick", n, Kick{view()});
   base::forEach(exec_, "fluid drift", n, Drift{view()});
+  agreeOnSpeed();
   placeBodies(0.5 * model_.timeStep);
+  updateGhosts();
   computeContinuity();
   placeBodies(0);
   base::forEach(exec_, "fluid compression and drift", n,
                 CompressAndDrift{view(), skin, shiftFactor, greatestShift, surfaceDivergence_});
+  updateGhosts();
   computeForces();
   base::forEach(exec_, "fluid kick", n, Kick{view(), 0.5 * skin - greatestShift});
   flags_.download(), bodyLoad_.download();
   base::synchronize(exec_);
+  agree();
   ++steps_;
   checkFlags();
 }
@@ -240,9 +263,11 @@ void Fluid::checkFlags() {
 }
 
 std::vector<base::Vec3d> Fluid::markerForces() const {
+  std::vector<base::Vec3l> quanta = markerForce_.toHost();
+  if (subdomain_) comm_.sum(&quanta.data()->x, 3 * quanta.size());
   std::vector<base::Vec3d> forces;
   forces.reserve(markers());
-  for (const base::Vec3l& f : markerForce_.toHost()) forces.push_back(constants_.acceleration.value(f) * model_.mass());
+  for (const base::Vec3l& f : quanta) forces.push_back(constants_.acceleration.value(f) * model_.mass());
   return forces;
 }
 
@@ -260,62 +285,33 @@ std::vector<BodyLoad> Fluid::bodyLoads() const {
 
 base::Vec3l Fluid::forceBalance() const {
   base::Vec3l sum{};
-  for (const base::Vec3l& f : force_.toHost()) sum += f;
-  for (const base::Vec3l& f : markerForce_.toHost()) sum += f;
+  for (const base::Vec3l& f : byId(force_)) sum += f;
+  base::Vec3l ofMarkers{};
+  for (const base::Vec3l& f : markerForce_.toHost()) ofMarkers += f;
+  comm_.sum(&ofMarkers.x, 3);
+  sum += ofMarkers;
   return sum;
 }
 
-std::vector<std::uint32_t> Fluid::slotsById() const {
-  const std::vector<std::uint32_t> id = id_.toHost();
-  std::vector<std::uint32_t> slots(id.size());
-  for (std::size_t i = 0; i < id.size(); ++i) slots[id[i]] = static_cast<std::uint32_t>(i);
-  return slots;
-}
-
 FluidSnapshot Fluid::snapshot() const {
-  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
-  const std::vector<PreciseMotion> precise = precise_.toHost();
   FluidSnapshot s;
-  for (const std::uint32_t i : slotsById()) {
-    s.position.push_back(constants_.scale.toMetres(position[i]));
-    s.velocity.push_back(precise[i].velocity);
-    s.compression.push_back(precise[i].compression);
-  }
+  for (const base::Position& p : byId(position_)) s.position.push_back(constants_.scale.toMetres(p));
+  for (const PreciseMotion& m : byId(precise_))
+    s.velocity.push_back(m.velocity), s.compression.push_back(m.compression);
   return s;
 }
 
-FluidTotals Fluid::totals() const {
-  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
-  const std::vector<PreciseMotion> precise = precise_.toHost();
-  const std::vector<Losses> losses = losses_.toHost();
-  FluidTotals t;
-  for (const std::uint32_t i : slotsById()) { // in one order, since sums are rounded
-    const base::Vec3d &v = precise[i].velocity, r = constants_.scale.toMetres(position[i]);
-    t.kinetic += 0.5 * norm2(v);
-    t.potential += 0.5 * model_.attraction * norm2(r) - dot(model_.gravity, r);
-    t.internal += internalEnergyAt(model_, precise[i].compression);
-    t.viscousLoss += losses[i].viscous, t.diffusionLoss += losses[i].diffusion, t.wallLoss += losses[i].wall;
-    t.momentum += v;
-    t.fastest = std::max(t.fastest, norm(v));
-  }
-  const double mass = model_.mass();
-  for (double* e : {&t.kinetic, &t.potential, &t.internal, &t.viscousLoss, &t.diffusionLoss, &t.wallLoss}) *e *= mass;
-  t.momentum *= mass;
-  for (const base::Vec3d& f : markerForces()) t.wallForce += f;
-  return t;
-}
-
 std::uint64_t Fluid::hash() const {
-  const std::vector<base::Position> position = base::toHost(exec_, position_.data(), particles());
-  const std::vector<PreciseMotion> precise = precise_.toHost();
-  const std::vector<base::Vec3l> force = force_.toHost();
+  const std::vector<base::Position> position = byId(position_);
+  const std::vector<PreciseMotion> precise = byId(precise_);
+  const std::vector<base::Vec3l> force = byId(force_);
   base::StateHash hash;
   const auto add = [&hash](const auto& record) {
     std::uint64_t words[sizeof record / 8];
     std::memcpy(words, &record, sizeof record);
     for (const std::uint64_t w : words) hash.add(w);
   };
-  for (const std::uint32_t i : slotsById()) add(position[i]), add(precise[i]), add(force[i]);
+  for (std::size_t i = 0; i < particles_; ++i) add(position[i]), add(precise[i]), add(force[i]);
   return hash.value();
 }
 

@@ -2,13 +2,16 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/comm.hpp"
 #include "base/exec.hpp"
+#include "contact/subdomain.hpp"
 #include "fluid/fluid_lists.hpp"
 #include "fluid/fluid_setup.hpp"
 #include "fluid/fluid_state.hpp"
 #include "fluid/fluid_view.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace grouser::fluid {
@@ -34,14 +37,18 @@ struct FluidSnapshot {
 ///
 /// A step: half a kick; half a drift; compression from the velocities at mid-step; half a drift; pressures of the
 /// walls; forces; half a kick. Second order in time, but for diffusion, which is of first order. The
-/// state is the same on any device and number of threads.
+/// state is the same on any device and number of threads and ranks.
+///
+/// On several ranks each integrates the particles of its subdomain, and sends those near a border to others twice a
+/// step. All ranks have all markers and bodies, and call everything here alike.
 class Fluid {
 public:
   /// Throws InputError for values out of range.
-  Fluid(const FluidSetup& setup, const base::Exec& exec);
+  Fluid(const FluidSetup& setup, const base::Exec& exec, const contact::PartitionOptions& ranks = {});
   /// Goes on from save(), with the bodies as `setup` has them now. Throws InputError where the state is of another
   /// fluid.
-  Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec);
+  Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec,
+        const contact::PartitionOptions& ranks = {});
   FluidState save() const;
 
   /// `bodies`: motion of each over this step. Throws SimulationError where a particle is faster, more compressed or
@@ -51,9 +58,9 @@ public:
   double time() const { return static_cast<double>(steps_) * model_.timeStep; } ///< [s]
 
   const FluidModel& model() const { return model_; }
-  std::size_t particles() const { return id_.size(); }
+  std::size_t particles() const { return particles_; } ///< of all ranks
   std::size_t markers() const { return markerForce_.size(); }
-  FluidTotals totals() const;
+  FluidTotals totals();
   FluidSnapshot snapshot() const;
   /// State hash, the same on every device.
   std::uint64_t hash() const;
@@ -69,13 +76,22 @@ public:
   /// Exact sum of the forces between particles and from walls, in quanta: zero.
   base::Vec3l forceBalance() const;
   std::int64_t rebuilds() const { return rebuilds_; } ///< neighbour lists made since the start
+  std::int64_t bytesSent() const;                     ///< by this rank since the start
 
 private:
   FluidView view();
   void placeBodies(double before);
   void advanceBodies(const std::vector<BodyMotion>& bodies);
   void rebuild();
-  std::vector<std::uint32_t> slotsById() const;
+  std::vector<std::uint32_t> divide(const std::vector<base::Position>& positions,
+                                    const contact::PartitionOptions& ranks);
+  template <class Visit> void eachOwned(const Visit& visit);
+  void migrate();
+  void updateGhosts();
+  void agreeOnSpeed();
+  void agree();
+  /// Records of all particles in the order of FluidSetup, on every rank.
+  template <class T> std::vector<T> byId(const base::Array<T>& array) const;
   template <class T> void permute(base::Array<T>& array);
   void computeForces();
   void computeContinuity();
@@ -85,6 +101,10 @@ private:
   FluidConstants constants_;
   base::Exec exec_;
   double surfaceDivergence_;
+  base::Comm comm_;
+  bool rebalances_;
+  std::unique_ptr<contact::Subdomain> subdomain_; ///< null on one rank
+  std::size_t particles_, slots_{0};              ///< of all ranks; of this one with its ghosts
   FluidLists lists_;
   base::Array<base::Position> position_, reference_;
   base::Array<base::Vec4f> motion_;
@@ -102,6 +122,7 @@ private:
   double bodiesMoved_{0};         ///< upper bound since the lists were made [m]
   base::Mirrored<BodyMotion> body_;
   base::Array<std::uint32_t> bodyOf_;
+  base::Array<float> bodyContact_;
   base::Array<base::Vec3d> bodyPoint_;
   base::Mirrored<BodyLoadQuanta> bodyLoad_;
   base::Array<std::uint32_t> id_;

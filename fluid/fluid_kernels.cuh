@@ -107,6 +107,7 @@ struct Kick {
   FluidView f;
   double greatestMove = 0;
   GROUSER_HD void operator()(int i) const {
+    if (f.isGhost(i)) return;
     PreciseMotion& m = f.precise[i];
     const base::Vec3d half = 0.5 * f.timeStep * accelerationOf(f, i);
     m.velocity += half;
@@ -155,7 +156,9 @@ GROUSER_HD void setPosition(const FluidView& f, std::uint32_t i, const base::Vec
 struct Drift {
   static constexpr double kNanoseconds = 20;
   FluidView f;
-  GROUSER_HD void operator()(int i) const { moveBy(f, i, 0.5 * f.timeStep * f.precise[i].velocity); }
+  GROUSER_HD void operator()(int i) const {
+    if (!f.isGhost(i)) moveBy(f, i, 0.5 * f.timeStep * f.precise[i].velocity);
+  }
 };
 
 /// Adds the change of compression, then r += v dt/2 and shifting.
@@ -168,6 +171,7 @@ struct CompressAndDrift {
   double leastDivergence; ///< no shifting below it [-]
 
   GROUSER_HD void operator()(int i) const {
+    if (f.isGhost(i)) return;
     addCompression(i);
     base::Vec3d move = 0.5 * f.timeStep * f.precise[i].velocity;
     if (f.shift && f.divergence[i] > leastDivergence) move += shiftOf(i);
@@ -181,10 +185,17 @@ private:
     const CompressionChange change = f.change[i];
     const double mean = compression + 0.5 * (change.flow + change.diffusion);
     compression += change.flow + change.diffusion;
+    if (change.limit < kGreatestCompression) limitCompression(i, change.limit);
     // Internal energy by diffusion: p/rho^2 drho.
     f.losses[i].diffusion -= static_cast<double>(f.constants.sound2) * stress(mean) * change.diffusion;
     f.motion[i].w = static_cast<float>(compression);
     if (!(fabs(compression) < kGreatestCompression)) raiseFault(f.flags, FluidFault::compression, f.id[i]);
+  }
+  GROUSER_HD void limitCompression(int i, double limit) const {
+    double& compression = f.precise[i].compression;
+    const double within = compression > limit ? limit : compression < -limit ? -limit : compression;
+    f.losses[i].wall += static_cast<double>(f.constants.sound2) * stress(within) * (compression - within);
+    compression = within;
   }
   GROUSER_HD base::Vec3d shiftOf(int i) const {
     const double speed = sqrt(static_cast<double>(base::bitsAs<float>(f.flags->fastest)));
@@ -201,6 +212,7 @@ template <bool kShifts> struct Continuity {
   FluidView f;
 
   GROUSER_HD void operator()(int i) const {
+    if (f.isGhost(i)) return;
     const FluidConstants& k = f.constants;
     const base::Vec4f own = f.motion[i];
     const auto perRate = static_cast<float>(k.rate.perUnit);
@@ -216,8 +228,14 @@ template <bool kShifts> struct Continuity {
       both(pair, other, slope);
       diffusion += rounded(k.diffusion * slope * excess * perRate);
     });
-    eachMarkerNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) { both(pair, f.motion[j], pair.slope(k)); });
-    f.change[i] = {f.timeStep * k.rate.value(flow), f.timeStep * k.rate.value(diffusion)};
+    const float beside = 1.5f * k.contact * k.perLength;
+    bool pinched = false;
+    eachMarkerNeighbour(f, i, [&](const Pair& pair, std::uint32_t j) {
+      both(pair, f.motion[j], pair.slope(k));
+      if (pair.q < beside) pinched |= f.contactOf(j - f.particles) < k.contact;
+    });
+    f.change[i] = {f.timeStep * k.rate.value(flow), f.timeStep * k.rate.value(diffusion),
+                   pinched ? kPinchedCompression : kGreatestCompression};
     if constexpr (kShifts) {
       f.divergence[i] = static_cast<float>(k.divergence.value(divergence));
       f.shift[i] = k.gradient.value(gradient);
@@ -275,7 +293,7 @@ struct Extrapolate {
 
 private:
   GROUSER_HD base::Vec3d markerAcceleration(std::uint32_t m) const {
-    if (m < f.fixedMarkers) return {};
+    if (m < f.fixedMarkers || f.contactOf(m) == 0) return {};
     const std::uint32_t n = m - f.fixedMarkers;
     const BodyMotion& body = f.body[f.bodyOf[n]];
     const base::Vec3d arm = armOf(f, n);
@@ -326,13 +344,15 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   return force;
 }
 
-/// Acceleration of a particle by a marker that is nearer than k.contact [m/s2], from the potential 3 c^2 (1 -
-/// r/contact)^2: walls let nothing pass where the fluid's own pressure is small, as in thin jets. The barrier between
+/// Acceleration of a particle by a marker that is nearer than its contact range [m/s2], from the potential 3 c^2 (1 -
+/// r/range)^2: walls let nothing pass where the fluid's own pressure is small, as in thin jets. The barrier between
 /// markers is 0.34 c^2 in three dimensions, 0.49 c^2 in two, above the 0.3 c^2 of fluid at the greatest compression.
-GROUSER_HD base::Vec3f contactForce(const FluidConstants& k, const Pair& pair) {
+GROUSER_HD base::Vec3f contactForce(const FluidView& f, const Pair& pair, std::uint32_t marker) {
+  const FluidConstants& k = f.constants;
   const float r = pair.q / k.perLength;
   if (r >= k.contact || r == 0) return {};
-  return pair.d * (6 * k.sound2 * (k.contact - r) / (k.contact * k.contact * r));
+  const float range = f.contactOf(marker);
+  return r >= range ? base::Vec3f{} : pair.d * (6 * k.sound2 * (range - r) / (range * range * r));
 }
 
 /// Sums of the accelerations of a particle: of all pairs, of viscous forces, and of the pressure of markers.
@@ -341,6 +361,7 @@ struct Force {
   FluidView f;
 
   GROUSER_HD void operator()(int i) const {
+    if (f.isGhost(i)) return;
     const FluidConstants& k = f.constants;
     const base::Vec4f own = f.motion[i];
     const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
@@ -360,7 +381,8 @@ struct Force {
       const base::Vec3f slip = f.ghostVelocity ? own.xyz() - f.ghostVelocity[j - f.particles] : base::Vec3f{};
       const PairForce force = pairForce(k, pair, own, other, slip, false);
       add(force);
-      const base::Vec3f push = pair.d * (-k.sound2 * other.w * pair.slope(k)), contact = contactForce(k, pair);
+      const base::Vec3f push = pair.d * (-k.sound2 * other.w * pair.slope(k)),
+                        contact = contactForce(f, pair, j - f.particles);
       const base::Vec3l repelled = roundedLong(contact * perAcceleration);
       sum += repelled;
       wall += roundedVector(push * perAcceleration) + repelled;
@@ -379,6 +401,7 @@ struct Force {
 };
 
 /// Force of the fluid on a marker: the integers of Force with opposite sign. Markers of bodies add it to the load.
+/// Torques are rounded for each pair, so that ranks may share the pairs of a marker.
 struct WallForce {
   static constexpr double kNanoseconds = 500;
   FluidView f;
@@ -391,28 +414,30 @@ struct WallForce {
     const auto slot = static_cast<int>(f.particles + m);
     const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
     const base::Vec4f own = f.motion[slot];
-    base::Vec3l sum{};
+    const bool ofBody = m >= f.fixedMarkers;
+    const base::Vec3d arm = ofBody ? armOf(f, m - f.fixedMarkers) * perSpacing : base::Vec3d{};
+    BodyLoadQuanta sum{};
     eachFluidNeighbour(f, slot, [&](const Pair& pair, std::uint32_t j) {
+      if (f.isGhost(j)) return; // another rank adds it
       const base::Vec4f other = f.motion[j];
       const base::Vec3f slip = f.ghostVelocity ? f.ghostVelocity[m] - other.xyz() : base::Vec3f{};
       const PairForce force = pairForce(k, pair, own, other, slip, false);
-      sum += roundedVector((force.pressure + force.viscous) * perAcceleration) +
-             roundedLong(contactForce(k, pair) * perAcceleration);
+      const base::Vec3l quanta = roundedVector((force.pressure + force.viscous) * perAcceleration) +
+                                 roundedLong(contactForce(f, pair, m) * perAcceleration);
+      sum.force += quanta;
+      if (ofBody) sum.torque += wholeVector(cross(arm, quanta.as<double>()));
     });
-    f.markerForce[m] = sum;
-    if (m >= f.fixedMarkers) addToBody(m - f.fixedMarkers, sum);
+    f.markerForce[m] = sum.force;
+    if (!ofBody) return;
+    BodyLoadQuanta& load = f.bodyLoad[f.bodyOf[m - f.fixedMarkers]];
+    for (int a = 0; a < 3; ++a)
+      base::atomicAdd64(&load.force[a], sum.force[a]), base::atomicAdd64(&load.torque[a], sum.torque[a]);
   }
 
 private:
-  GROUSER_HD void addToBody(std::uint32_t n, const base::Vec3l& sum) const {
-    const std::uint32_t body = f.bodyOf[n];
-    const base::Vec3d arm = armOf(f, n) * perSpacing;
-    const base::Vec3d moment = cross(arm, sum.as<double>());
+  GROUSER_HD static base::Vec3l wholeVector(const base::Vec3d& v) {
     const auto whole = [](double x) { return static_cast<std::int64_t>(floor(x + 0.5)); };
-    const base::Vec3l torque{whole(moment.x), whole(moment.y), whole(moment.z)};
-    BodyLoadQuanta& load = f.bodyLoad[body];
-    for (int a = 0; a < 3; ++a)
-      base::atomicAdd64(&load.force[a], sum[a]), base::atomicAdd64(&load.torque[a], torque[a]);
+    return {whole(v.x), whole(v.y), whole(v.z)};
   }
 };
 

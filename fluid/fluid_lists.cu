@@ -22,9 +22,11 @@ struct CountPoints {
   static constexpr double kNanoseconds = 2000;
   NearSpheres particles, markers;
   int particleCount;
+  const std::uint32_t* ghost; ///< [particleCount], or null
   std::uint32_t *count, *fluidCount;
   GROUSER_HD void operator()(int i) const {
     std::uint32_t fluid = 0, wall = 0;
+    if (i < particleCount && ghost && ghost[i]) return void(fluidCount[i] = count[i] = 0);
     particles.each(i, [&fluid](std::uint32_t) { ++fluid; });
     if (i < particleCount) markers.each(i, [&wall](std::uint32_t) { ++wall; });
     fluidCount[i] = fluid, count[i] = fluid + wall;
@@ -35,9 +37,11 @@ struct ListPoints {
   static constexpr double kNanoseconds = 2500;
   NearSpheres particles, markers;
   int particleCount;
+  const std::uint32_t* ghost; ///< as above
   contact::NeighbourRows rows;
   std::uint32_t* slot;
   GROUSER_HD void operator()(int i) const {
+    if (i < particleCount && ghost && ghost[i]) return;
     std::uint32_t filled = 0;
     const auto add = [&](std::uint32_t j) { slot[rows.at(i, filled++)] = j; };
     particles.each(i, add);
@@ -60,7 +64,7 @@ void FluidLists::sort(const base::Position* position, std::size_t particles, std
                 AddOffset{markerSlot_.data(), static_cast<std::uint32_t>(particles)});
 }
 
-void FluidLists::build(const base::Position* position) {
+void FluidLists::build(const base::Position* position, const std::uint32_t* ghost) {
   const std::size_t all = particles_ + markers_;
   const auto n = static_cast<std::int64_t>(all);
   const auto particleCount = static_cast<int>(particles_);
@@ -69,13 +73,13 @@ void FluidLists::build(const base::Position* position) {
   markers.cellStart = markerCellStart_.data(), markers.slotAt = markerSlot_.data();
   count_.resize(all), fluidCount_.resize(all);
   base::forEach(exec_, "count fluid neighbours", n,
-                CountPoints{particles, markers, particleCount, count_.data(), fluidCount_.data()});
+                CountPoints{particles, markers, particleCount, ghost, count_.data(), fluidCount_.data()});
   const contact::RowLayout layout = contact::layRows(exec_, count_, start_);
   stride_ = layout.stride;
   const std::size_t places = layout.places;
   if (places > slot_.size()) slot_.resize(places + places / 32);
   base::forEach(exec_, "list fluid neighbours", n,
-                ListPoints{particles, markers, particleCount, {start_.data(), stride_}, slot_.data()});
+                ListPoints{particles, markers, particleCount, ghost, {start_.data(), stride_}, slot_.data()});
   base::listMarked(exec_, count_.data() + particles_, markers_, wet_);
 }
 

@@ -20,8 +20,9 @@ public:
   /// Sorts the particles in space, which stand before the markers in `position`: slot i takes what order()[i] held.
   void sort(const base::Position* position, std::size_t particles, std::size_t markers);
   const std::uint32_t* order() const { return order_.data(); }
-  /// Lists the neighbours of particles that were permuted by order().
-  void build(const base::Position* position);
+  /// Lists the neighbours of particles that were permuted by order(), but those of ghosts (marks; null without).
+  void build(const base::Position* position, const std::uint32_t* ghost);
+  std::int64_t reach() const { return reach_; } ///< [units]
 
   FluidRows rows() const;
   /// Markers with a fluid neighbour.

@@ -35,12 +35,4 @@ double compressionAt(const FluidModel& model, double pressure) {
   return pressure / (model.density * model.soundSpeed * model.soundSpeed);
 }
 
-double internalEnergyAt(const FluidModel& model, double compression) {
-  // -ln(1 - u) - u with u = s/(1 + s), by its series: the closed form cancels for small u.
-  const double u = compression / (1 + compression);
-  double sum = 0;
-  for (int n = 18; n >= 2; --n) sum = sum * u + 1.0 / n;
-  return model.soundSpeed * model.soundSpeed * u * u * sum;
-}
-
 } // namespace grouser::fluid

@@ -37,6 +37,9 @@ struct FluidModel {
 /// A compression beyond this, of either sign, is a fault: integer sums are scaled for it [-]. Jets that hit a wall at v
 /// are compressed by v/c, more than the 1 % of the flow.
 inline constexpr double kGreatestCompression = 0.3;
+/// Beside bodies that touch others compression goes no farther than this, twice that of the flow; what flow would add
+/// is a loss to walls [-].
+inline constexpr double kPinchedCompression = 0.02;
 
 /// Largest sound time steps of an explicit scheme, each by one cause [s].
 struct StepLimits {
@@ -55,7 +58,13 @@ double soundSpeedFor(double speed, double pressure, double density);
 /// Pressure [Pa] at a compression [-], and the inverse.
 double pressureAt(const FluidModel& model, double compression);
 double compressionAt(const FluidModel& model, double pressure);
-/// Energy of compression per mass, c^2 (ln(1 + s) + 1/(1 + s) - 1) [J/kg].
-double internalEnergyAt(const FluidModel& model, double compression);
+/// Energy of compression per mass, c^2 (ln(1 + s) + 1/(1 + s) - 1) [J/kg], of c^2 `sound2` [m2/s2].
+GROUSER_HD double internalEnergy(double sound2, double compression) {
+  // -ln(1 - u) - u with u = s/(1 + s), by its series: the closed form cancels for small u.
+  const double u = compression / (1 + compression);
+  double sum = 0;
+  for (int n = 18; n >= 2; --n) sum = sum * u + 1.0 / n;
+  return sound2 * u * u * sum;
+}
 
 } // namespace grouser::fluid

@@ -28,6 +28,7 @@ struct AddToPoints {
   int points;
   PointSums* sums; ///< [points]
   GROUSER_HD void operator()(int i) const {
+    if (f.isGhost(i)) return;
     const FluidConstants& k = f.constants;
     for (int p = 0; p < points; ++p) {
       const Pair pair = pairWith(f, i, point[p]);
@@ -51,6 +52,7 @@ struct AddToLines {
   std::int64_t gap;        ///< between those [units]
   std::int64_t* sums;      ///< [lines, places]
   GROUSER_HD void operator()(int i) const {
+    if (f.isGhost(i)) return;
     const FluidConstants& k = f.constants;
     const std::int64_t z = base::toUnits(f.position[i]).z;
     const auto reach = static_cast<std::int64_t>(2 / (k.perLength * k.metresPerUnit));
@@ -79,11 +81,14 @@ std::vector<double> Fluid::pressuresAt(const std::vector<base::Vec3d>& points) {
   for (const base::Vec3d& p : points) places.push_back(unitsOf(constants_, p));
   const base::Array<base::Vec3l> place(exec_, places);
   base::Array<PointSums> sums(exec_, points.size());
-  base::forEach(exec_, "pressure probes", static_cast<std::int64_t>(particles()),
+  base::forEach(exec_, "pressure probes", static_cast<std::int64_t>(slots_),
                 AddToPoints{view(), place.data(), static_cast<int>(points.size()), sums.data()});
   std::vector<double> pressures;
   const base::Vec3d pull = model_.gravity * (1 / (model_.soundSpeed * model_.soundSpeed));
-  for (const PointSums& s : sums.toHost()) {
+  static_assert(sizeof(PointSums) == 5 * sizeof(std::int64_t));
+  std::vector<PointSums> all = sums.toHost();
+  if (!all.empty()) comm_.sum(&all.front().weight, 5 * all.size());
+  for (const PointSums& s : all) {
     const double weight = constants_.weight.value(s.weight);
     const double rest = constants_.compression.value(s.compression) + dot(pull, constants_.moment.value(s.moment));
     pressures.push_back(weight > 0 ? pressureAt(model_, rest / weight) : 0.0);
@@ -102,9 +107,10 @@ std::vector<double> Fluid::levelsAt(const std::vector<base::Vec3d>& feet, double
   for (const base::Vec3d& p : feet) units.push_back(unitsOf(constants_, p));
   const base::Array<base::Vec3l> foot(exec_, units);
   base::Array<std::int64_t> sums(exec_, feet.size() * static_cast<std::size_t>(places));
-  base::forEach(exec_, "level probes", static_cast<std::int64_t>(particles()),
+  base::forEach(exec_, "level probes", static_cast<std::int64_t>(slots_),
                 AddToLines{view(), foot.data(), static_cast<int>(feet.size()), places, gap, sums.data()});
-  const std::vector<std::int64_t> all = sums.toHost();
+  std::vector<std::int64_t> all = sums.toHost();
+  comm_.sum(all.data(), all.size());
   std::vector<double> levels;
   for (std::size_t n = 0; n < feet.size(); ++n) {
     const std::int64_t* line = all.data() + n * static_cast<std::size_t>(places);

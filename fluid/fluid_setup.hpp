@@ -34,6 +34,11 @@ struct FluidBody {
   std::string name;                 ///< in messages
   std::vector<base::Vec3d> markers; ///< in the body's frame [m]
   BodyMotion start;
+  /// Its surface comes into touch with others, as those of wheels and shoes do. A particle between two surfaces that
+  /// touch is half a spacing from the markers of both, and would be squeezed out at the speed of sound: markers do not
+  /// repel it, their pressure leaves out the body's acceleration, which impacts make noisy, and the compression of
+  /// particles beside them is limited to kPinchedCompression.
+  bool touches = false;
 };
 
 struct FluidSetup {

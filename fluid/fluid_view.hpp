@@ -20,6 +20,7 @@ struct alignas(32) PreciseMotion {
 /// Changes of compression in a step [-]: by flow, and by density diffusion.
 struct CompressionChange {
   double flow, diffusion;
+  double limit; ///< of the compression: of all particles, or of those beside parts that touch [-]
 };
 
 /// Load of the fluid on a body about its frame's origin: exact sums, in quanta of acceleration x particle mass, and of
@@ -65,10 +66,19 @@ struct FluidView {
   std::uint32_t fixedMarkers;      ///< markers of bodies lie behind them
   const BodyMotion* body;          ///< [bodies]
   const std::uint32_t* bodyOf;     ///< [markers of bodies] index of the body
+  const float* bodyContact;        ///< [bodies] distance within which its markers repel [m]; 0 of those that touch
   const base::Vec3d* bodyPoint;    ///< [markers of bodies] place in the body's frame [m]
   BodyLoadQuanta* bodyLoad;        ///< [bodies]
   FluidRows rows;
   FluidFlags* flags;
+  const std::uint32_t* ghost; ///< [particles] not 0 for copies of what another rank integrates; null on one rank
+
+  /// Distance within which a marker repels [m].
+  GROUSER_HD float contactOf(std::uint32_t marker) const {
+    return marker < fixedMarkers ? constants.contact : bodyContact[bodyOf[marker - fixedMarkers]];
+  }
+  GROUSER_HD bool isGhost(std::uint32_t i) const { return ghost && ghost[i] != 0; }
+  GROUSER_HD bool isGhost(int i) const { return isGhost(static_cast<std::uint32_t>(i)); }
 };
 
 } // namespace grouser::fluid

@@ -2,7 +2,9 @@
 #include "fluid/lattice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <unordered_map>
 
 namespace grouser::fluid {
 
@@ -39,6 +41,31 @@ std::vector<FluidParticle> stillFluid(const FluidModel& model, const Distance& d
   Lattice{model.spacing, model.dimensions, origin}.each(low, high, [&](const base::Vec3d& p) {
     if (!(p.z < level) || distance(p) < 0) return;
     particles.push_back({p, {}, compressionAt(model, -model.density * model.gravity.z * (level - p.z))});
+  });
+  return particles;
+}
+
+std::vector<FluidParticle> awayFrom(std::vector<FluidParticle> particles, const std::vector<base::Vec3d>& points,
+                                    double distance) {
+  using Cell = std::array<std::int64_t, 3>;
+  const auto cellOf = [distance](const base::Vec3d& p) {
+    const auto along = [distance](double x) { return static_cast<std::int64_t>(std::floor(x / distance)); };
+    return Cell{along(p.x), along(p.y), along(p.z)};
+  };
+  const auto hash = [](const Cell& c) {
+    return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+  };
+  std::unordered_map<Cell, std::vector<base::Vec3d>, decltype(hash)> cells(points.size(), hash);
+  for (const base::Vec3d& p : points) cells[cellOf(p)].push_back(p);
+  std::erase_if(particles, [&](const FluidParticle& particle) {
+    const Cell own = cellOf(particle.position);
+    for (int n = 0; n < 27; ++n) {
+      const auto found = cells.find({own[0] + n % 3 - 1, own[1] + n / 3 % 3 - 1, own[2] + n / 9 - 1});
+      if (found == cells.end()) continue;
+      for (const base::Vec3d& p : found->second)
+        if (norm2(p - particle.position) < distance * distance) return true;
+    }
+    return false;
   });
   return particles;
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "terrain/grain_distribution.hpp"
 
-#include "base/error.hpp"
 #include "base/for_each.cuh"
-#include "terrain/length_units.hpp"
 
 #include <algorithm>
 #include <stdexcept>
-#include <string>
 
 namespace grouser::terrain {
 
@@ -43,51 +40,13 @@ struct NoteMovedOrigins {
 constexpr double kImbalance = 1.15; // busy time of the busiest rank over the mean, above which cuts are moved [-]
 constexpr std::int64_t kBalanceEvery = 200; // steps, at least
 
-/// The first cuts: as many grains in each slab of an axis as in the others.
-Partition startingPartition(const std::vector<Position>& position, const PartitionOptions& options,
-                            const base::PositionScale& scale) {
-  std::array<int, 3> wanted = options.subdomains;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const int given = static_cast<int>(options.cuts[a].size()) + 1;
-    if (given == 1) continue;
-    if (wanted[a] != 0 && wanted[a] != given)
-      throw base::InputError(std::string("parallel.cuts_") + "xyz"[a] + " gives " + std::to_string(given - 1) +
-                             " planes, which make " + std::to_string(given) +
-                             " subdomains, but parallel.subdomains says " + std::to_string(wanted[a]) +
-                             " along that axis; make them agree");
-    wanted[a] = given;
-  }
-  base::Vec3l low{}, high{};
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const base::Vec3l u = base::toUnits(position[i]);
-    low = i == 0 ? u : base::min(low, u), high = i == 0 ? u : base::max(high, u);
-  }
-  std::array<std::vector<std::int64_t>, 3> weights;
-  std::array<double, 3> size{};
-  for (int a = 0; a < 3; ++a) {
-    const auto k = static_cast<std::size_t>(a);
-    size[k] = static_cast<double>(high[a] - low[a]) + 1;
-    weights[k].resize(kPartitionBins);
-    const std::int64_t width = binWidth(low[a], high[a]);
-    for (const Position& p : position) ++weights[k][static_cast<std::size_t>((base::toUnits(p)[a] - low[a]) / width)];
-  }
-  const Partition chosen(latticeShape(options.comm.size(), size, wanted), low, high, weights);
-  std::array<std::vector<std::int64_t>, 3> cuts;
-  for (int a = 0; a < 3; ++a) {
-    const auto k = static_cast<std::size_t>(a);
-    cuts[k] = chosen.cuts(a);
-    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) cuts[k][c] = unitsOf(options.cuts[k][c], scale);
-  }
-  return Partition(cuts);
-}
-
 } // namespace
 
 GrainDistribution::GrainDistribution(const base::Exec& exec, const PartitionOptions& options, const GrainConstants& c,
                                      const std::vector<Position>& start)
     : exec_(exec), rebalances_(options.rebalance), historyWidth_(c.historyWidth),
       subdomain_(exec, options, c.listRange(), c.period), arrivedRows_(exec) {
-  setPartition(startingPartition(start, options, c.scale));
+  setPartition(contact::startingPartition(start, options, c.scale));
 }
 
 void GrainDistribution::onMigrate(OnMigrate onMigrate) {

@@ -2,13 +2,17 @@
 #pragma once
 
 #include "contact/neighbour_list.hpp"
+#include "contact/subdomain.hpp"
 #include "terrain/grain_boundaries.hpp"
-#include "terrain/subdomain.hpp"
 
 #include <chrono>
 #include <functional>
 
 namespace grouser::terrain {
+
+using contact::Partition;
+using contact::PartitionOptions;
+using contact::Subdomain;
 
 /// The grains on several ranks: migration of those that have crossed a border, ghosts of those near one, and cuts that
 /// follow the work. One rank has none of it. All ranks call everything here that is not marked `local`, in one order.

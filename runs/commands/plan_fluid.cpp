@@ -2,11 +2,14 @@
 #include "base/counted.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/fluid_bodies.hpp"
 #include "runs/setup/fluid_setup.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace grouser::commands {
 
@@ -39,11 +42,21 @@ std::string fluidText(const scene::Scene& scene, double timeStep) {
   const fluid::StepLimits limits = setup::fluidStepLimits(scene);
   line("  steps at most", fmt::format("{:.3g} s for sound, {:.3g} s for gravity{}", limits.sound, limits.force,
                                       m.viscosity > 0 ? fmt::format(", {:.3g} s for viscosity", limits.viscous) : ""));
-  for (const coupling::BodyInFluid& b : setup->bodies)
-    if (b.gain > 1)
-      line("  added mass", fmt::format("up to {:.3g} times that of body {} is that of fluid beside its surface, whose "
-                                       "pressure follows it within {:.0f} steps",
-                                       b.gain, b.body, std::ceil(1 + b.gain)));
+  if (scene.vehicle && scene.fluid->level) {
+    const double volume = setup::StartingBodies(scene).vehicleBelow(*scene.fluid->level, 0.5 * m.spacing);
+    line("  vehicle", fmt::format("displaces {:.4g} m3 below the level: lift at rest {:.4g} N", volume,
+                                  m.density * norm(m.gravity) * volume));
+  }
+  if (setup->stepsPerStep > 1)
+    line("  step", fmt::format("{:.4g} s: {} steps of the run", m.timeStep, setup->stepsPerStep));
+  std::map<std::string, double> gains;
+  for (const coupling::BodyInFluid& b : setup->bodies) gains[b.column] = std::max(gains[b.column], b.gain);
+  for (const auto& [column, gain] : gains)
+    if (gain > 1)
+      line("  added mass",
+           fmt::format("{}: fluid beside the surface has up to {:.3g} times the mass of a body, and its "
+                       "pressure follows it within {:.0f} steps",
+                       column, gain, std::ceil(1 + gain)));
   return text;
 }
 

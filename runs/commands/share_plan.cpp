@@ -3,6 +3,7 @@
 #include "runs/commands/plan.hpp"
 
 #include "base/error.hpp"
+#include "contact/partition.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_count.hpp"
@@ -10,7 +11,6 @@
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/placement.hpp"
-#include "terrain/partition.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +54,7 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
     for (int a = 0; a < 3; ++a) size[static_cast<std::size_t>(a)] = high[a] - low[a] + 2 * radius;
   }
   setup::checkLattice(scene, ranks);
-  const std::array<int, 3> shape = terrain::latticeShape(ranks, size, setup::wantedSubdomains(scene));
+  const std::array<int, 3> shape = contact::latticeShape(ranks, size, setup::wantedSubdomains(scene));
 
   // A slave lies within range beyond a border; an inner subdomain has two borders on each axis that is cut.
   const double range = (2 + scene.run.skin) * radius;

@@ -5,12 +5,12 @@ namespace grouser::output {
 
 FluidReading fluidReading(coupling::FluidDomain& fluid) {
   const fluid::Fluid& f = fluid.fluid();
-  return {fluid.totals(), f.model().mass() * static_cast<double>(f.particles()), fluid.probe(), fluid.bodyLoads(),
+  return {fluid.totals(), f.model().mass() * static_cast<double>(f.particles()), fluid.probe(), fluid.columnLoads(),
           f.rebuilds()};
 }
 
 Columns<FluidReading> fluidColumns(const std::vector<coupling::FluidProbePoint>& probes,
-                                   const std::vector<std::string>& bodies) {
+                                   const std::vector<std::string>& loads) {
   using F = FluidReading;
   Columns<F> c("fluid/");
   c.add("kinetic", "J", "of the fluid", [](const F& f) { return f.totals.kinetic; });
@@ -34,11 +34,16 @@ Columns<FluidReading> fluidColumns(const std::vector<coupling::FluidProbePoint>&
           probes[k].level ? "z of the foot plus wetted length of the wire"
                           : "pressure at the probe; 0 where no particle is near",
           [k](const F& f) { return f.probes[k]; });
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    c.add("bodies/" + bodies[k] + "/force", "N", "of the fluid on the body, in the last step",
-          [k](const F& f) { return f.bodies[k].force; });
-    c.add("bodies/" + bodies[k] + "/torque", "N m", "of the fluid on the body about its centre of mass",
-          [k](const F& f) { return f.bodies[k].torque; });
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const bool track = loads[k].ends_with("_track");
+    c.add(loads[k] + "/force", "N",
+          track ? "of the fluid on the shoes and wheels of the track, in the last step"
+                : "of the fluid on the body, in the last step",
+          [k](const F& f) { return f.loads[k].force; });
+    c.add(loads[k] + "/torque", "N m",
+          track ? "of the fluid on these about the hull's centre of mass"
+                : "of the fluid on the body about its centre of mass",
+          [k](const F& f) { return f.loads[k].torque; });
   }
   return c;
 }

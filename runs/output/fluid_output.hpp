@@ -12,16 +12,16 @@ namespace grouser::output {
 /// Fluid data of one row.
 struct FluidReading {
   fluid::FluidTotals totals;
-  double mass;                         ///< [kg]
-  std::vector<double> probes;          ///< in the order of the scene [Pa], [m]
-  std::vector<fluid::BodyLoad> bodies; ///< [N], [N m]
+  double mass;                        ///< [kg]
+  std::vector<double> probes;         ///< in the order of the scene [Pa], [m]
+  std::vector<fluid::BodyLoad> loads; ///< of each column of FluidDomain [N], [N m]
   std::int64_t rebuilds;
 };
 
 FluidReading fluidReading(coupling::FluidDomain& fluid);
 
-/// `probes`: those of the scene; `bodies`: names of the bodies in the fluid.
+/// `probes`: those of the scene; `loads`: columns of FluidDomain.
 Columns<FluidReading> fluidColumns(const std::vector<coupling::FluidProbePoint>& probes,
-                                   const std::vector<std::string>& bodies);
+                                   const std::vector<std::string>& loads);
 
 } // namespace grouser::output

@@ -86,9 +86,6 @@ void checkNeighbours(const Section& section, const Scene& scene) {
   if (grains || (scene.terrain && scene.terrain->granular()))
     section.fail("", "stands beside grains, whose drag and buoyancy in a fluid are not modelled; remove the grains "
                      "(terrain.kind = \"rigid\"), or [fluid]");
-  if (scene.vehicle)
-    section.fail("", "stands beside a [vehicle], whose hull and tracks no fluid acts on in this version; remove "
-                     "[vehicle], or [fluid]");
   if (scene.deformable())
     section.fail("", "stands beside deformable soil, which water does not change in this program; set terrain.kind = "
                      "\"rigid\", or remove [fluid]");
@@ -119,7 +116,9 @@ void checkTank(const Section& section, const Fluid& fluid, const Scene& scene) {
                  fmt::format("[m] requires tank_{}; give both corners", fluid.tankLow ? "high" : "low"));
   if (!fluid.tankLow && !scene.terrain)
     section.fail("", "has no walls to hold it; give tank_low and tank_high, or a rigid [terrain]");
-  if (fluid.dimensions == 2 && scene.terrain) section.fail("dimensions", "= 2 is for a tank without terrain; use 3");
+  if (fluid.dimensions == 2 && (scene.terrain || scene.vehicle))
+    section.fail("dimensions",
+                 fmt::format("= 2 is for a tank without {}; use 3", scene.terrain ? "terrain" : "vehicle"));
   if (fluid.tankLow)
     checkCorners(section, "tank_high", *fluid.tankLow, *fluid.tankHigh, 4 * fluid.spacing, fluid.dimensions == 2);
   if (fluid.level && fluid.tankLow && !(*fluid.level > fluid.tankLow->z && *fluid.level <= fluid.tankHigh->z))

@@ -59,7 +59,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
     });
   addSurfaces();
   if (coupling::FluidDomain* fluid = coupling::fluidOf(simulation))
-    add(output::fluidColumns(simulation.setup().fluid->probes, fluid->bodyNames()),
+    add(output::fluidColumns(simulation.setup().fluid->probes, fluid->columns()),
         [fluid](const Now&) { return output::fluidReading(*fluid); });
   if (rig && rig->towing())
     add(output::hitchColumns(), [&s = simulation](const Now& now) {

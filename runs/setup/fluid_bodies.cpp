@@ -2,11 +2,18 @@
 #include "runs/setup/fluid_bodies.hpp"
 
 #include "base/math.hpp"
+#include "fluid/lattice.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/bed_options.hpp"
+#include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/vehicle_setup.hpp"
+#include "spheredecomp/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
+#include <map>
 
 namespace grouser::setup {
 
@@ -77,18 +84,30 @@ std::vector<Vec3d> pointsOf(const coupling::BodyShape& s, double spacing, int fl
   return boxPoints(halfExtent(s.shape), spacing, flat);
 }
 
-/// Axis of the shape's frame that lies along y, in which the plane of a fluid in two dimensions has no extent.
-int axisAcross(const scene::Scene& scene, const coupling::MechanismSetup& mechanism, const coupling::BodyShape& s) {
-  const base::Quat turned = mechanism.model.bodies()[s.body].pose.orientation * s.pose_B.orientation;
-  const Vec3d across = transposedTimes(turned.matrix(), Vec3d{0, 1, 0});
+/// Axis of a shape's frame that lies along y, in which the plane of a fluid in two dimensions has no extent; -1 where
+/// none does.
+int axisAcross(const coupling::BodyShape& s, const base::Pose& pose) {
+  const Vec3d across = transposedTimes(pose.orientation.matrix(), Vec3d{0, 1, 0});
   for (int a = 0; a < 3; ++a) {
     const bool fits =
         !s.mesh && (s.shape.shape == SurfaceShape::box || (s.shape.shape == SurfaceShape::cylinder && a == 2));
     if (fits && std::fabs(across[a]) > 1 - 1e-9) return a;
   }
-  scene.fail("body", s.body - mechanism.ofVehicle.bodies, "shape",
-             "is no box with faces across the plane of fluid.dimensions = 2, nor a cylinder along y; use these, or "
-             "dimensions = 3");
+  return -1;
+}
+
+/// The mesh of a part with its bounding box about the origin; `centre`: of that box in the part's frame.
+coupling::BodyMesh partMesh(const std::string& file, Vec3d& centre) {
+  base::TriangleMesh mesh = spheredecomp::importMesh(file);
+  const auto [low, high] = spheredecomp::bounds(mesh);
+  centre = 0.5 * (low + high);
+  for (Vec3d& v : mesh.vertices) v -= centre;
+  return coupling::bodyMesh(std::make_shared<const spheredecomp::MeshQuery>(std::move(mesh)), 0, false);
+}
+
+std::string columnOf(const vehicle::Assembly& assembly, const vehicle::Part& part) {
+  if (part.kind == vehicle::PartKind::kChassis) return "vehicle/hull";
+  return fmt::format("vehicle/{}_track", vehicle::sideName(assembly.tracks[static_cast<std::size_t>(part.track)].side));
 }
 
 } // namespace
@@ -102,26 +121,114 @@ std::vector<Vec3d> shapeMarkers(const coupling::BodyShape& shape, double spacing
   return markers;
 }
 
-std::vector<coupling::BodyInFluid> bodiesInFluid(const scene::Scene& scene, const coupling::MechanismSetup& mechanism,
-                                                 const fluid::FluidModel& model) {
+/// The chassis is the first body of a vehicle.
+StartingBodies::StartingBodies(const scene::Scene& scene) {
+  if (scene.vehicle) addVehicle(scene);
+  ofVehicle_ = bodies_.size(), parts_ = placed_.size();
+  if (!scene.mechanism.touches()) return;
+  const coupling::MechanismSetup mechanism = mechanismSetup(scene);
+  const std::vector<multibody::Body>& all = mechanism.model.bodies();
+  for (std::size_t b = ofVehicle_; b < all.size(); ++b) {
+    if (b < mechanism.hitched.size() && mechanism.hitched[b])
+      scene.fail("body", b - ofVehicle_, "",
+                 "hangs on the vehicle, which [fluid] does not follow yet; remove its joints and springs, or [fluid]");
+    bodies_.push_back(all[b]), columns_.push_back("bodies/" + all[b].name);
+  }
+  for (const coupling::BodyShape& s : mechanism.shapes) add(s);
+}
+
+void StartingBodies::addVehicle(const scene::Scene& scene) {
+  const coupling::VehicleSetup setup = vehicleSetup(scene);
+  std::function<double(double, double)> height;
+  if (setup.onTerrain) height = [ground = readSurface(scene)](double x, double y) { return ground.height(x, y); };
+  const vehicle::Assembly assembly =
+      coupling::assembleAt(setup, setup.onTerrain ? setDown(setup.spec, setup.place, setup.clearance, height)
+                                                  : vehicle::placeOnGround(setup.spec, setup.place.x, setup.place.y, 0,
+                                                                           0, setup.place.heading));
+  bodies_ = assembly.model.bodies();
+  columns_.resize(bodies_.size());
+  struct Kind {
+    std::shared_ptr<const coupling::BodyMesh> mesh;
+    Vec3d centre;
+  };
+  std::map<std::string, Kind> kinds;
+  for (const vehicle::Part& part : assembly.parts) {
+    Kind& kind = kinds[part.mesh];
+    if (!kind.mesh)
+      kind.mesh = std::make_shared<const coupling::BodyMesh>(
+          partMesh((std::filesystem::path(setup.spec.meshFolder) / part.mesh).string(), kind.centre));
+    const auto [low, high] = spheredecomp::bounds(kind.mesh->query->mesh());
+    coupling::BodyShape s{.body = static_cast<std::size_t>(part.body),
+                          .pose_B = {part.pose_B.toWorld(kind.centre), part.pose_B.orientation},
+                          .shape = {contact::SurfaceShape::box, high},
+                          .material = 0,
+                          .place = part.name};
+    s.mesh = kind.mesh;
+    columns_[s.body] = columnOf(assembly, part);
+    add(s);
+  }
+}
+
+void StartingBodies::add(const coupling::BodyShape& s) {
+  const base::Pose& body = bodies_[s.body].pose;
+  placed_.push_back(
+      {s, {body.toWorld(s.pose_B.position), body.orientation * s.pose_B.orientation}, norm(halfExtent(s.shape))});
+}
+
+std::optional<base::Pose> StartingBodies::chassis() const {
+  return ofVehicle_ > 0 ? std::optional(bodies_.front().pose) : std::nullopt;
+}
+
+double StartingBodies::distance(const Vec3d& p, std::size_t first, std::size_t last, double most) const {
+  double least = most;
+  for (std::size_t i = first; i < last; ++i)
+    if (const Placed& s = placed_[i]; norm2(p - s.pose.position) < (s.reach + least) * (s.reach + least))
+      least = std::min(least, distanceFrom(s.shape, s.pose.toBody(p)));
+  return least;
+}
+
+double StartingBodies::vehicleBelow(double level, double spacing) const {
+  Vec3d low{base::kInfinity, base::kInfinity, base::kInfinity}, high = -low;
+  for (std::size_t i = 0; i < parts_; ++i) {
+    const Vec3d reach{placed_[i].reach, placed_[i].reach, placed_[i].reach};
+    low = min(low, placed_[i].pose.position - reach), high = max(high, placed_[i].pose.position + reach);
+  }
+  high.z = std::min(high.z, level);
+  std::int64_t inside = 0;
+  fluid::Lattice{spacing, 3, {0, 0, level}}.each(
+      low, high, [&](const Vec3d& p) { inside += fromVehicle(p, spacing) < 0 ? 1 : 0; });
+  return static_cast<double>(inside) * spacing * spacing * spacing;
+}
+
+std::vector<coupling::BodyInFluid> StartingBodies::inFluid(const scene::Scene& scene,
+                                                           const fluid::FluidModel& model) const {
   const double dx = model.spacing, depth = std::ceil(model.kernel().support() / dx) * dx;
   const bool plane = model.dimensions == 2;
   const double face = plane ? dx : dx * dx; // area per marker [m2]; [m] in two dimensions
-  const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
   std::vector<coupling::BodyInFluid> all;
-  for (std::size_t b = mechanism.ofVehicle.bodies; b < bodies.size(); ++b) {
-    coupling::BodyInFluid in{b, {}, 0};
+  std::map<const coupling::BodyMesh*, std::vector<Vec3d>> ofPart; // parts of one kind share theirs
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    coupling::BodyInFluid in{b, b < ofVehicle_ ? 0 : b, columns_[b], {}, b > 0 && b < ofVehicle_, 0};
+    const auto fail = [&](const std::string& message) {
+      if (b < ofVehicle_) scene.fail("fluid", "spacing", "[m]: the " + bodies_[b].name + " " + message);
+      scene.fail("body", b - ofVehicle_, "shape", message);
+    };
     std::vector<const coupling::BodyShape*> former;
     double shifting = 0, turning = 0;
-    for (const coupling::BodyShape& s : mechanism.shapes) {
+    for (const Placed& placed : placed_) {
+      const coupling::BodyShape& s = placed.shape;
       if (s.body != b) continue;
-      if (2 * coupling::halfThickness(s) < dx)
-        scene.fail(
-            "body", b - mechanism.ofVehicle.bodies, "shape",
-            fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m: no marker of the fluid lies within; "
-                        "make it thicker, or the spacing smaller",
-                        2 * coupling::halfThickness(s), dx));
-      for (const Vec3d& p : shapeMarkers(s, dx, depth, plane ? axisAcross(scene, mechanism, s) : -1)) {
+      const int across = plane ? axisAcross(s, placed.pose) : -1;
+      if (plane && across < 0)
+        fail("is no box with faces across the plane of fluid.dimensions = 2, nor a cylinder along y; use these, or "
+             "dimensions = 3");
+      std::vector<Vec3d> own, *markers = s.mesh ? &ofPart[s.mesh.get()] : &own;
+      if (markers->empty()) *markers = shapeMarkers(s, dx, depth, across);
+      if (markers->empty() || (b >= ofVehicle_ && 2 * coupling::halfThickness(s) < dx))
+        fail(fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m: no marker of the fluid lies within; "
+                         "make it thicker, or the spacing smaller",
+                         2 * coupling::halfThickness(s), dx));
+      for (const Vec3d& p : *markers) {
         const Vec3d p_B = s.pose_B.toWorld(p);
         const auto within = [&p_B](const coupling::BodyShape* o) {
           return distanceFrom(*o, o->pose_B.toBody(p_B)) < 0;
@@ -135,21 +242,12 @@ std::vector<coupling::BodyInFluid> bodiesInFluid(const scene::Scene& scene, cons
     if (in.markers.empty()) continue;
     // Half a spacing of fluid in front of each outermost marker moves with the body; twice that as a bound.
     const double ghost = 2 * 0.5 * model.density * dx;
-    const auto& I = bodies[b].inertia_B.m;
-    if (!bodies[b].fixed)
-      in.gain = std::max(ghost * shifting / bodies[b].mass, ghost * turning / std::min({I[0][0], I[1][1], I[2][2]}));
+    const auto& I = bodies_[b].inertia_B.m;
+    if (!bodies_[b].fixed)
+      in.gain = std::max(ghost * shifting / bodies_[b].mass, ghost * turning / std::min({I[0][0], I[1][1], I[2][2]}));
     all.push_back(std::move(in));
   }
   return all;
-}
-
-double distanceFromBodies(const coupling::MechanismSetup& mechanism, const Vec3d& p) {
-  double least = base::kInfinity;
-  for (const coupling::BodyShape& s : mechanism.shapes) {
-    const base::Pose& body = mechanism.model.bodies()[s.body].pose;
-    least = std::min(least, distanceFrom(s, s.pose_B.toBody(body.toBody(p))));
-  }
-  return least;
 }
 
 } // namespace grouser::setup

@@ -4,6 +4,7 @@
 #include "coupling/fluid_domain_setup.hpp"
 #include "coupling/mechanism_setup.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace grouser::scene {
@@ -17,12 +18,44 @@ namespace grouser::setup {
 /// layer through the middle along this axis of the shape (0, 1, 2), or -1.
 std::vector<base::Vec3d> shapeMarkers(const coupling::BodyShape& shape, double spacing, double depth, int flat = -1);
 
-/// Bodies with shapes. Throws InputError where a shape is thinner than the spacing, or in two dimensions no box or
-/// cylinder across the plane.
-std::vector<coupling::BodyInFluid> bodiesInFluid(const scene::Scene& scene, const coupling::MechanismSetup& mechanism,
-                                                 const fluid::FluidModel& model);
+/// Vehicle and bodies of a scene as they stand at the start, with the shapes by which a fluid meets them.
+class StartingBodies {
+public:
+  /// A part of the vehicle has its mesh as shape. Throws InputError where bodies are hitched to the vehicle.
+  explicit StartingBodies(const scene::Scene& scene);
 
-/// Distance from the nearest of the bodies as they stand at the start [m]; infinite without.
-double distanceFromBodies(const coupling::MechanismSetup& mechanism, const base::Vec3d& p);
+  bool empty() const { return placed_.empty(); }
+  /// Pose of the vehicle's chassis; empty without a vehicle.
+  std::optional<base::Pose> chassis() const;
+  const base::Pose& pose(std::size_t body) const { return bodies_[body].pose; }
+  bool ofVehicle(std::size_t body) const { return body < ofVehicle_; }
+  /// Those with shapes. Throws InputError where a shape is thinner than the spacing, or in two dimensions no box or
+  /// cylinder across the plane.
+  std::vector<coupling::BodyInFluid> inFluid(const scene::Scene& scene, const fluid::FluidModel& model) const;
+
+  /// Volume of the vehicle below a level [m3], counted on a lattice of this spacing [m].
+  double vehicleBelow(double level, double spacing) const;
+
+  /// Distances from the nearest part of the vehicle, and from the nearest of the other bodies, `most` where it is
+  /// farther away [m].
+  double fromVehicle(const base::Vec3d& p, double most) const { return distance(p, 0, parts_, most); }
+  double fromBodies(const base::Vec3d& p, double most) const { return distance(p, parts_, placed_.size(), most); }
+
+private:
+  struct Placed {
+    coupling::BodyShape shape;
+    base::Pose pose; ///< in the world
+    double reach;    ///< of its surface from its origin [m]
+  };
+  void addVehicle(const scene::Scene& scene);
+  void add(const coupling::BodyShape& shape);
+  double distance(const base::Vec3d& p, std::size_t first, std::size_t last, double most) const;
+
+  std::vector<multibody::Body> bodies_; ///< of the vehicle first
+  std::vector<std::string> columns_;    ///< [body] of the output
+  std::size_t ofVehicle_{0};            ///< bodies
+  std::size_t parts_{0};                ///< shapes of the vehicle, before the others
+  std::vector<Placed> placed_;
+};
 
 } // namespace grouser::setup

@@ -8,9 +8,10 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/fluid_bodies.hpp"
-#include "runs/setup/mechanism_setup.hpp"
+#include "runs/setup/lattice.hpp"
 #include "runs/setup/obstacles.hpp"
 #include "runs/setup/placement.hpp"
+#include "runs/setup/time_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,17 +89,41 @@ std::vector<fluid::FluidParticle> particlesOf(const scene::Scene& scene, const f
 
 /// Moves a place nearer to a body than half a spacing out to that, along the slope of the distance: the lattice fills
 /// the space beside a body as a whole, and its first particles would else touch markers.
-void keepOff(const coupling::MechanismSetup& mechanism, const fluid::FluidModel& model, Vec3d& place) {
-  const double near = 0.5 * model.spacing, probe = 0.01 * model.spacing, d = distanceFromBodies(mechanism, place);
+void keepOff(const StartingBodies& bodies, const fluid::FluidModel& model, Vec3d& place) {
+  const double near = 0.5 * model.spacing, probe = 0.01 * model.spacing;
+  const auto distance = [&](const Vec3d& p) { return bodies.fromBodies(p, model.spacing); };
+  const double d = distance(place);
   if (d >= near) return;
   Vec3d slope;
   for (int a = 0; a < 3; ++a) {
     if (model.dimensions == 2 && a == 1) continue;
     Vec3d up = place, down = place;
     up[a] += probe, down[a] -= probe;
-    slope[a] = distanceFromBodies(mechanism, up) - distanceFromBodies(mechanism, down);
+    slope[a] = distance(up) - distance(down);
   }
   if (norm(slope) > 0) place += slope * ((near - d) / norm(slope));
+}
+
+/// Longest step of the fluid whose loads may hold for several steps of the bodies [s]. The pressure beside a body of
+/// `gain` times its mass of fluid answers to its speed within a spacing over the sound speed and the gain.
+double longestStep(const scene::Scene& scene, const fluid::FluidModel& model,
+                   const std::vector<coupling::BodyInFluid>& bodies) {
+  double longest = fluidStepLimits(scene).least();
+  for (const coupling::BodyInFluid& b : bodies)
+    if (b.gain > 0) longest = std::min(longest, model.spacing / (model.soundSpeed * b.gain));
+  return longest;
+}
+
+/// A particle nearer to a marker than this is repelled [spacings].
+constexpr double kLeastDistance = 0.85;
+
+/// Of the vehicle.
+std::vector<Vec3d> markersAtStart(const StartingBodies& bodies, const std::vector<coupling::BodyInFluid>& inFluid) {
+  std::vector<Vec3d> all;
+  for (const coupling::BodyInFluid& b : inFluid)
+    if (bodies.ofVehicle(b.body))
+      for (const Vec3d& p : b.markers) all.push_back(bodies.pose(b.body).toWorld(p));
+  return all;
 }
 
 } // namespace
@@ -122,7 +147,9 @@ fluid::FluidModel fluidModel(const scene::Scene& scene) {
   const double fall = norm(m.gravity) * depthOf(scene);
   double fastest = 0;
   for (const scene::FluidBox& box : fluid.boxes) fastest = std::max(fastest, norm(box.velocity));
-  const double expected = std::max(fluid.expectedSpeed.value_or(std::sqrt(2 * fall)), fastest);
+  const double ofTrack = scene.vehicle ? 2 * greatestTrackSpeed(scene) : 0; // its upper run over the ground
+  const double usual = std::max(std::sqrt(2 * fall), ofTrack);
+  const double expected = std::max(fluid.expectedSpeed.value_or(usual), fastest);
   m.soundSpeed = fluid.soundSpeed.value_or(fluid::soundSpeedFor(expected, fluid.density * fall, fluid.density));
   constexpr double kLeast = 4; // compression at the bottom 6 %, Mach number a quarter
   const double least = kLeast * std::max(std::sqrt(fall), fastest);
@@ -143,7 +170,6 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   if (!scene.fluid) return {};
   coupling::FluidDomainSetup setup;
   fluid::FluidModel& m = setup.fluid.model = fluidModel(scene);
-  m.timeStep = timeStep;
   // In the second layer below a free surface div r is 2.88 of 3 (1.3 spacings; 1.9 of 2 in two dimensions).
   setup.fluid.surfaceDivergence = m.shifting > 0 ? m.dimensions - 0.25 : 0;
   const FluidTank tank = fluidTank(scene);
@@ -151,15 +177,22 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   const double depth = std::ceil(m.kernel().support() / m.spacing) * m.spacing;
   const Vec3d out{depth, depth, depth};
   setup.fluid.markers = fluid::wallMarkers(m, solid, tank.low - out, tank.high + out, tank.low);
-  coupling::MechanismSetup mechanism;
-  if (scene.mechanism.touches()) mechanism = mechanismSetup(scene), setup.bodies = bodiesInFluid(scene, mechanism, m);
+  const StartingBodies bodies(scene);
+  setup.bodies = bodies.inFluid(scene, m), setup.chassis = bodies.chassis();
+  setup.stepsPerStep = std::max(1, static_cast<int>(longestStep(scene, m, setup.bodies) / timeStep + 1e-9));
+  m.timeStep = setup.stepsPerStep * timeStep;
+  // Between the parts of a vehicle there is no room to move particles off: what touches is left out.
   const fluid::Distance free = [&](const Vec3d& p) {
-    const double d = solid(p);
-    return mechanism.shapes.empty() || d < 0 ? d : std::min(d, distanceFromBodies(mechanism, p));
+    const double d = solid(p), dx = m.spacing;
+    if (d < 0 || bodies.empty()) return d;
+    return std::min({d, bodies.fromBodies(p, dx), bodies.fromVehicle(p, dx) - 0.5 * dx});
   };
   setup.fluid.particles = particlesOf(scene, m, tank, free);
-  if (!mechanism.shapes.empty())
-    for (fluid::FluidParticle& p : setup.fluid.particles) keepOff(mechanism, m, p.position);
+  if (!bodies.empty())
+    for (fluid::FluidParticle& p : setup.fluid.particles) keepOff(bodies, m, p.position);
+  if (bodies.chassis())
+    setup.fluid.particles = fluid::awayFrom(std::move(setup.fluid.particles), markersAtStart(bodies, setup.bodies),
+                                            kLeastDistance * m.spacing);
   if (setup.fluid.particles.empty())
     scene.fail("fluid", "",
                "holds no particle: its level and boxes lie in solids or are thinner than the spacing; "
@@ -167,6 +200,7 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   for (const scene::FluidProbe& p : scene.fluid->probes)
     setup.probes.push_back({p.name, p.kind == scene::FluidProbeKind::level, p.position});
   setup.top = tank.high.z;
+  setup.partition = partitionOptions(scene, base::positionScale(m.kernel().support()));
   return setup;
 }
 

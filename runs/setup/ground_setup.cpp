@@ -34,17 +34,8 @@ using base::Vec3d;
 namespace {
 
 terrain::PartitionOptions partitionOf(const scene::Scene& scene, const GrainKinds& kinds, int ranks) {
-  terrain::PartitionOptions partition;
-  partition.rebalance = scene.parallel.rebalance;
-  partition.peers = scene.parallel.peerMemory;
-  partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
-  // A plane beyond all places that a grain can have is as good at their end, which whole units reach.
-  const double end = base::positionScale(2 * kinds.largest).limit();
-  for (std::vector<double>& planes : partition.cuts)
-    for (double& place : planes) place = std::clamp(place, -end, end);
-  partition.subdomains = wantedSubdomains(scene);
   checkLattice(scene, ranks);
-  return partition;
+  return partitionOptions(scene, base::positionScale(2 * kinds.largest));
 }
 
 /// The terrain without its grains. Empty where it has none.

@@ -2,11 +2,12 @@
 #include "runs/setup/lattice.hpp"
 
 #include "base/error.hpp"
+#include "contact/partition.hpp"
 #include "runs/scene/scene.hpp"
-#include "terrain/partition.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ constexpr const char* kRemedy = "change it, or start another number of ranks wit
 
 bool fits(int ranks, const std::array<int, 3>& wanted) {
   try {
-    terrain::latticeShape(ranks, {1, 1, 1}, wanted);
+    contact::latticeShape(ranks, {1, 1, 1}, wanted);
     return true;
   } catch (const base::InputError&) {
     return false;
@@ -38,6 +39,18 @@ std::array<int, 3> wantedSubdomains(const scene::Scene& scene) {
   return wanted;
 }
 
+contact::PartitionOptions partitionOptions(const scene::Scene& scene, const base::PositionScale& scale) {
+  contact::PartitionOptions partition;
+  partition.rebalance = scene.parallel.rebalance;
+  partition.peers = scene.parallel.peerMemory;
+  partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
+  // A plane beyond all places that an element can have is as good at their end, which whole units reach.
+  for (std::vector<double>& planes : partition.cuts)
+    for (double& place : planes) place = std::clamp(place, -scale.limit(), scale.limit());
+  partition.subdomains = wantedSubdomains(scene);
+  return partition;
+}
+
 void checkLattice(const scene::Scene& scene, int ranks) {
   const std::array<int, 3> wanted = wantedSubdomains(scene);
   if (ranks == 1 || fits(ranks, wanted)) return;
@@ -48,14 +61,14 @@ void checkLattice(const scene::Scene& scene, int ranks) {
           "parallel", std::string("cuts_") + "xyz"[a],
           fmt::format("[m] makes {} subdomains along {}, and the scene asks for [{}, {}, {}] (0: any number up to "
                       "{}), of which {} ranks make no lattice, one each; {}",
-                      wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], terrain::kMostSubdomainsAnAxis, ranks,
+                      wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], contact::kMostSubdomainsAnAxis, ranks,
                       kRemedy));
   if (scene.parallel.subdomains)
     scene.fail("parallel", "subdomains",
                fmt::format("does not make {} subdomains, one for each rank; {}", ranks, kRemedy));
   throw base::InputError(fmt::format("{}: {} ranks make no lattice with at most {} subdomains along each axis; start "
                                      "another number with mpirun -np",
-                                     scene.file.string(), ranks, terrain::kMostSubdomainsAnAxis));
+                                     scene.file.string(), ranks, contact::kMostSubdomainsAnAxis));
 }
 
 } // namespace grouser::setup

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/subdomain.hpp"
 #include "runs/scene/scene.hpp"
 
 #include <array>
@@ -9,6 +10,9 @@ namespace grouser::setup {
 
 /// Subdomains along x, y and z that the scene asks for, by their numbers or by planes between them; 0: any number.
 std::array<int, 3> wantedSubdomains(const scene::Scene& scene);
+
+/// [parallel] of the scene, but for the ranks; `scale`: of the positions that are divided.
+contact::PartitionOptions partitionOptions(const scene::Scene& scene, const base::PositionScale& scale);
 
 /// Throws base::InputError, with the line of the key, where so many ranks make no lattice that the scene asks for.
 void checkLattice(const scene::Scene& scene, int ranks);

@@ -4,6 +4,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/field_checks.hpp"
 #include "runs/setup/fluid_setup.hpp"
+#include "runs/setup/lattice.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/setup/restitution_check.hpp"
@@ -29,6 +30,7 @@ coupling::SimulationSetup simulationSetup(const scene::Scene& scene, int ranks, 
       setup.vehicle->thickestStone = 2 * setup.ground.grains->model.radius;
   }
   if (!scene.mechanism.empty()) setup.mechanism = mechanismSetup(scene);
+  if (scene.fluid) checkLattice(scene, ranks);
   setup.fluid = fluidSetup(scene, setup.timeStep);
   return setup;
 }

@@ -188,6 +188,15 @@ void addHitch(std::vector<TimeScale>& scales, const scene::Scene& scene) {
 
 } // namespace
 
+double greatestTrackSpeed(const scene::Scene& scene) {
+  if (scene.driver.course) return std::fabs(scene.driver.course->speed);
+  const scene::SpeedTable table = scene.driver.speeds();
+  double rate = 0;
+  for (std::size_t i = 0; i < table.time.size() && table.time[i] < scene.run.duration; ++i)
+    rate = std::max({rate, std::fabs(table.left[i]), std::fabs(table.right[i])});
+  return rate * vehicle::readVehicleSpec(scene.vehicle->source()).pitchRadius();
+}
+
 std::vector<TimeScale> timeScales(const scene::Scene& scene) {
   std::vector<TimeScale> scales;
   addSurfaces(scales, scene), addDrives(scales, scene), addDriver(scales, scene);

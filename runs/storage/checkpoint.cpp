@@ -94,7 +94,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/fluid/steps", s.fluid->fluid.steps);
     archive("/fluid/particles", s.fluid->fluid.particles);
     archive("/fluid/body_loads", s.fluid->fluid.bodyLoads);
-    archive("/fluid/accelerations", s.fluid->accelerations);
+    archive("/fluid/bodies", s.fluid->bodies), archive("/fluid/waited", s.fluid->waited);
   }
   if (archive.present("/grains", s.grains)) {
     auto& g = *s.grains;

@@ -65,8 +65,10 @@ constexpr Meaning kMeanings[] = {
      "diffusion "
      "and walls"},
     {"fluid/body_loads", "-", "of the fluid on each body: force and torque, in whole quanta"},
-    {"fluid/accelerations", "m/s2, rad/s2",
-     "of each body in the fluid, relaxed: linear and angular, with which pressures of its surface are extrapolated"},
+    {"fluid/bodies", "m/s2, rad/s2, m/s, rad/s",
+     "of each body in the fluid: relaxed acceleration, velocity at the last step of the fluid and sum of those since, "
+     "each linear and angular"},
+    {"fluid/waited", "-", "steps of the run since the last of the fluid"},
     {"grains/total", "-", "grains that are there"},
     {"grains/gone", "-", "ids of those that were taken out, ascending; all others stand in rows by ascending id"},
     {"grains/layout", "-",

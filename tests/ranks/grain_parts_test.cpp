@@ -95,8 +95,8 @@ TEST_P(PartsOnRanks, HandedOverTwiceBetweenTwoStepsNothingIsLost) {
     // The cuts jump, twice before the next step: nearly all grains change hands, some two times.
     for (const double cut : {-0.2, 0.3}) {
       std::array<std::vector<std::int64_t>, 3> weights;
-      for (auto& w : weights) w.assign(kPartitionBins, 1);
-      for (auto& w : weights) w[static_cast<std::size_t>((cut + 1) / 2 * kPartitionBins)] = 1000000;
+      for (auto& w : weights) w.assign(contact::kPartitionBins, 1);
+      for (auto& w : weights) w[static_cast<std::size_t>((cut + 1) / 2 * contact::kPartitionBins)] = 1000000;
       const auto units = [&](double metres) {
         return static_cast<std::int64_t>(metres * shared.grains.scale().perMetre);
       };

@@ -245,7 +245,7 @@ TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
     // Every 300 steps all cuts jump: most grains change hands at once, some ranks are left with none.
     for (int k = 0; k < 10; ++k) {
       std::array<std::vector<std::int64_t>, 3> weights;
-      for (auto& w : weights) w.assign(kPartitionBins, 1), w[400 * static_cast<std::size_t>(k)] = 100000;
+      for (auto& w : weights) w.assign(contact::kPartitionBins, 1), w[400 * static_cast<std::size_t>(k)] = 100000;
       const auto u = [&](double metres) { return static_cast<std::int64_t>(metres * grains.scale().perMetre); };
       ranks->setPartition(
           {ranks->subdomain().partition().shape(), {u(-0.1), u(-0.1), u(0)}, {u(0.9), u(0.6), u(0.4)}, weights});
@@ -275,7 +275,7 @@ TEST(GrainsOnRanks, SpringsOfWallsGoWithGrainsThatMigrate) {
   std::int64_t moved = 0;
   for (int k = 0; k < 6; ++k) {
     std::array<std::vector<std::int64_t>, 3> weights;
-    for (auto& w : weights) w.assign(kPartitionBins, 1), w[600 * static_cast<std::size_t>(k)] = 100000;
+    for (auto& w : weights) w.assign(contact::kPartitionBins, 1), w[600 * static_cast<std::size_t>(k)] = 100000;
     const auto u = [&](double metres) { return static_cast<std::int64_t>(metres * grains.scale().perMetre); };
     ranks->setPartition(
         {ranks->subdomain().partition().shape(), {u(-0.1), u(-0.1), u(0)}, {u(0.9), u(0.6), u(0.4)}, weights});
@@ -355,7 +355,7 @@ TEST(GrainsOnRanks, RolesAreAsDefined) {
   const double range = 2.3 * m.radius + 1e-6;
   const auto positions = base::toHost(base::cpuExec(1), grains.view().position, grains.view().count);
   const std::vector<std::uint32_t> ids = base::toHost(base::cpuExec(1), grains.view().id, grains.view().count);
-  const PartitionView lattice = s.partition().view();
+  const contact::PartitionView lattice = s.partition().view();
   const auto start = thrownBlock();
   for (std::size_t i = 0; i < grains.view().count; ++i) {
     const base::Vec3l u = base::toUnits(positions[i]);

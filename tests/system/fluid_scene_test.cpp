@@ -3,9 +3,12 @@
 #include "base/error.hpp"
 #include "coupling/fluid_domain.hpp"
 #include "coupling/simulation.hpp"
+#include "coupling/vehicle_rig.hpp"
+#include "runs/setup/fluid_bodies.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/runs/shared_cache.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,8 +36,9 @@ std::string floatingBox(double mass, double z, const std::string& more = {}) {
 }
 
 Simulation madeFluid(const std::string& text, int threads = 1) {
-  return Simulation(setup::simulationSetup(setup::parseScene(text, "fluid.toml")), testExec(threads),
-                    [](double, double) {});
+  return Simulation(
+      setup::simulationSetup(setup::parseScene(text, "fluid.toml")), testExec(threads), [](double, double) {}, {},
+      nullptr, sharedSpheres());
 }
 
 double heightOf(const Simulation& s) { return s.mechanism()->state().pose[0].position.z; }
@@ -101,9 +105,12 @@ TEST(FluidScene, WorkOfADriveGoesIntoTheWater) {
 }
 
 TEST(FluidScene, HasOneAnswerOnAnyThreadsAndWhenResumed) {
-  const std::string text = waterTank(floatingBox(5, 0.42));
+  const std::string text = waterTank(floatingBox(15, 0.42));
   Simulation one = madeFluid(text, 1), two = madeFluid(text, 2);
-  for (int k = 0; k < 150; ++k) one.step(), two.step();
+  const int steps = 151;
+  ASSERT_GT(one.setup().fluid->stepsPerStep, 1);
+  ASSERT_NE(steps % one.setup().fluid->stepsPerStep, 0) << "resumes between two steps of the fluid";
+  for (int k = 0; k < steps; ++k) one.step(), two.step();
   EXPECT_EQ(one.stateHash(), two.stateHash());
   Simulation resumed(setup::simulationSetup(setup::parseScene(text, "fluid.toml")), testExec(2), one.save());
   EXPECT_EQ(resumed.stateHash(), one.stateHash());
@@ -112,12 +119,68 @@ TEST(FluidScene, HasOneAnswerOnAnyThreadsAndWhenResumed) {
   EXPECT_EQ(resumed.ledger().dissipated.fluid, one.ledger().dissipated.fluid);
 }
 
+/// One track and the hull above it, held over the ground, in a tank: water to 0.3 m above the lowest grousers, a
+/// spacing of 0.06 m, as thick as the shoes.
+const std::string kFord = fmt::format(
+    "version = 1\n[run]\nduration = 3.0\n[vehicle]\nspec = \"{}/assets/vehicles/light_tracked.toml\"\nchassis = "
+    "\"fixed\"\ntracks = \"single\"\n[driver]\nsprocket_speed = 2.0\ndrive_start = 10\n[fluid]\nspacing = "
+    "0.06\ntank_low = [-0.6, -0.9, -0.18]\ntank_high = [3.3, 0.9, 0.9]\nlevel = 0.3\n",
+    GROUSER_SOURCE_DIR);
+
+/// The water lifts a vehicle by the weight of what it displaces, with shoes one spacing thick within 30 %; the volume
+/// is counted on a finer lattice.
+TEST(FluidScene, AVehicleIsLiftedByTheWaterItDisplaces) {
+  Simulation s = madeFluid(kFord, 2);
+  const setup::StartingBodies bodies(setup::parseScene(kFord, "ford.toml"));
+  double lift = 0;
+  int samples = 0;
+  while (s.time() < 0.12) {
+    s.step();
+    if (s.time() < 0.06) continue;
+    for (const fluid::BodyLoad& l : fluidOf(s)->columnLoads()) lift += l.force.z;
+    ++samples;
+  }
+  lift /= samples;
+  const double volume = bodies.vehicleBelow(0.3, 0.02);
+  EXPECT_NEAR(lift / (1000 * kWaterGravity * volume), 1, 0.3);
+  ASSERT_EQ(fluidOf(s)->columns(), (std::vector<std::string>{"vehicle/hull", "vehicle/left_track"}));
+  // The torque of a track is about the hull's centre of mass.
+  const std::vector<fluid::BodyLoad> each = fluidOf(s)->bodyLoads();
+  base::Vec3d torque;
+  for (std::size_t k = 1; k < each.size(); ++k) {
+    const std::vector<base::Pose>& pose = s.vehicle()->state().pose;
+    const base::Vec3d arm = pose[s.setup().fluid->bodies[k].body].position - pose[0].position;
+    torque += each[k].torque + cross(arm, each[k].force);
+  }
+  EXPECT_LT(norm(fluidOf(s)->columnLoads()[1].torque - torque), 1e-9 * norm(torque));
+}
+
+/// A vehicle that waits for rest drives off though the water carries a fifth of its weight.
+TEST(FluidScene, AVehicleInWaterRests) {
+  const std::string text = fmt::format(
+      "version = 1\n[run]\nduration = 6.0\n[material.ground]\nstiffness = 1e7\nrestitution = 0.3\nfriction = "
+      "0.8\n[terrain]\nmaterial = \"ground\"\nheightmap = \"{0}/assets/heightmaps/flat.png\"\nsize = [5.0, "
+      "3.0]\nheight_range = [-0.128, 0.127]\nkind = \"rigid\"\n[vehicle]\nspec = "
+      "\"{0}/assets/vehicles/light_tracked.toml\"\nsphere_radius = 0.02\n[driver]\nsprocket_speed = 1.0\n[fluid]\n"
+      "spacing = 0.1\nlevel = 0.5\n",
+      GROUSER_SOURCE_DIR);
+  Simulation s = madeFluid(text, 2);
+  double lift = 0;
+  while (s.time() < 3 && !s.vehicle()->driveStart()) {
+    s.step();
+    lift = 0;
+    for (const fluid::BodyLoad& l : fluidOf(s)->columnLoads()) lift += l.force.z;
+  }
+  EXPECT_TRUE(s.vehicle()->driveStart());
+  EXPECT_GT(lift, 0.07 * 5018 * kWaterGravity);
+}
+
 /// A state without its fluid, or of more bodies, is of another scene.
 TEST(FluidScene, RefusesTheStateOfAnotherScene) {
   const SimulationSetup setup =
       setup::simulationSetup(setup::parseScene(waterTank(floatingBox(5, 0.42)), "fluid.toml"));
   SimulationState state = Simulation(setup, testExec(1), [](double, double) {}).save();
-  state.fluid->accelerations.push_back(0);
+  state.fluid->bodies.push_back(0);
   EXPECT_THROW(Simulation(setup, testExec(1), state), base::InputError);
   state.fluid.reset();
   EXPECT_THROW(Simulation(setup, testExec(1), state), base::InputError);

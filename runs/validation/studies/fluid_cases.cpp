@@ -80,7 +80,7 @@ void stillTank(const base::Exec& exec, FluidPoint& point) {
   const double bottom = m.density * jobs::kGravity * kDepth;
   double force = 0, square = 0, worst = 0;
   int looks = 0;
-  drive(setup, kEnd, exec, point, [&](const Fluid& f) {
+  drive(setup, kEnd, exec, point, [&](Fluid& f) {
     if (f.time() < kEnd / 2 || f.steps() % 10 != 0) return;
     force += f.totals().wallForce.z, ++looks;
     if (f.time() < kEnd - 20 * m.timeStep) return;
@@ -111,7 +111,7 @@ void soundWave(const base::Exec& exec, FluidPoint& point) {
       setup.particles.push_back({{x, centre(j, point.spacing), 0}, {kAmplitude * std::sin(2 * kPi * x), 0, 0}, 0});
     }
   ZeroCrossings crossings;
-  drive(setup, kEnd, exec, point, [&](const Fluid& f) {
+  drive(setup, kEnd, exec, point, [&](Fluid& f) {
     const FluidSnapshot s = f.snapshot();
     double signal = 0;
     for (std::size_t i = 0; i < s.position.size(); ++i) signal += s.velocity[i].x * std::sin(2 * kPi * s.position[i].x);
@@ -150,7 +150,7 @@ void taylorGreen(const base::Exec& exec, FluidPoint& point) {
                                  compressionAt(m, pressure)});
     }
   double energy = 0, momentum = 0;
-  drive(setup, kEnd, exec, point, [&](const Fluid& f) {
+  drive(setup, kEnd, exec, point, [&](Fluid& f) {
     if (f.time() < kEnd - 1e-9) return;
     const fluid::FluidTotals t = f.totals();
     energy = t.kinetic / (0.25 * std::exp(-16 * kPi * kPi * f.time() / kReynolds));
@@ -183,7 +183,7 @@ FluidSetup channel(double spacing, double wallSpeed, double pull) {
 template <class Exact> double profileError(const FluidSetup& setup, double end, const base::Exec& exec,
                                            FluidPoint& point, const Exact& exact) {
   double square = 0, greatest = 0;
-  drive(setup, end, exec, point, [&](const Fluid& f) {
+  drive(setup, end, exec, point, [&](Fluid& f) {
     if (f.time() < end - 1e-9) return;
     const FluidSnapshot s = f.snapshot();
     for (std::size_t i = 0; i < s.position.size(); ++i) {
@@ -239,7 +239,7 @@ void standingWave(const base::Exec& exec, FluidPoint& point) {
                   potential * std::sinh(k * p.position.z) * std::cos(k * p.position.x)};
   ZeroCrossings crossings;
   double start = 0, last = 0;
-  drive(setup, (kHalfPeriods + 0.25) * half, exec, point, [&](const Fluid& f) {
+  drive(setup, (kHalfPeriods + 0.25) * half, exec, point, [&](Fluid& f) {
     const FluidSnapshot s = f.snapshot();
     double signal = 0, energy = 0;
     for (std::size_t i = 0; i < s.position.size(); ++i)
@@ -268,7 +268,7 @@ void oscillatingDrop(const base::Exec& exec, FluidPoint& point) {
     }
   ZeroCrossings crossings;
   double momentum = 0;
-  drive(setup, kEnd, exec, point, [&](const Fluid& f) {
+  drive(setup, kEnd, exec, point, [&](Fluid& f) {
     const FluidSnapshot s = f.snapshot();
     double x2 = 0, y2 = 0;
     Vec3d sum{};
@@ -299,7 +299,7 @@ void rotatingPatch(const base::Exec& exec, FluidPoint& point) {
     return spin;
   };
   double firstSpin = 0, spin = 0, energy = 0, firstEnergy = 0;
-  drive(setup, kEnd, exec, point, [&](const Fluid& f) {
+  drive(setup, kEnd, exec, point, [&](Fluid& f) {
     if (f.steps() == 1) firstSpin = spinOf(f.snapshot()), firstEnergy = f.totals().kinetic;
     if (f.time() < kEnd - m.timeStep) return;
     spin = spinOf(f.snapshot());

@@ -111,10 +111,58 @@ TEST(FluidBodies, ParticlesKeepOffTurnedBodies) {
       "0, 1]\nangle = 30\n[[body.shape]]\nkind = \"box\"\nsize = [0.8, 0.8, 0.5]\n";
   const scene::Scene scene = parseScene(text, "fluid.toml");
   const auto setup = *fluidSetup(scene, 1e-4);
-  const auto simulation = simulationSetup(scene);
+  const StartingBodies bodies(scene);
   EXPECT_NEAR(static_cast<double>(setup.fluid.particles.size()) * 1e-3, 2 * 2 * 0.9 - 0.8 * 0.8 * 0.5, 0.04);
-  for (const fluid::FluidParticle& p : setup.fluid.particles)
-    EXPECT_GT(distanceFromBodies(*simulation.mechanism, p.position), 0.0499);
+  for (const fluid::FluidParticle& p : setup.fluid.particles) EXPECT_GT(bodies.fromBodies(p.position, 1), 0.0499);
+}
+
+const std::string kBench = "[vehicle]\nspec = \"" GROUSER_SOURCE_DIR
+                           "/assets/vehicles/light_tracked.toml\"\nchassis = \"fixed\"\ntracks = \"single\"\n";
+const std::string kBenchTank = "[fluid]\nspacing = 0.06\ntank_low = [-0.9, -1.5, -0.3]\ntank_high = [3.6, 1.5, 0.9]\n"
+                               "level = 0.3\n";
+
+/// Hull, 46 shoes, sprocket, wheels, rollers and idler have markers; no particle starts in them or where they repel it.
+TEST(FluidBodies, WaterStandsAroundAVehicle) {
+  const scene::Scene scene = parseScene(head() + kBench + kBenchTank, "fluid.toml");
+  const auto setup = *fluidSetup(scene, 1e-4);
+  ASSERT_EQ(setup.bodies.size(), 1U + 46 + 1 + 5 + 3 + 1);
+  const StartingBodies bodies(scene);
+  EXPECT_EQ(setup.bodies.front().column, "vehicle/hull");
+  EXPECT_EQ(setup.bodies.back().column, "vehicle/left_track");
+  EXPECT_EQ(setup.bodies.back().about, 0U);
+  std::vector<Vec3d> markers;
+  for (const coupling::BodyInFluid& b : setup.bodies)
+    for (const Vec3d& p : b.markers) markers.push_back(bodies.pose(b.body).toWorld(p));
+  for (const Vec3d& p : markers) EXPECT_LT(bodies.fromVehicle(p, 1), 1e-9);
+  const std::size_t alone = made(head() + kBenchTank).fluid.particles.size();
+  EXPECT_LT(setup.fluid.particles.size(), alone - 1000);
+  EXPECT_GT(setup.fluid.particles.size(), alone - 6000);
+  for (const fluid::FluidParticle& p : setup.fluid.particles) {
+    ASSERT_GT(bodies.fromVehicle(p.position, 1), 0.0299);
+    for (const Vec3d& m : markers) ASSERT_GT(norm2(p.position - m), 0.05 * 0.05);
+  }
+}
+
+/// The upper run of a track moves at twice its speed.
+TEST(FluidSetup, SoundSpeedFollowsFromTheDriver) {
+  const auto model = [](const std::string& driver) {
+    return fluidModel(parseScene(head() + kBench + driver + kBenchTank, "fluid.toml"));
+  };
+  EXPECT_NEAR(model("").soundSpeed, 10 * std::sqrt(2 * 9.81 * 0.6), 1e-9);
+  EXPECT_NEAR(model("[driver]\nsprocket_speed = 10\ndrive_start = 0.5\n").soundSpeed, 10 * 2 * 10 * 0.2451, 0.01);
+}
+
+/// A vehicle's contacts bear shorter steps than the fluid, which then moves once in several.
+TEST(FluidSetup, TheFluidStepsOnceInSeveral) {
+  const auto steps = [](double timeStep) {
+    return *fluidSetup(parseScene(head() + kBench + kBenchTank, "fluid.toml"), timeStep);
+  };
+  const double longest = fluidStepLimits(parseScene(head() + kBench + kBenchTank, "fluid.toml")).least();
+  EXPECT_EQ(steps(longest / 7).stepsPerStep, 7);
+  EXPECT_NEAR(steps(longest / 7).fluid.model.timeStep, longest, 1e-12);
+  EXPECT_EQ(steps(longest / 6.5).stepsPerStep, 6);
+  EXPECT_EQ(steps(1.5 * longest).stepsPerStep, 1);
+  EXPECT_EQ(steps(1.5 * longest).fluid.model.timeStep, 1.5 * longest);
 }
 
 std::string messageOf(const std::string& text) {
@@ -160,9 +208,14 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
       {fluid() + "[material.sand]\nstiffness = 1e4\nrestitution = 0.5\n[[grain]]\nposition = [0.5, 0.4, 0.9]\nradius = "
                  "0.01\nmaterial = \"sand\"\n",
        "stands beside grains, whose drag and buoyancy"},
-      {fluid() + "[vehicle]\nspec = \"" GROUSER_SOURCE_DIR
-                 "/assets/vehicles/light_tracked.toml\"\nchassis = \"fixed\"\n",
-       "stands beside a [vehicle], whose hull and tracks no fluid acts on"},
+      {fluid("level = 0.5\ndimensions = 2\n") + kBench, "= 2 is for a tank without vehicle; use 3"},
+      {"[fluid]\nspacing = 0.3\nlevel = 0.3\ntank_low = [-3, -3, -3]\ntank_high = [6, 3, 3]\n" + kBench,
+       "no marker of the fluid lies within"},
+      {kBenchTank + kBench + kWall +
+           "[[body]]\nname = \"b\"\nmaterial = \"wall\"\nmass = 10\nposition = [-1, 0, "
+           "1.5]\n[[body.shape]]\nkind = \"sphere\"\nradius = 0.2\n[[spring]]\nname = "
+           "\"s\"\nbodies = [\"vehicle\", \"b\"]\nstiffness = 1000\n",
+       "hangs on the vehicle, which [fluid] does not follow yet"},
   };
   for (const auto& [text, says] : all) {
     const std::string message = messageOf(head() + text);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "terrain/subdomain.hpp"
+#include "contact/subdomain.hpp"
 
 #include "base/algorithms.hpp"
+#include "base/error.hpp"
 #include "base/for_each.cuh"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
-namespace grouser::terrain {
+namespace grouser::contact {
 
 using base::Position;
 using base::Vec3l;
@@ -18,7 +20,7 @@ GROUSER_HD bool isSlave(const std::uint32_t* role, int i) {
   return role && role[i] == static_cast<std::uint32_t>(Role::slave);
 }
 
-/// Who owns each grain now.
+/// Who owns each element now.
 struct FindOwner {
   PartitionView partition;
   base::Period period;
@@ -35,7 +37,7 @@ struct FindOwner {
   }
 };
 
-/// Closes the gaps: pairs each slot below `kept` whose grain leaves with a grain at or above `kept` that stays.
+/// Closes the gaps: pairs each slot below `kept` whose element leaves with one at or above `kept` that stays.
 struct PairMoves {
   const std::uint32_t *stays, *staysBefore; ///< by slot: whether it stays; how many before it do
   std::uint32_t kept;
@@ -53,7 +55,7 @@ struct ReadRanks {
   GROUSER_HD void operator()(int k) const { ranks[k] = destination[slots[k]]; }
 };
 
-/// The other subdomains within range of one grain: counted, or listed where `ranks` is not null.
+/// The other subdomains within range of one element: counted, or listed where `ranks` is not null.
 struct FindGhostTargets {
   PartitionView partition;
   base::Period period;
@@ -106,7 +108,7 @@ private:
   }
 };
 
-/// Roles by slot before sorting: owned grains are masters where another rank needs them, else uniques; then ghosts.
+/// Roles by slot before sorting: owned elements are masters where another rank needs them, else uniques; then ghosts.
 struct AssignRoles {
   const std::uint32_t* ghostTargets;
   std::uint32_t owned;
@@ -132,7 +134,7 @@ struct Sorted {
   }
 };
 
-/// Where the grains of this rank lie along each axis.
+/// Where the elements of this rank lie along each axis.
 struct CountInBins {
   const Position* position;
   const std::uint32_t* role;
@@ -166,6 +168,47 @@ struct FindExtent {
 };
 
 } // namespace
+
+Partition startingPartition(const std::vector<Position>& position, const PartitionOptions& options,
+                            const base::PositionScale& scale) {
+  std::array<int, 3> wanted = options.subdomains;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int given = static_cast<int>(options.cuts[a].size()) + 1;
+    if (given == 1) continue;
+    if (wanted[a] != 0 && wanted[a] != given)
+      throw base::InputError(std::string("parallel.cuts_") + "xyz"[a] + " gives " + std::to_string(given - 1) +
+                             " planes, which make " + std::to_string(given) +
+                             " subdomains, but parallel.subdomains says " + std::to_string(wanted[a]) +
+                             " along that axis; make them agree");
+    wanted[a] = given;
+  }
+  base::Vec3l low{}, high{};
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const base::Vec3l u = base::toUnits(position[i]);
+    low = i == 0 ? u : base::min(low, u), high = i == 0 ? u : base::max(high, u);
+  }
+  std::array<std::vector<std::int64_t>, 3> weights;
+  std::array<double, 3> size{};
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    size[k] = static_cast<double>(high[a] - low[a]) + 1;
+    weights[k].resize(kPartitionBins);
+    const std::int64_t width = binWidth(low[a], high[a]);
+    for (const Position& p : position) ++weights[k][static_cast<std::size_t>((base::toUnits(p)[a] - low[a]) / width)];
+  }
+  const Partition chosen(latticeShape(options.comm.size(), size, wanted), low, high, weights);
+  std::array<std::vector<std::int64_t>, 3> cuts;
+  for (int a = 0; a < 3; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    cuts[k] = chosen.cuts(a);
+    base::Vec3d place{};
+    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) {
+      place[a] = options.cuts[k][c];
+      cuts[k][c] = base::toUnits(scale.fromMetres(place))[a];
+    }
+  }
+  return Partition(cuts);
+}
 
 Subdomain::Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range,
                      const base::Period& period)
@@ -235,7 +278,7 @@ void Subdomain::sorted(const std::uint32_t* order, std::size_t slots) {
   haloExchange_.renumber(newSlot.data());
 }
 
-Partition Subdomain::balanced(const Position* position, std::size_t slots, double costPerGrain) const {
+Partition Subdomain::balanced(const Position* position, std::size_t slots, double costEach) const {
   const auto n = static_cast<std::int64_t>(slots);
   const std::uint32_t* role = haveRoles_ ? role_.data() : nullptr;
   base::Array<std::uint64_t> extent(exec_, std::vector<std::uint64_t>(6, ~std::uint64_t{0}));
@@ -250,12 +293,12 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
     width[a] = binWidth(low[a], high[a]);
   }
   base::Array<std::int64_t> bins(exec_, 3 * kPartitionBins);
-  base::forEach(exec_, "count grains in bins", n, CountInBins{position, role, low, width, bins.data()});
+  base::forEach(exec_, "count elements in bins", n, CountInBins{position, role, low, width, bins.data()});
   std::vector<std::int64_t> weight = bins.toHost();
   // Whole numbers, so that all ranks get the same sums: costs in 1/1024 of the dearest.
-  double dearest = costPerGrain;
+  double dearest = costEach;
   comm_.maximum(&dearest, 1);
-  const auto cost = std::max<std::int64_t>(1, static_cast<std::int64_t>(1024 * costPerGrain / dearest));
+  const auto cost = std::max<std::int64_t>(1, static_cast<std::int64_t>(1024 * costEach / dearest));
   for (std::int64_t& w : weight) w *= cost;
   comm_.sum(weight.data(), weight.size());
   std::array<std::vector<std::int64_t>, 3> axes;
@@ -278,4 +321,4 @@ std::size_t Subdomain::bytes() const {
          uniques_.bytes() + masters_.bytes();
 }
 
-} // namespace grouser::terrain
+} // namespace grouser::contact

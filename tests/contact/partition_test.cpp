@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "terrain/partition.hpp"
+#include "contact/partition.hpp"
 
 #include "base/error.hpp"
 
 #include <gtest/gtest.h>
 
-namespace grouser::terrain {
+namespace grouser::contact {
 namespace {
 
 std::array<std::vector<std::int64_t>, 3> evenWeights() {
@@ -68,4 +68,4 @@ TEST(Lattice, KeepsTheShapeThatIsAskedFor) {
 }
 
 } // namespace
-} // namespace grouser::terrain
+} // namespace grouser::contact

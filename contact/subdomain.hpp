@@ -5,19 +5,19 @@
 #include "base/peer_reduction.hpp"
 #include "base/period.hpp"
 #include "contact/exchange.hpp"
-#include "terrain/partition.hpp"
+#include "contact/partition.hpp"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-namespace grouser::terrain {
+namespace grouser::contact {
 
-/// What a copy of a grain is to the subdomain that holds it.
+/// What a copy of an element is to the subdomain that holds it.
 enum class Role : std::uint32_t {
   unique, ///< no other subdomain needs it; integrated here. Kernels take it for 0
   master, ///< its centre lies here, within range of a border; integrated here, and known to others as slaves
-  slave,  ///< a copy of a grain mastered elsewhere: used for forces, never integrated (a ghost)
+  slave,  ///< a copy of one mastered elsewhere: used for forces, never integrated (a ghost)
 };
 
 /// How space is divided among the ranks.
@@ -29,11 +29,17 @@ struct PartitionOptions {
   base::PeerUse peers = base::PeerUse::automatic;
 };
 
-/// One rank's subdomain of a bed on several ranks: which grains are its own, which of them others need, and the ghosts
-/// it needs itself. It sees slots and positions only; other fields of a grain are named by the caller of an exchange.
+/// The first cuts: as many elements in each slab of an axis as in the others. Throws InputError where cuts and
+/// subdomains that are wanted disagree.
+Partition startingPartition(const std::vector<base::Position>& position, const PartitionOptions& options,
+                            const base::PositionScale& scale);
+
+/// One rank's subdomain of elements (grains, particles of a fluid) on several ranks: which are its own, which of them
+/// others need, and the ghosts it needs itself. It sees slots and positions only; other fields of an element are named
+/// by the caller of an exchange.
 class Subdomain {
 public:
-  /// `range` [units]: two grains farther apart than this never touch before the next rebuild.
+  /// `range` [units]: two elements farther apart than this never touch before the next rebuild.
   Subdomain(const base::Exec& exec, const PartitionOptions& options, std::int64_t range,
             const base::Period& period = {});
 
@@ -41,43 +47,43 @@ public:
   const Partition& partition() const { return partition_; }
   void setPartition(const Partition& partition) { partition_ = partition; }
 
-  /// Finds the grains whose centre now lies in another subdomain: sets destination(), staying() and the plan of
+  /// Finds the elements that now lie in another subdomain: sets destination(), staying() and the plan of
   /// migration().
   void findLeaving(const base::Position* position, std::size_t slots);
-  /// By slot, until the next migration: the rank that the grain of this slot now belongs to, or kNobody for a slave.
+  /// By slot, until the next migration: the rank that the element of this slot now belongs to, or kNobody for a slave.
   static constexpr std::uint32_t kNobody = ~0u;
   const std::uint32_t* destination() const { return destination_.data(); }
-  /// The grains that stay fill the first `kept` slots when those of them that are farther back have moved to where
-  /// leaving grains and ghosts were: from slot from[k] to slot to[k] (device arrays), for k < moves.
+  /// The elements that stay fill the first `kept` slots when those of them that are farther back have moved to where
+  /// leaving elements and ghosts were: from slot from[k] to slot to[k] (device arrays), for k < moves.
   struct Staying {
     std::size_t kept, moves;
     const std::uint32_t *from, *to;
   };
   Staying staying() const { return {kept_, movesFrom_.size(), movesFrom_.data(), movesTo_.data()}; }
-  contact::Exchange& migration() { return migration_; }
+  Exchange& migration() { return migration_; }
 
-  /// Finds the masters among the first `owned` grains: sets the plan of haloExchange(), whose ghosts() ghosts go to the
-  /// slots from `owned` on.
+  /// Finds the masters among the first `owned` elements: sets the plan of haloExchange(), whose ghosts() ghosts go to
+  /// the slots from `owned` on.
   void findMasters(const base::Position* position, std::size_t owned);
   std::size_t ghosts() const { return haloExchange_.importCount(); }
-  contact::Exchange& haloExchange() { return haloExchange_; }
+  Exchange& haloExchange() { return haloExchange_; }
   base::PeerReduction& agreement() { return reduction_; }
   /// Whether the GPUs of all ranks can take steps without their hosts: halo and flags go through each other's memory.
   bool stepsTogether() const { return reduction_.possible() && haloExchange_.peersOnly(); }
 
-  /// The grains were sorted: slot i now holds what was in slot order[i].
+  /// The elements were sorted: slot i now holds what was in slot order[i].
   void sorted(const std::uint32_t* order, std::size_t slots);
-  /// Grains were appended that belong here until the next migration.
+  /// Elements were appended that belong here until the next migration.
   void appended(std::size_t count);
-  /// The slots hold owned grains only: they were loaded, not sorted.
+  /// The slots hold owned elements only: they were loaded, not sorted.
   void forgetRoles() { haveRoles_ = false; }
   const std::uint32_t* ghostMarks() const { return ghostMark_.data(); }  ///< not 0 for slaves
   const std::uint32_t* roles() const { return role_.data(); }            ///< by slot, as Role
   const base::Array<std::uint32_t>& uniques() const { return uniques_; } ///< slots, ascending; on a CPU
   const base::Array<std::uint32_t>& masters() const { return masters_; }
 
-  /// Cuts that balance the load, where each grain of this rank costs `costPerGrain` (any unit).
-  Partition balanced(const base::Position* position, std::size_t slots, double costPerGrain) const;
+  /// Cuts that balance the load, where each element of this rank costs `costEach` (any unit).
+  Partition balanced(const base::Position* position, std::size_t slots, double costEach) const;
   std::size_t bytes() const;
   /// Time that this rank or its GPU has spent waiting for others since the start [s]. Waits for the GPU's work.
   double waited() const { return comm_.waited() + reduction_.waited(); }
@@ -91,11 +97,11 @@ private:
   std::int64_t range_;
   base::Period period_;
   Partition partition_;
-  contact::Exchange migration_, haloExchange_;
+  Exchange migration_, haloExchange_;
   base::PeerReduction reduction_;
   bool haveRoles_{false};
   std::size_t kept_{0};
   base::Array<std::uint32_t> role_, ghostMark_, destination_, movesFrom_, movesTo_, uniques_, masters_;
 };
 
-} // namespace grouser::terrain
+} // namespace grouser::contact

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace grouser::terrain {
+namespace grouser::contact {
 
 inline constexpr int kMostSubdomainsAnAxis = 64;
 
@@ -28,8 +28,8 @@ struct PartitionView {
   GROUSER_HD int ownerOf(const base::Vec3l& u) const { return rankAt(along(0, u.x), along(1, u.y), along(2, u.z)); }
 };
 
-/// Cuts space into a cubic lattice of subdomains, one a rank. The outer ones reach to infinity, so that every grain has
-/// exactly one owner: the subdomain in which its centre lies.
+/// Cuts space into a cubic lattice of subdomains, one a rank. The outer ones reach to infinity, so that every
+/// element has exactly one owner: the subdomain in which its centre lies.
 class Partition {
 public:
   /// All of space is one subdomain.
@@ -67,4 +67,4 @@ inline std::int64_t binWidth(std::int64_t low, std::int64_t high, std::int64_t b
   return std::max<std::int64_t>(1, (high - low) / bins + 1);
 }
 
-} // namespace grouser::terrain
+} // namespace grouser::contact

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "terrain/partition.hpp"
+#include "contact/partition.hpp"
 
 #include "base/error.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace grouser::terrain {
+namespace grouser::contact {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size, co
   return best;
 }
 
-} // namespace grouser::terrain
+} // namespace grouser::contact
