@@ -347,12 +347,17 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
 /// Acceleration of a particle by a marker that is nearer than its contact range [m/s2], from the potential 3 c^2 (1 -
 /// r/range)^2: walls let nothing pass where the fluid's own pressure is small, as in thin jets. The barrier between
 /// markers is 0.34 c^2 in three dimensions, 0.49 c^2 in two, above the 0.3 c^2 of fluid at the greatest compression.
-GROUSER_HD base::Vec3f contactForce(const FluidView& f, const Pair& pair, std::uint32_t marker) {
+///
+/// `apart`: relative velocity times pair.d, above 0 where they part [m2/s]. Steps do not resolve the contact of a jet
+/// that hits markers at an edge: what parts faster than 0.15 c is pushed less, down to a tenth from 0.25 c on.
+GROUSER_HD base::Vec3f contactForce(const FluidView& f, const Pair& pair, std::uint32_t marker, float apart) {
   const FluidConstants& k = f.constants;
   const float r = pair.q / k.perLength;
   if (r >= k.contact || r == 0) return {};
   const float range = f.contactOf(marker);
-  return r >= range ? base::Vec3f{} : pair.d * (6 * k.sound2 * (range - r) / (range * range * r));
+  if (r >= range) return {};
+  const float share = 1 - 9 * (apart / (r * sqrtf(k.sound2)) - 0.15f);
+  return pair.d * (6 * k.sound2 * (range - r) / (range * range * r) * fmaxf(0.1f, fminf(1.0f, share)));
 }
 
 /// Sums of the accelerations of a particle: of all pairs, of viscous forces, and of the pressure of markers.
@@ -382,7 +387,7 @@ struct Force {
       const PairForce force = pairForce(k, pair, own, other, slip, false);
       add(force);
       const base::Vec3f push = pair.d * (-k.sound2 * other.w * pair.slope(k)),
-                        contact = contactForce(f, pair, j - f.particles);
+                        contact = contactForce(f, pair, j - f.particles, dot(own.xyz() - other.xyz(), pair.d));
       const base::Vec3l repelled = roundedLong(contact * perAcceleration);
       sum += repelled;
       wall += roundedVector(push * perAcceleration) + repelled;
@@ -422,8 +427,9 @@ struct WallForce {
       const base::Vec4f other = f.motion[j];
       const base::Vec3f slip = f.ghostVelocity ? f.ghostVelocity[m] - other.xyz() : base::Vec3f{};
       const PairForce force = pairForce(k, pair, own, other, slip, false);
-      const base::Vec3l quanta = roundedVector((force.pressure + force.viscous) * perAcceleration) +
-                                 roundedLong(contactForce(f, pair, m) * perAcceleration);
+      const base::Vec3l quanta =
+          roundedVector((force.pressure + force.viscous) * perAcceleration) +
+          roundedLong(contactForce(f, pair, m, dot(own.xyz() - other.xyz(), pair.d)) * perAcceleration);
       sum.force += quanta;
       if (ofBody) sum.torque += wholeVector(cross(arm, quanta.as<double>()));
     });

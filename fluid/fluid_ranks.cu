@@ -78,7 +78,10 @@ void Fluid::migrate() {
   migration.finish(fields());
   subdomain_->findMasters(position_.data(), owned);
   slots_ = owned + subdomain_->ghosts();
-  eachOwned([this](auto& array) { array.resizeKeeping(slots_); });
+  eachOwned([&]<class T>(base::Array<T>& array) {
+    array.resizeKeeping(slots_);
+    base::setZero(exec_, array.data() + owned, subdomain_->ghosts() * sizeof(T)); // sorted with the others
+  });
   change_.resize(slots_), reference_.resize(slots_);
   if (model_.shifting > 0) shift_.resize(slots_), divergence_.resize(slots_);
   updateGhosts();

@@ -79,8 +79,9 @@ FluidTotals Fluid::totals() {
   FluidTotals t;
   base::Vec3d place;
   for (int a = 0; a < 3; ++a) {
-    t.momentum[a] = all[static_cast<std::size_t>(Sum::momentum + a)].value() * speed.quantum * mass;
-    place[a] = all[static_cast<std::size_t>(Sum::place + a)].value() * constants_.scale.unit;
+    const auto axis = static_cast<std::size_t>(a);
+    t.momentum[a] = all[Sum::momentum + axis].value() * speed.quantum * mass;
+    place[a] = all[Sum::place + axis].value() * constants_.scale.unit;
   }
   t.kinetic = all[Sum::kinetic].value() * perEnergy, t.internal = all[Sum::internal].value() * perEnergy;
   t.potential = all[Sum::attraction].value() * perEnergy - mass * dot(model_.gravity, place);

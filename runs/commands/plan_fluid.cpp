@@ -43,7 +43,7 @@ std::string fluidText(const scene::Scene& scene, double timeStep) {
   line("  steps at most", fmt::format("{:.3g} s for sound, {:.3g} s for gravity{}", limits.sound, limits.force,
                                       m.viscosity > 0 ? fmt::format(", {:.3g} s for viscosity", limits.viscous) : ""));
   if (scene.vehicle && scene.fluid->level) {
-    const double volume = setup::StartingBodies(scene).vehicleBelow(*scene.fluid->level, 0.5 * m.spacing);
+    const double volume = setup::StartingBodies(scene).vehicleBelow(*scene.fluid->level);
     line("  vehicle", fmt::format("displaces {:.4g} m3 below the level: lift at rest {:.4g} N", volume,
                                   m.density * norm(m.gravity) * volume));
   }

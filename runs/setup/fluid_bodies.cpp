@@ -2,7 +2,6 @@
 #include "runs/setup/fluid_bodies.hpp"
 
 #include "base/math.hpp"
-#include "fluid/lattice.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/mechanism_setup.hpp"
@@ -105,6 +104,47 @@ coupling::BodyMesh partMesh(const std::string& file, Vec3d& centre) {
   return coupling::bodyMesh(std::make_shared<const spheredecomp::MeshQuery>(std::move(mesh)), 0, false);
 }
 
+/// Markers of shapes, in their frames. Parts of one kind share theirs.
+class PartMarkers {
+public:
+  /// Returns false where none lies within the shape.
+  bool add(const coupling::BodyShape& s, const fluid::FluidModel& model, int across) {
+    std::vector<Vec3d>& markers = of_[keyOf(s)];
+    const double dx = model.spacing, depth = std::ceil(model.kernel().support() / dx) * dx;
+    if (markers.empty()) markers = shapeMarkers(s, dx, depth, across);
+    return !markers.empty();
+  }
+  const std::vector<Vec3d>& of(const coupling::BodyShape& s) const { return of_.at(keyOf(s)); }
+
+private:
+  static const void* keyOf(const coupling::BodyShape& s) {
+    return s.mesh ? static_cast<const void*>(s.mesh.get()) : static_cast<const void*>(&s);
+  }
+  std::map<const void*, std::vector<Vec3d>> of_;
+};
+
+/// Those of the shapes of one body, where no shape before holds them, and the gain.
+void addMarkers(coupling::BodyInFluid& in, const multibody::Body& body,
+                const std::vector<const coupling::BodyShape*>& shapes, const PartMarkers& markers,
+                const fluid::FluidModel& model) {
+  const double dx = model.spacing,
+               face = model.dimensions == 2 ? dx : dx * dx; // area per marker [m2]; [m] in the plane
+  double shifting = 0, turning = 0;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    for (const Vec3d& p : markers.of(*shapes[k])) {
+      const Vec3d p_B = shapes[k]->pose_B.toWorld(p);
+      const auto within = [&p_B](const coupling::BodyShape* o) { return distanceFrom(*o, o->pose_B.toBody(p_B)) < 0; };
+      if (std::any_of(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(k), within)) continue;
+      in.markers.push_back(p_B);
+      if (distanceFrom(*shapes[k], p) > -dx) shifting += face, turning += face * norm2(p_B);
+    }
+  // Half a spacing of fluid in front of each outermost marker moves with the body; twice that as a bound.
+  const double ghost = 2 * 0.5 * model.density * dx;
+  const auto& I = body.inertia_B.m;
+  if (!body.fixed)
+    in.gain = std::max(ghost * shifting / body.mass, ghost * turning / std::min({I[0][0], I[1][1], I[2][2]}));
+}
+
 std::string columnOf(const vehicle::Assembly& assembly, const vehicle::Part& part) {
   if (part.kind == vehicle::PartKind::kChassis) return "vehicle/hull";
   return fmt::format("vehicle/{}_track", vehicle::sideName(assembly.tracks[static_cast<std::size_t>(part.track)].side));
@@ -187,64 +227,52 @@ double StartingBodies::distance(const Vec3d& p, std::size_t first, std::size_t l
   return least;
 }
 
-double StartingBodies::vehicleBelow(double level, double spacing) const {
-  Vec3d low{base::kInfinity, base::kInfinity, base::kInfinity}, high = -low;
-  for (std::size_t i = 0; i < parts_; ++i) {
-    const Vec3d reach{placed_[i].reach, placed_[i].reach, placed_[i].reach};
-    low = min(low, placed_[i].pose.position - reach), high = max(high, placed_[i].pose.position + reach);
-  }
-  high.z = std::min(high.z, level);
+double StartingBodies::vehicleBelow(double level) const {
+  constexpr double kAcross = 0.01, kUp = 0.0025; // [m]
   std::int64_t inside = 0;
-  fluid::Lattice{spacing, 3, {0, 0, level}}.each(
-      low, high, [&](const Vec3d& p) { inside += fromVehicle(p, spacing) < 0 ? 1 : 0; });
-  return static_cast<double>(inside) * spacing * spacing * spacing;
+  for (std::size_t i = 0; i < parts_; ++i) {
+    const Placed& part = placed_[i];
+    const base::Mat3d turn = part.pose.orientation.matrix();
+    const Vec3d half = halfExtent(part.shape.shape), centre = part.pose.position;
+    Vec3d reach;
+    for (int a = 0; a < 3; ++a)
+      for (int k = 0; k < 3; ++k) reach[a] += std::fabs(turn.m[a][k]) * half[k];
+    const double top = std::min(level, centre.z + reach.z);
+    for (double x = centre.x - reach.x + 0.5 * kAcross; x < centre.x + reach.x; x += kAcross)
+      for (double y = centre.y - reach.y + 0.5 * kAcross; y < centre.y + reach.y; y += kAcross)
+        for (double z = top - 0.5 * kUp; z > centre.z - reach.z; z -= kUp)
+          inside += part.shape.mesh->query->inside(part.pose.toBody({x, y, z})) ? 1 : 0;
+  }
+  return static_cast<double>(inside) * (kAcross * kAcross * kUp);
 }
 
 std::vector<coupling::BodyInFluid> StartingBodies::inFluid(const scene::Scene& scene,
                                                            const fluid::FluidModel& model) const {
-  const double dx = model.spacing, depth = std::ceil(model.kernel().support() / dx) * dx;
-  const bool plane = model.dimensions == 2;
-  const double face = plane ? dx : dx * dx; // area per marker [m2]; [m] in two dimensions
   std::vector<coupling::BodyInFluid> all;
-  std::map<const coupling::BodyMesh*, std::vector<Vec3d>> ofPart; // parts of one kind share theirs
+  PartMarkers ofParts;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    coupling::BodyInFluid in{b, b < ofVehicle_ ? 0 : b, columns_[b], {}, b > 0 && b < ofVehicle_, 0};
     const auto fail = [&](const std::string& message) {
       if (b < ofVehicle_) scene.fail("fluid", "spacing", "[m]: the " + bodies_[b].name + " " + message);
       scene.fail("body", b - ofVehicle_, "shape", message);
     };
-    std::vector<const coupling::BodyShape*> former;
-    double shifting = 0, turning = 0;
+    std::vector<const coupling::BodyShape*> shapes;
     for (const Placed& placed : placed_) {
       const coupling::BodyShape& s = placed.shape;
       if (s.body != b) continue;
+      shapes.push_back(&s);
+      const bool plane = model.dimensions == 2;
       const int across = plane ? axisAcross(s, placed.pose) : -1;
       if (plane && across < 0)
         fail("is no box with faces across the plane of fluid.dimensions = 2, nor a cylinder along y; use these, or "
              "dimensions = 3");
-      std::vector<Vec3d> own, *markers = s.mesh ? &ofPart[s.mesh.get()] : &own;
-      if (markers->empty()) *markers = shapeMarkers(s, dx, depth, across);
-      if (markers->empty() || (b >= ofVehicle_ && 2 * coupling::halfThickness(s) < dx))
+      if (!ofParts.add(s, model, across) || (b >= ofVehicle_ && 2 * coupling::halfThickness(s) < model.spacing))
         fail(fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m: no marker of the fluid lies within; "
                          "make it thicker, or the spacing smaller",
-                         2 * coupling::halfThickness(s), dx));
-      for (const Vec3d& p : *markers) {
-        const Vec3d p_B = s.pose_B.toWorld(p);
-        const auto within = [&p_B](const coupling::BodyShape* o) {
-          return distanceFrom(*o, o->pose_B.toBody(p_B)) < 0;
-        };
-        if (std::any_of(former.begin(), former.end(), within)) continue;
-        in.markers.push_back(p_B);
-        if (distanceFrom(s, p) > -dx) shifting += face, turning += face * norm2(p_B);
-      }
-      former.push_back(&s);
+                         2 * coupling::halfThickness(s), model.spacing));
     }
-    if (in.markers.empty()) continue;
-    // Half a spacing of fluid in front of each outermost marker moves with the body; twice that as a bound.
-    const double ghost = 2 * 0.5 * model.density * dx;
-    const auto& I = bodies_[b].inertia_B.m;
-    if (!bodies_[b].fixed)
-      in.gain = std::max(ghost * shifting / bodies_[b].mass, ghost * turning / std::min({I[0][0], I[1][1], I[2][2]}));
+    if (shapes.empty()) continue;
+    coupling::BodyInFluid in{b, b < ofVehicle_ ? 0 : b, columns_[b], {}, b > 0 && b < ofVehicle_, 0};
+    addMarkers(in, bodies_[b], shapes, ofParts, model);
     all.push_back(std::move(in));
   }
   return all;

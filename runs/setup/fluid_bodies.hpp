@@ -33,8 +33,8 @@ public:
   /// cylinder across the plane.
   std::vector<coupling::BodyInFluid> inFluid(const scene::Scene& scene, const fluid::FluidModel& model) const;
 
-  /// Volume of the vehicle below a level [m3], counted on a lattice of this spacing [m].
-  double vehicleBelow(double level, double spacing) const;
+  /// Volume of the vehicle's parts below a level [m3], by points within their meshes.
+  double vehicleBelow(double level) const;
 
   /// Distances from the nearest part of the vehicle, and from the nearest of the other bodies, `most` where it is
   /// farther away [m].
