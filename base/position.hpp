@@ -62,6 +62,8 @@ struct PositionScale {
                       static_cast<std::int64_t>(floor(p.y * perMetre + 0.5)),
                       static_cast<std::int64_t>(floor(p.z * perMetre + 0.5))});
   }
+  /// The nearest whole number of units of a length [m], which may be beyond the range of positions.
+  std::int64_t inUnits(double length) const { return static_cast<std::int64_t>(floor(length * perMetre + 0.5)); }
   double limit() const { return 2199023255552.0 * unit; } ///< |coordinate| must stay below this [m]
 };
 

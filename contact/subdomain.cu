@@ -20,7 +20,7 @@ GROUSER_HD bool isSlave(const std::uint32_t* role, int i) {
   return role && role[i] == static_cast<std::uint32_t>(Role::slave);
 }
 
-/// Who owns each element now.
+/// Finds the rank that owns each element now.
 struct FindOwner {
   PartitionView partition;
   base::Period period;
@@ -55,7 +55,7 @@ struct ReadRanks {
   GROUSER_HD void operator()(int k) const { ranks[k] = destination[slots[k]]; }
 };
 
-/// The other subdomains within range of one element: counted, or listed where `ranks` is not null.
+/// Counts the other subdomains within range of an element, or lists them where `ranks` is not null.
 struct FindGhostTargets {
   PartitionView partition;
   base::Period period;
@@ -134,7 +134,7 @@ struct Sorted {
   }
 };
 
-/// Where the elements of this rank lie along each axis.
+/// Histogram of the elements of this rank along each axis.
 struct CountInBins {
   const Position* position;
   const std::uint32_t* role;
@@ -201,11 +201,7 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
   for (int a = 0; a < 3; ++a) {
     const auto k = static_cast<std::size_t>(a);
     cuts[k] = chosen.cuts(a);
-    base::Vec3d place{};
-    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) {
-      place[a] = options.cuts[k][c];
-      cuts[k][c] = base::toUnits(scale.fromMetres(place))[a];
-    }
+    for (std::size_t c = 0; c < options.cuts[k].size(); ++c) cuts[k][c] = scale.inUnits(options.cuts[k][c]);
   }
   return Partition(cuts);
 }

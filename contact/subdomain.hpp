@@ -13,11 +13,11 @@
 
 namespace grouser::contact {
 
-/// What a copy of an element is to the subdomain that holds it.
+/// Role of an element in the subdomain that holds a copy of it.
 enum class Role : std::uint32_t {
   unique, ///< no other subdomain needs it; integrated here. Kernels take it for 0
   master, ///< its centre lies here, within range of a border; integrated here, and known to others as slaves
-  slave,  ///< a copy of one mastered elsewhere: used for forces, never integrated (a ghost)
+  slave,  ///< copy of a master of another subdomain (ghost): it exerts forces and is not integrated
 };
 
 /// How space is divided among the ranks.
@@ -29,8 +29,8 @@ struct PartitionOptions {
   base::PeerUse peers = base::PeerUse::automatic;
 };
 
-/// The first cuts: as many elements in each slab of an axis as in the others. Throws InputError where cuts and
-/// subdomains that are wanted disagree.
+/// Cuts at the start: equal numbers of elements in all slabs of an axis. Throws InputError if `options.cuts` and
+/// `options.subdomains` disagree.
 Partition startingPartition(const std::vector<base::Position>& position, const PartitionOptions& options,
                             const base::PositionScale& scale);
 

@@ -12,7 +12,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr std::size_t kNumbers = 18; ///< of a saved body
+constexpr std::size_t kNumbers = 18; ///< numbers saved for a body
 
 fluid::Fluid makeFluid(const fluid::FluidSetup& setup, const FluidDomainState* former, const base::Exec& exec,
                        contact::PartitionOptions ranks, const base::Comm& comm) {
@@ -22,7 +22,7 @@ fluid::Fluid makeFluid(const fluid::FluidSetup& setup, const FluidDomainState* f
 
 } // namespace
 
-/// All that a saved body has, three numbers each.
+/// Vectors of a saved body.
 template <class Follower> static auto numbersOf(Follower& f) {
   return std::array{&f.acceleration, &f.angularAcceleration, &f.before.v, &f.before.w, &f.sum.v, &f.sum.w};
 }
@@ -54,7 +54,6 @@ fluid::FluidSetup FluidDomain::withBodies(const multibody::Model* model, const m
     all.bodies.push_back(
         {"body \"" + model->bodies()[b.body].name + "\"", b.markers, motionOf(f, *bodies, f.before), b.touches});
   }
-  if (bodies) keepArms(*bodies);
   return all;
 }
 
@@ -81,20 +80,16 @@ Vec3d FluidDomain::addLoads(multibody::Loads& loads) const {
   return sum;
 }
 
-std::vector<fluid::BodyLoad> FluidDomain::columnLoads() const {
+std::vector<fluid::BodyLoad> FluidDomain::columnLoads(const multibody::State* bodies) const {
   std::vector<fluid::BodyLoad> sums(columns_.size());
   const std::vector<fluid::BodyLoad> ofFluid = bodyLoads();
   for (std::size_t k = 0; k < followers_.size(); ++k) {
-    fluid::BodyLoad& sum = sums[followers_[k].column];
-    sum.force += ofFluid[k].force;
-    sum.torque += ofFluid[k].torque + cross(arms_[k], ofFluid[k].force);
+    const Follower& f = followers_[k];
+    const Vec3d arm = bodies->pose[f.body].position - bodies->pose[f.about].position;
+    sums[f.column].force += ofFluid[k].force;
+    sums[f.column].torque += ofFluid[k].torque + cross(arm, ofFluid[k].force);
   }
   return sums;
-}
-
-void FluidDomain::keepArms(const multibody::State& state) {
-  arms_.clear();
-  for (const Follower& f : followers_) arms_.push_back(state.pose[f.body].position - state.pose[f.about].position);
 }
 
 void FluidDomain::advance(const multibody::State* bodies) {
@@ -112,7 +107,6 @@ void FluidDomain::advance(const multibody::State* bodies) {
   waited_ = 0;
   fluid_.step(motions);
   totals_.reset();
-  if (bodies) keepArms(*bodies);
 }
 
 const fluid::FluidTotals& FluidDomain::totals() {

@@ -40,8 +40,8 @@ public:
   std::vector<fluid::BodyLoad> bodyLoads() const { return fluid_.bodyLoads(); } ///< [N], [N m] about the centre of mass
   /// Columns of the output (BodyInFluid::column), in the order of their first bodies.
   const std::vector<std::string>& columns() const { return columns_; }
-  /// Sum of the loads of each column, torques about the centres of mass of BodyInFluid::about.
-  std::vector<fluid::BodyLoad> columnLoads() const;
+  /// Sum of the loads of each column, torques about the present centres of mass of BodyInFluid::about.
+  std::vector<fluid::BodyLoad> columnLoads(const multibody::State* bodies) const;
   /// Totals after the last step, which are summed once however often they are read.
   const fluid::FluidTotals& totals();
 
@@ -58,14 +58,12 @@ private:
   fluid::FluidSetup withBodies(const multibody::Model* model, const multibody::State* bodies,
                                const FluidDomainState* former);
   fluid::BodyMotion motionOf(const Follower& f, const multibody::State& state, const multibody::Twist& mean) const;
-  void keepArms(const multibody::State& state);
 
   const FluidDomainSetup& setup_;
   std::vector<Follower> followers_;
-  std::vector<base::Vec3d> arms_; ///< of the followers, from the centres that torques are recorded about [m]
   std::vector<std::string> columns_;
   fluid::Fluid fluid_;
-  std::int64_t waited_{0};                   ///< steps since the last of the fluid
+  std::int64_t waited_{0};                   ///< steps of the simulation since the last step of the fluid
   std::optional<fluid::FluidTotals> totals_; ///< empty until they are read after a step
 };
 

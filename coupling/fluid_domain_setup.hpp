@@ -17,9 +17,9 @@ namespace grouser::coupling {
 struct BodyInFluid {
   std::size_t body{};               ///< index into the model's bodies
   std::size_t about{};              ///< body about whose centre of mass its torque is recorded
-  std::string column;               ///< of the output, in which the loads of bodies are summed
+  std::string column;               ///< column of the output, which sums the loads of its bodies
   std::vector<base::Vec3d> markers; ///< in the body's frame [m]
-  bool touches{};                   ///< as in FluidBody
+  bool touches{};                   ///< see FluidBody
   double gain{};                    ///< upper bound of ghost inertia over mass or inertia [-]
 };
 
@@ -35,10 +35,11 @@ struct FluidDomainSetup {
   fluid::FluidSetup fluid; ///< without bodies
   std::vector<BodyInFluid> bodies;
   std::vector<FluidProbePoint> probes;
-  contact::PartitionOptions partition; ///< but for the ranks
-  int stepsPerStep = 1;                ///< of the simulation in a step of the fluid, whose loads hold for all of them
-  double top{};                        ///< upper end of the lines of level probes [m]
-  std::optional<base::Pose> chassis;   ///< where the vehicle was assumed to stand at the start; empty without one
+  contact::PartitionOptions partition; ///< without communicator
+  int stepsPerStep = 1; ///< steps of the simulation in a step of the fluid; the loads hold for all of them
+  double top{};         ///< upper end of the lines of level probes [m]
+  std::optional<base::Pose>
+      chassis; ///< pose of the vehicle that particles and markers were made for; empty without one
 };
 
 /// Fluid of a saved simulation.

@@ -38,7 +38,8 @@ public:
 
   void collectLoads() override;
   void advance() override;
-  /// Of a fluid on all bodies in this step [N], which carries a part of a vehicle at rest.
+  /// Sets the force of a fluid on all bodies in this step [N]: it counts as support when the rig judges whether the
+  /// vehicle is at rest.
   void setFluidForce(const base::Vec3d& force) { fluidForce_ = force; }
 
   const multibody::Model& model() const override { return assembly_.model; }
@@ -115,7 +116,7 @@ private:
   std::unique_ptr<vehicle::Observer> observer_;
   std::optional<Watch> watch_;
   double carried_;         ///< mass that the ground carries at rest [kg]: the vehicle and the bodies beside it
-  base::Vec3d fluidForce_; ///< in this step [N]
+  base::Vec3d fluidForce_; ///< force of the fluid on all bodies in this step [N]
   vehicle::BlowMeter blows_;
   PartContacts::RunningGear gear_;
   ForceMeans alarmMeans_;

@@ -108,9 +108,8 @@ Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec&
   // Forces are those at the velocities of the middle of the last step.
   std::vector<Losses> losses(slots_);
   std::vector<base::Vec3l> force(slots_);
-  const std::vector<std::uint32_t> id = id_.toHost(),
-                                   ghost = subdomain_ ? base::toHost(exec_, subdomain_->ghostMarks(), slots_)
-                                                      : std::vector<std::uint32_t>(slots_);
+  const std::vector<std::uint32_t> id = id_.toHost(), ghost = ghostMarks() ? base::toHost(exec_, ghostMarks(), slots_)
+                                                                           : std::vector<std::uint32_t>(slots_);
   for (std::size_t i = 0; i < slots_; ++i) {
     if (ghost[i]) continue;
     losses[i] = state.particles[id[i]].losses;
@@ -162,7 +161,7 @@ FluidView Fluid::view() {
           bodyLoad_.device().data(),
           lists_.rows(),
           flags_.device().data(),
-          subdomain_ ? subdomain_->ghostMarks() : nullptr};
+          ghostMarks()};
 }
 
 template <class T> void Fluid::permute(base::Array<T>& array) {
@@ -178,7 +177,7 @@ void Fluid::rebuild() {
   lists_.sort(position_.data(), slots_, markers());
   permute(position_), permute(motion_), permute(precise_), permute(force_), permute(losses_), permute(id_);
   if (subdomain_) subdomain_->sorted(lists_.order(), slots_);
-  lists_.build(position_.data(), subdomain_ ? subdomain_->ghostMarks() : nullptr);
+  lists_.build(position_.data(), ghostMarks());
   markerForce_.zero(); // markers without fluid neighbours are not computed
   base::copyOnDevice(exec_, reference_.data(), position_.data(), slots_ * sizeof(base::Position));
   listEnded_ = false, bodiesMoved_ = 0;

@@ -58,7 +58,7 @@ public:
   double time() const { return static_cast<double>(steps_) * model_.timeStep; } ///< [s]
 
   const FluidModel& model() const { return model_; }
-  std::size_t particles() const { return particles_; } ///< of all ranks
+  std::size_t particles() const { return particles_; } ///< on all ranks together
   std::size_t markers() const { return markerForce_.size(); }
   FluidTotals totals();
   FluidSnapshot snapshot() const;
@@ -86,6 +86,7 @@ private:
   std::vector<std::uint32_t> divide(const std::vector<base::Position>& positions,
                                     const contact::PartitionOptions& ranks);
   template <class Visit> void eachOwned(const Visit& visit);
+  const std::uint32_t* ghostMarks() const { return subdomain_ ? subdomain_->ghostMarks() : nullptr; }
   void migrate();
   void updateGhosts();
   void agreeOnSpeed();
@@ -104,7 +105,7 @@ private:
   base::Comm comm_;
   bool rebalances_;
   std::unique_ptr<contact::Subdomain> subdomain_; ///< null on one rank
-  std::size_t particles_, slots_{0};              ///< of all ranks; of this one with its ghosts
+  std::size_t particles_, slots_{0};              ///< particles of all ranks; particles and ghosts of this one
   FluidLists lists_;
   base::Array<base::Position> position_, reference_;
   base::Array<base::Vec4f> motion_;

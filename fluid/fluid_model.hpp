@@ -58,7 +58,7 @@ double soundSpeedFor(double speed, double pressure, double density);
 /// Pressure [Pa] at a compression [-], and the inverse.
 double pressureAt(const FluidModel& model, double compression);
 double compressionAt(const FluidModel& model, double pressure);
-/// Energy of compression per mass, c^2 (ln(1 + s) + 1/(1 + s) - 1) [J/kg], of c^2 `sound2` [m2/s2].
+/// Energy of compression per mass, c^2 (ln(1 + s) + 1/(1 + s) - 1) [J/kg]; `sound2`: c^2 [m2/s2].
 GROUSER_HD double internalEnergy(double sound2, double compression) {
   // -ln(1 - u) - u with u = s/(1 + s), by its series: the closed form cancels for small u.
   const double u = compression / (1 + compression);

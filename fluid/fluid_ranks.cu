@@ -6,6 +6,7 @@
 #include "fluid/fluid_kernels.cuh"
 
 #include <array>
+#include <numeric>
 
 namespace grouser::fluid {
 
@@ -19,7 +20,7 @@ template <class T> struct CloseGaps {
   GROUSER_HD void operator()(int k) const { array[to[k]] = array[from[k]]; }
 };
 
-/// The records behind the first `from` of an array, taken aside.
+/// Copy of the records of an array from place `from` on.
 template <class T> base::Array<T> tailOf(const base::Exec& exec, const base::Array<T>& array, std::size_t from) {
   auto tail = base::Array<T>::unset(exec, array.size() - from);
   base::copyOnDevice(exec, tail.data(), array.data() + from, tail.size() * sizeof(T));
@@ -41,7 +42,7 @@ template <class Visit> void Fluid::eachOwned(const Visit& visit) {
 std::vector<std::uint32_t> Fluid::divide(const std::vector<base::Position>& positions,
                                          const contact::PartitionOptions& ranks) {
   std::vector<std::uint32_t> mine(positions.size());
-  for (std::size_t i = 0; i < mine.size(); ++i) mine[i] = static_cast<std::uint32_t>(i);
+  std::iota(mine.begin(), mine.end(), 0U);
   if (ranks.comm.alone()) return mine;
   // A marker beside a particle of this rank takes its pressure from all fluid within its own reach.
   subdomain_ = std::make_unique<contact::Subdomain>(exec_, ranks, 2 * lists_.reach(), constants_.period);
@@ -103,7 +104,7 @@ void Fluid::agreeOnSpeed() {
   flags_.upload();
 }
 
-/// Flags, and loads on bodies, of all ranks.
+/// Combines flags and loads on bodies over all ranks.
 void Fluid::agree() {
   if (!subdomain_) return;
   FluidFlags& flags = *flags_.host();
@@ -128,7 +129,7 @@ template <class T> std::vector<T> Fluid::byId(const base::Array<T>& array) const
     for (std::size_t i = 0; i < mine.size(); ++i) all[id[i]] = mine[i];
     return all;
   }
-  const std::vector<std::uint32_t> ghost = base::toHost(exec_, subdomain_->ghostMarks(), slots_);
+  const std::vector<std::uint32_t> ghost = base::toHost(exec_, ghostMarks(), slots_);
   std::size_t owned = 0;
   for (std::size_t i = 0; i < mine.size(); ++i)
     if (!ghost[i]) mine[owned] = mine[i], id[owned++] = id[i];

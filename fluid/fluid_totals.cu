@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Energies, momentum and losses: exact sums of integers, the same in any order, on any device and number of ranks.
-#include "base/wide_sum.cuh"
+#include "base/summed_banks.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/fluid_kernels.cuh"
 
@@ -24,13 +24,13 @@ struct AddTotals {
     place = momentum + 3,
     kSums = place + 3
   };
-  static constexpr int kBanks = 16; ///< so that threads seldom meet
+  static constexpr int kBanks = 16; ///< copies of the sums: threads that add at the same time rarely use the same one
 
   FluidView f;
   base::FixedPoint energy; ///< [J/kg]
   base::FixedPoint speed;  ///< [m/s]
   base::WideSum* sums;     ///< [kBanks][kSums]
-  std::uint64_t* slowest;  ///< least of 2^64 - 1 minus the bits of the squared speed, a positive double
+  std::uint64_t* slowest;  ///< minimum of the inverted bits of the squared speed, a positive double
 
   GROUSER_HD void operator()(int i) const {
     if (f.isGhost(i)) return;
@@ -59,19 +59,14 @@ struct AddTotals {
 
 FluidTotals Fluid::totals() {
   using Sum = AddTotals;
-  constexpr int kBits = 50; // of what may be summed by a warp without overflow
+  constexpr int kBits = 50; // 32 terms of 2^50 quanta, the sum of a warp, fit into 64 bits
   const double c = model_.soundSpeed;
   const base::FixedPoint energy = base::fixedPointFor(c * c, kBits), speed = base::fixedPointFor(c, kBits);
   base::Array<base::WideSum> banks(exec_, std::size_t{Sum::kBanks} * Sum::kSums);
   base::Array<std::uint64_t> slowest(exec_, std::vector<std::uint64_t>{~std::uint64_t{0}});
   base::forEach(exec_, "totals of the fluid", static_cast<std::int64_t>(slots_),
                 AddTotals{view(), energy, speed, banks.data(), slowest.data()});
-  std::vector<base::WideSum> mine(Sum::kSums);
-  const std::vector<base::WideSum> here = banks.toHost();
-  for (std::size_t k = 0; k < here.size(); ++k) mine[k % Sum::kSums] += here[k];
-  std::vector<base::WideSum> all(Sum::kSums);
-  for (const std::vector<base::WideSum>& rank : comm_.gatherAll(mine))
-    for (std::size_t k = 0; k < rank.size(); ++k) all[k] += rank[k];
+  const std::vector<base::WideSum> all = base::summedBanks(banks.toHost(), Sum::kSums, comm_);
   std::uint64_t fastest = slowest.at(0);
   comm_.minimum(&fastest, 1);
 

@@ -20,7 +20,7 @@ struct alignas(32) PreciseMotion {
 /// Changes of compression in a step [-]: by flow, and by density diffusion.
 struct CompressionChange {
   double flow, diffusion;
-  double limit; ///< of the compression: of all particles, or of those beside parts that touch [-]
+  double limit; ///< greatest compression, lower beside bodies that touch others [-]
 };
 
 /// Load of the fluid on a body about its frame's origin: exact sums, in quanta of acceleration x particle mass, and of
@@ -66,7 +66,7 @@ struct FluidView {
   std::uint32_t fixedMarkers;      ///< markers of bodies lie behind them
   const BodyMotion* body;          ///< [bodies]
   const std::uint32_t* bodyOf;     ///< [markers of bodies] index of the body
-  const float* bodyContact;        ///< [bodies] distance within which its markers repel [m]; 0 of those that touch
+  const float* bodyContact;        ///< [bodies] distance within which markers repel [m]; 0 for bodies that touch others
   const base::Vec3d* bodyPoint;    ///< [markers of bodies] place in the body's frame [m]
   BodyLoadQuanta* bodyLoad;        ///< [bodies]
   FluidRows rows;

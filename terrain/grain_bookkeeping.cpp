@@ -2,6 +2,7 @@
 #include "terrain/grain_bookkeeping.hpp"
 
 #include "base/error.hpp"
+#include "base/summed_banks.hpp"
 #include "contact/strongest_force.hpp"
 #include "terrain/grain_constants.hpp"
 #include "terrain/grain_kernel_data.cuh"
@@ -44,16 +45,7 @@ void GrainBookkeeping::describe(GrainKernelData& d) {
 }
 
 GrainBookkeeping::Sums GrainBookkeeping::sums(const base::Comm& comm) const {
-  Sums sums{};
-  if (!kept()) return sums;
-  const std::vector<base::WideSum> banks = books_.toHost();
-  for (std::size_t k = 0; k < banks.size(); ++k) sums[k % kBooks] += banks[k];
-  if (comm.alone()) return sums;
-  const std::vector<base::WideSum> mine(sums.begin(), sums.end());
-  sums = {};
-  for (const std::vector<base::WideSum>& rank : comm.gatherAll(mine))
-    for (std::size_t b = 0; b < rank.size(); ++b) sums[b] += rank[b];
-  return sums;
+  return kept() ? base::summedBanks(books_.toHost(), kBooks, comm) : Sums(kBooks);
 }
 
 GrainBookkeeping::Totals GrainBookkeeping::totals(const base::Comm& comm) const {

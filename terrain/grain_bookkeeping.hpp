@@ -37,7 +37,7 @@ public:
   void restore(const std::vector<std::int64_t>& saved, const base::Comm& comm);
 
 private:
-  using Sums = std::array<base::WideSum, kBooks>;
+  using Sums = std::vector<base::WideSum>;
   Sums sums(const base::Comm& comm) const;
 
   BookScale scale_;

@@ -4,7 +4,6 @@
 #include "base/error.hpp"
 #include "base/rounded.hpp"
 #include "terrain/feet_search.hpp"
-#include "terrain/length_units.hpp"
 #include "terrain/searched_height_field.hpp"
 
 #include <algorithm>
@@ -94,7 +93,7 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
       throw base::InputError(
           fmt::format("periodic boundaries {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a],
                       from, to, scale.limit()));
-    period.low[a] = unitsOf(from, scale), period.length[a] = unitsOf(to, scale) - period.low[a];
+    period.low[a] = scale.inUnits(from), period.length[a] = scale.inUnits(to) - period.low[a];
     if (period.length[a] < 3 * reach)
       throw base::InputError(
           fmt::format("periodic boundaries {} = {:g} m and {:g} m are too near: a grain could touch another "
@@ -110,8 +109,8 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
 GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& boundaries,
                                const std::vector<GrainSpec>& start)
     : model(withFixedGrains(grainModel, start)), scale(base::positionScale(2 * model.radius)),
-      smallestRadius(smallestOf(model, start)), diameterUnits(unitsOf(2 * model.radius, scale)),
-      skinUnits(unitsOf(model.skin * smallestRadius, scale)),
+      smallestRadius(smallestOf(model, start)), diameterUnits(scale.inUnits(2 * model.radius)),
+      skinUnits(scale.inUnits(model.skin * smallestRadius)),
       features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
       historyWidth(contact::historyWidth(features)), wallCount(static_cast<int>(boundaries.walls.size())),
       floorPlaces(boundaries.floorPlaces(model.radius)), boundaryCount(boundaries.count(model.radius)),

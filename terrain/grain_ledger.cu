@@ -2,6 +2,7 @@
 // Energies and counts of the grains, from state functions.
 #include "terrain/grain_ledger.hpp"
 
+#include "base/summed_banks.hpp"
 #include "contact/sphere_pair.hpp"
 #include "contact/strongest_force.hpp"
 #include "terrain/feet_search.hpp"
@@ -228,14 +229,9 @@ namespace {
 
 using Sums = MeasureGrain<float>;
 
-/// The sums of all ranks, which all call it.
+/// Sums over all ranks. All ranks call it.
 std::array<double, Sums::kSums> summed(const base::Array<base::WideSum>& banks, const base::Comm& comm) {
-  std::vector<base::WideSum> mine(Sums::kSums);
-  const std::vector<base::WideSum> here = banks.toHost();
-  for (std::size_t k = 0; k < here.size(); ++k) mine[k % Sums::kSums] += here[k];
-  std::vector<base::WideSum> all(Sums::kSums);
-  for (const std::vector<base::WideSum>& rank : comm.gatherAll(mine))
-    for (std::size_t k = 0; k < rank.size(); ++k) all[k] += rank[k];
+  const std::vector<base::WideSum> all = base::summedBanks(banks.toHost(), Sums::kSums, comm);
   std::array<double, Sums::kSums> values{};
   for (std::size_t k = 0; k < all.size(); ++k) values[k] = all[k].value();
   return values;

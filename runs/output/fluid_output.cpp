@@ -3,10 +3,10 @@
 
 namespace grouser::output {
 
-FluidReading fluidReading(coupling::FluidDomain& fluid) {
+FluidReading fluidReading(coupling::FluidDomain& fluid, const multibody::State* bodies) {
   const fluid::Fluid& f = fluid.fluid();
-  return {fluid.totals(), f.model().mass() * static_cast<double>(f.particles()), fluid.probe(), fluid.columnLoads(),
-          f.rebuilds()};
+  return {fluid.totals(), f.model().mass() * static_cast<double>(f.particles()), fluid.probe(),
+          fluid.columnLoads(bodies), f.rebuilds()};
 }
 
 Columns<FluidReading> fluidColumns(const std::vector<coupling::FluidProbePoint>& probes,

@@ -129,7 +129,7 @@ std::vector<FileField> resultFields() {
        {terrainColumns().channels(), surfaceColumns("NAME", true).channels(), obstacleColumns("NAME").channels(),
         hitchColumns().channels(), gearColumns().channels(), ledgerColumns().channels(),
         ledgerColumns(true, true, false).channels(), ledgerColumns(true, false, true).channels(),
-        fluidColumns({{"NAME", false, {}}}, {"NAME"}).channels(), probeColumns({"NAME"}).channels(),
+        fluidColumns({{"NAME", false, {}}}, {"bodies/NAME", "vehicle/hull", "vehicle/SIDE_track"}).channels(), probeColumns({"NAME"}).channels(),
         mechanismColumns(modelOfAll(), std::vector<bool>(modelOfAll().bodies().size(), true), {}).channels()})
     for (const Channel& c : channels) add(fields, c);
   return fields;

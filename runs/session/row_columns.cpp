@@ -59,8 +59,11 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
     });
   addSurfaces();
   if (coupling::FluidDomain* fluid = coupling::fluidOf(simulation))
-    add(output::fluidColumns(simulation.setup().fluid->probes, fluid->columns()),
-        [fluid](const Now&) { return output::fluidReading(*fluid); });
+    add(output::fluidColumns(simulation.setup().fluid->probes, fluid->columns()), [fluid, &s = simulation](const Now&) {
+      return output::fluidReading(*fluid, s.vehicle()     ? &s.vehicle()->state()
+                                          : s.mechanism() ? &s.mechanism()->state()
+                                                          : nullptr);
+    });
   if (rig && rig->towing())
     add(output::hitchColumns(), [&s = simulation](const Now& now) {
       return output::HitchReading{s.vehicle()->towing()->observe(), now.vehicle.drawbarPull};

@@ -95,7 +95,8 @@ int axisAcross(const coupling::BodyShape& s, const base::Pose& pose) {
   return -1;
 }
 
-/// The mesh of a part with its bounding box about the origin; `centre`: of that box in the part's frame.
+/// Mesh of a part, moved so that its bounding box is centred at the origin. `centre`: centre of that box in the part's
+/// frame.
 coupling::BodyMesh partMesh(const std::string& file, Vec3d& centre) {
   base::TriangleMesh mesh = spheredecomp::importMesh(file);
   const auto [low, high] = spheredecomp::bounds(mesh);
@@ -104,7 +105,7 @@ coupling::BodyMesh partMesh(const std::string& file, Vec3d& centre) {
   return coupling::bodyMesh(std::make_shared<const spheredecomp::MeshQuery>(std::move(mesh)), 0, false);
 }
 
-/// Markers of shapes, in their frames. Parts of one kind share theirs.
+/// Markers of shapes in their frames. Parts of one kind share one set.
 class PartMarkers {
 public:
   /// Returns false where none lies within the shape.
@@ -123,7 +124,7 @@ private:
   std::map<const void*, std::vector<Vec3d>> of_;
 };
 
-/// Those of the shapes of one body, where no shape before holds them, and the gain.
+/// Adds the markers of the shapes of one body, but those within an earlier shape, and sets the gain.
 void addMarkers(coupling::BodyInFluid& in, const multibody::Body& body,
                 const std::vector<const coupling::BodyShape*>& shapes, const PartMarkers& markers,
                 const fluid::FluidModel& model) {
@@ -189,18 +190,19 @@ void StartingBodies::addVehicle(const scene::Scene& scene) {
   columns_.resize(bodies_.size());
   struct Kind {
     std::shared_ptr<const coupling::BodyMesh> mesh;
-    Vec3d centre;
+    Vec3d centre, half; ///< of the bounding box in the part's frame [m]
   };
   std::map<std::string, Kind> kinds;
   for (const vehicle::Part& part : assembly.parts) {
     Kind& kind = kinds[part.mesh];
-    if (!kind.mesh)
+    if (!kind.mesh) {
       kind.mesh = std::make_shared<const coupling::BodyMesh>(
           partMesh((std::filesystem::path(setup.spec.meshFolder) / part.mesh).string(), kind.centre));
-    const auto [low, high] = spheredecomp::bounds(kind.mesh->query->mesh());
+      kind.half = spheredecomp::bounds(kind.mesh->query->mesh()).second;
+    }
     coupling::BodyShape s{.body = static_cast<std::size_t>(part.body),
                           .pose_B = {part.pose_B.toWorld(kind.centre), part.pose_B.orientation},
-                          .shape = {contact::SurfaceShape::box, high},
+                          .shape = {contact::SurfaceShape::box, kind.half},
                           .material = 0,
                           .place = part.name};
     s.mesh = kind.mesh;

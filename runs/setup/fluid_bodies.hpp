@@ -29,8 +29,8 @@ public:
   std::optional<base::Pose> chassis() const;
   const base::Pose& pose(std::size_t body) const { return bodies_[body].pose; }
   bool ofVehicle(std::size_t body) const { return body < ofVehicle_; }
-  /// Those with shapes. Throws InputError where a shape is thinner than the spacing, or in two dimensions no box or
-  /// cylinder across the plane.
+  /// Returns the bodies with shapes. Throws InputError where a shape is thinner than the spacing, or in two dimensions
+  /// no box or cylinder across the plane.
   std::vector<coupling::BodyInFluid> inFluid(const scene::Scene& scene, const fluid::FluidModel& model) const;
 
   /// Volume of the vehicle's parts below a level [m3], by points within their meshes.
@@ -45,16 +45,16 @@ private:
   struct Placed {
     coupling::BodyShape shape;
     base::Pose pose; ///< in the world
-    double reach;    ///< of its surface from its origin [m]
+    double reach;    ///< bounding radius about the origin [m]
   };
   void addVehicle(const scene::Scene& scene);
   void add(const coupling::BodyShape& shape);
   double distance(const base::Vec3d& p, std::size_t first, std::size_t last, double most) const;
 
-  std::vector<multibody::Body> bodies_; ///< of the vehicle first
-  std::vector<std::string> columns_;    ///< [body] of the output
-  std::size_t ofVehicle_{0};            ///< bodies
-  std::size_t parts_{0};                ///< shapes of the vehicle, before the others
+  std::vector<multibody::Body> bodies_; ///< bodies of the vehicle before the others
+  std::vector<std::string> columns_;    ///< [body] column of the output (BodyInFluid::column)
+  std::size_t ofVehicle_{0};            ///< number of the vehicle's bodies
+  std::size_t parts_{0};                ///< number of the vehicle's shapes, which stand before the others
   std::vector<Placed> placed_;
 };
 

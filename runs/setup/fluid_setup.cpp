@@ -104,11 +104,14 @@ void keepOff(const StartingBodies& bodies, const fluid::FluidModel& model, Vec3d
   if (norm(slope) > 0) place += slope * ((near - d) / norm(slope));
 }
 
+fluid::StepLimits limitsOf(const fluid::FluidModel& model) {
+  return fluid::stepLimits(model, 0.1 * model.soundSpeed, norm(model.gravity));
+}
+
 /// Longest step of the fluid whose loads may hold for several steps of the bodies [s]. The pressure beside a body of
 /// `gain` times its mass of fluid answers to its speed within a spacing over the sound speed and the gain.
-double longestStep(const scene::Scene& scene, const fluid::FluidModel& model,
-                   const std::vector<coupling::BodyInFluid>& bodies) {
-  double longest = fluidStepLimits(scene).least();
+double longestStep(const fluid::FluidModel& model, const std::vector<coupling::BodyInFluid>& bodies) {
+  double longest = limitsOf(model).least();
   for (const coupling::BodyInFluid& b : bodies)
     if (b.gain > 0) longest = std::min(longest, model.spacing / (model.soundSpeed * b.gain));
   return longest;
@@ -117,7 +120,7 @@ double longestStep(const scene::Scene& scene, const fluid::FluidModel& model,
 /// A particle nearer to a marker than this is repelled [spacings].
 constexpr double kLeastDistance = 0.85;
 
-/// Of the vehicle.
+/// Markers of the vehicle where it stands at the start [m].
 std::vector<Vec3d> markersAtStart(const StartingBodies& bodies, const std::vector<coupling::BodyInFluid>& inFluid) {
   std::vector<Vec3d> all;
   for (const coupling::BodyInFluid& b : inFluid)
@@ -161,10 +164,7 @@ fluid::FluidModel fluidModel(const scene::Scene& scene) {
   return m;
 }
 
-fluid::StepLimits fluidStepLimits(const scene::Scene& scene) {
-  const fluid::FluidModel m = fluidModel(scene);
-  return fluid::stepLimits(m, 0.1 * m.soundSpeed, norm(m.gravity));
-}
+fluid::StepLimits fluidStepLimits(const scene::Scene& scene) { return limitsOf(fluidModel(scene)); }
 
 std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, double timeStep) {
   if (!scene.fluid) return {};
@@ -179,7 +179,7 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   setup.fluid.markers = fluid::wallMarkers(m, solid, tank.low - out, tank.high + out, tank.low);
   const StartingBodies bodies(scene);
   setup.bodies = bodies.inFluid(scene, m), setup.chassis = bodies.chassis();
-  setup.stepsPerStep = std::max(1, static_cast<int>(longestStep(scene, m, setup.bodies) / timeStep + 1e-9));
+  setup.stepsPerStep = std::max(1, static_cast<int>(longestStep(m, setup.bodies) / timeStep + 1e-9));
   m.timeStep = setup.stepsPerStep * timeStep;
   // Between the parts of a vehicle there is no room to move particles off: what touches is left out.
   const fluid::Distance free = [&](const Vec3d& p) {

@@ -27,8 +27,7 @@ struct TimeScale {
 /// table, and a ramp of 0 s, are a jump, and have no gap.
 std::vector<TimeScale> timeScales(const scene::Scene& scene);
 
-/// Greatest speed of a track against its hull that the driver sets [m/s]; 0 of one that sets torques. The scene has a
-/// vehicle.
+/// Greatest track speed relative to the hull that the driver sets [m/s]; 0 if it sets torques. Requires a vehicle.
 double greatestTrackSpeed(const scene::Scene& scene);
 
 /// The longest step with run.steps_per_period steps in each of them [s]; infinite where there is none.

@@ -220,6 +220,21 @@ TEST(Fluid, ContactNearAMarkerKeepsItsSize) {
   EXPECT_EQ(fluid.forceBalance(), base::Vec3l{});
 }
 
+/// A particle that stands 0.6 spacings from a marker would leave it at 0.72 times the speed of sound, by the potential
+/// 3 c^2 (1 - r/r0)^2; since it is pushed less the faster it parts, it does not reach half of that speed.
+TEST(Fluid, AParticleThatPartsFastFromAMarkerIsPushedLess) {
+  FluidSetup s;
+  FluidModel& m = s.model = water(3, 0.05);
+  m.timeStep = 1e-5;
+  s.markers = {{{0, 0, 0}}};
+  s.particles = {{{0, 0, 0.6 * m.spacing}, {}, 0}};
+  Fluid fluid(s, testExec());
+  while (fluid.snapshot().position[0].z < 0.9 * m.spacing) fluid.step();
+  const double speed = fluid.snapshot().velocity[0].z / m.soundSpeed;
+  EXPECT_GT(speed, 0.2);
+  EXPECT_LT(speed, 0.36);
+}
+
 // --- probes
 
 /// Pressure and level of still water at a wall, in the middle and above; dry places.

@@ -13,7 +13,7 @@ namespace {
 
 using base::Vec3d;
 
-/// All that a caller sees.
+/// Results that callers can read.
 struct Seen {
   std::uint64_t hash;
   base::Vec3l balance;

@@ -89,7 +89,7 @@ TEST(Grounds, EverySceneOfAVehicleIsConverted) {
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(shipped(""))) {
     const scene::Scene own = setup::loadScene(entry.path());
-    if (!own.terrain || !own.vehicle) continue;
+    if (!own.terrain || !own.vehicle || own.fluid) continue; // fluid stands beside rigid ground alone
     ++scenes;
     for (const TerrainKind ground : {TerrainKind::rigid, TerrainKind::scm, TerrainKind::granular}) {
       Words sets = {"terrain.material=lete_sand"};
