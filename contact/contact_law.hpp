@@ -77,6 +77,8 @@ template <class T> struct BasicLaw {
   /// they are squared: a float holds neither the squares of those of micrometre grains nor of those beyond 1e19 N. It
   /// changes no other bits; scaledFor() in strongest_force.hpp sets it.
   T squareScale{1};
+  /// Rebound over impact speed that the damping stands for [-]: what complementarity contacts have instead of it.
+  T restitution{};
 
   template <class U> BasicLaw<U> as() const {
     const auto u = [](T value) { return static_cast<U>(value); };
@@ -95,7 +97,8 @@ template <class T> struct BasicLaw {
             u(pullPerArea),
             plastic.template as<U>(),
             u(fixedShare),
-            u(squareScale)};
+            u(squareScale),
+            u(restitution)};
   }
   /// The same with elastic contacts.
   BasicLaw elastic() const {

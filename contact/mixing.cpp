@@ -66,6 +66,14 @@ void setLinear(const MixedPair& m, std::optional<double> effectiveMass, ContactL
   law.tangentialRootDamping = law.rootDamping * dampingRatio;
 }
 
+/// Rebound over impact speed [-]. Where only damping [1/s] is given, that of the scene's one mass; 0 among many masses.
+double restitutionOfPair(const MixedPair& m, const ContactLaw& law, std::optional<double> effectiveMass) {
+  const auto& [a, b, pair, same] = m;
+  if (pair.restitution) return *pair.restitution;
+  if (a.hertzian() || !(pair.damping || a.damping || b.damping)) return std::min(*a.restitution, *b.restitution);
+  return effectiveMass ? restitutionOf(law, *effectiveMass, *effectiveMass) : 0.0;
+}
+
 double shearModulus(const MaterialProperties& m) {
   return *m.young / (2 * (1 + m.poisson.value_or(MaterialProperties::kPoisson)));
 }
@@ -160,6 +168,7 @@ ContactLaw mixedLaw(const MaterialProperties& a, const MaterialProperties& b, co
     setHertz(m, law);
   else
     setLinear(m, effectiveMass, law);
+  law.restitution = restitutionOfPair(m, law, effectiveMass);
   if (a.yields() && b.yields()) law.plastic = plasticityOf(m, law);
   return law;
 }

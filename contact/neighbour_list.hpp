@@ -52,6 +52,8 @@ public:
   /// Neighbours in all rows, each pair from both sides.
   std::uint64_t listed() const;
 
+  std::size_t places() const { return slot_.size(); } ///< of all rows
+
   NeighbourView view();
   /// Between builds; a build needs more, for the contacts that it sets aside and for its grid of cells [B].
   std::size_t bytes() const;

@@ -12,20 +12,21 @@ namespace grouser::coupling {
 
 /// What has become heat since the start, by its cause [J].
 struct Dissipated {
-  double damping{};   ///< dashpots of grains' contacts, with whatever they touch
-  double friction{};  ///< sliding of grains
-  double microSlip{}; ///< tangential springs of Hertz' law as they stiffen and soften
-  double rolling{};   ///< rolling resistance of grains
-  double yielding{};  ///< plastic work of grains' contacts
-  double crushing{};  ///< grains that crush against parts
-  double parts{};     ///< contacts of rigid parts with each other and with rigid ground
-  double joints{};    ///< dampers and end stops of joints and springs
-  double soil{};      ///< deformable soil, by all causes of scm::SoilEnergy
-  double fluid{};     ///< fluid: viscosity, density diffusion, walls
+  double damping{};       ///< dashpots of grains' contacts, with whatever they touch
+  double friction{};      ///< sliding of grains
+  double microSlip{};     ///< tangential springs of Hertz' law as they stiffen and soften
+  double rolling{};       ///< rolling resistance of grains
+  double yielding{};      ///< plastic work of grains' contacts
+  double crushing{};      ///< grains that crush against parts
+  double parts{};         ///< contacts of rigid parts with each other and with rigid ground
+  double joints{};        ///< dampers and end stops of joints and springs
+  double soil{};          ///< deformable soil, by all causes of scm::SoilEnergy
+  double fluid{};         ///< fluid: viscosity, density diffusion, walls
+  double stabilisation{}; ///< complementarity contacts that push overlaps apart: put in, so at most 0
 
   double ofGrains() const { return damping + friction + microSlip + rolling + yielding + crushing; }
   double ofParts() const { return parts + soil; } ///< contacts of parts with all but grains
-  double total() const { return ofGrains() + parts + joints + soil + fluid; }
+  double total() const { return ofGrains() + parts + joints + soil + fluid + stabilisation; }
 };
 
 /// A cause by its word in the names of results, with what the results say of it.

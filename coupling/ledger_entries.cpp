@@ -10,6 +10,7 @@ void enterGrains(Ledger& l, const terrain::GrainLedger& g) {
   l.elastic += g.elastic, l.grainElastic += g.elastic;
   l.dissipated.damping += g.damped, l.dissipated.friction += g.rubbed, l.dissipated.microSlip += g.slipped;
   l.dissipated.rolling += g.rolled, l.dissipated.yielding += g.yielded;
+  l.dissipated.stabilisation -= g.stabilised;
   l.work += g.work, l.turnover += g.turnover;
   l.momentum += g.momentum, l.angularMomentum += g.angularMomentum;
   l.momentumResidual += g.momentum - g.impulse, l.angularResidual += g.angularMomentum - g.angularImpulse;

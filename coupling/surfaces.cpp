@@ -24,8 +24,15 @@ terrain::SurfacePose Surfaces::placement(std::size_t i, std::int64_t step) const
   const SurfaceMotion::State law = surfaces_[i].motion.at(static_cast<double>(step) * timeStep_);
   const SurfaceState& s = states_.surfaces[i];
   const Vec3d centre = law.centre + freeAxis(i) * s.offset, velocity = law.velocity + freeAxis(i) * s.speed;
-  return {{centre, (law.turned * surfaces_[i].start.orientation).matrix(), centre, velocity, law.spin},
-          law.turned.matrix()};
+  terrain::SurfacePose pose{
+      {centre, (law.turned * surfaces_[i].start.orientation).matrix(), centre, velocity, law.spin},
+      law.turned.matrix()};
+  if (const auto& free = surfaces_[i].free) {
+    pose.axis = free->axis, pose.inverseMass = 1 / free->mass;
+    const double given = free->loadAt(static_cast<double>(step) * timeStep_);
+    pose.gains = (dot(gravity_, free->axis) + given / free->mass) * timeStep_;
+  }
+  return pose;
 }
 
 base::Pose Surfaces::pose(std::size_t i, std::int64_t step) const {

@@ -76,7 +76,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum, lost);
     if (held && now != 0) bookHeld(grain, d.fromSurfaces[k], sum, books);
     if (now != 0) bookLosses(lost, books);
-    if (has(contact::kPlastic) && d.books) addYielded(d, i, static_cast<double>(lost.yielded));
+    if (has(contact::kPlastic) && d.books) addRare(d, i, kYielded, static_cast<double>(lost.yielded));
     if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
     return sum;
@@ -194,24 +194,24 @@ private:
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory() ? d.historyOf(grain.place, boundary, Kernel::historyWidth()) : nullptr;
     Vec shear{};
-    if (held) shear = loaded(history, turned);
+    if (held) shear = turnedSpring<Real>(history, turned);
     contact::BasicPlasticState<Real> plastic{};
     if (has(contact::kPlastic) && held) plastic = loadPlastic<Real>(Kernel::plasticIn(history));
     const auto reaction =
         contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear, has(contact::kPlastic) ? &plastic : nullptr);
-    if (Kernel::hasHistory()) store(history, turned, shear);
+    if (Kernel::hasHistory()) storeTurned(history, turned, shear);
     if (has(contact::kPlastic)) storePlastic(Kernel::plasticIn(history), plastic);
     lost.damped += reaction.damped, lost.rubbed += reaction.rubbed, lost.yielded += reaction.yielded;
     if (has(contact::kHertz)) lost.slipped += reaction.slipped;
     Reaction result{reaction.force, {}};
     if (has(contact::kRollingFriction)) {
       Vec angle{};
-      if (held) angle = loaded(history + 3, turned);
+      if (held) angle = turnedSpring<Real>(history + 3, turned);
       const contact::RollingMotion<Real> motion{touch.normal, spin, grain.size.radius,
                                                 contact::rollingInertia(grain.size.mass, grain.size.radius)};
       result.rolling = contact::rollingTorque(law, motion, reaction.pressing, reaction.normalStiffness, f.timeStep,
                                               angle, lost.rolled, has(contact::kHertz) ? &reaction.change : nullptr);
-      store(history + 3, turned, angle);
+      storeTurned(history + 3, turned, angle);
     }
     if (touch.overlap > sum.deepest) sum.deepest = touch.overlap;
     return result;
@@ -220,15 +220,6 @@ private:
   GROUSER_HD static void measure(Load& sum, const Vec& force, const Vec& arm) {
     if constexpr ((kFeatures & contact::kMeasured) != 0)
       sum.moment.add(force.template as<double>(), arm.template as<double>());
-  }
-
-  GROUSER_HD static Vec loaded(const float* history, const base::Mat3d* turned) {
-    const base::Vec3f kept = loadVector(history);
-    return turned ? (*turned * kept.as<double>()).template as<Real>() : kept.template as<Real>();
-  }
-  GROUSER_HD static void store(float* history, const base::Mat3d* turned, const Vec& spring) {
-    storeVector(history, turned ? transposedTimes(*turned, spring.template as<double>()).template as<float>()
-                                : spring.template as<float>());
   }
 };
 

@@ -24,8 +24,8 @@ public:
 
   /// What the books say, of all ranks, which all call it.
   struct Totals {
-    double work{}, turnover{}, damped{}, rubbed{}, rolled{}, slipped{}, yielded{}; ///< [J]
-    double mass{};                                                                 ///< sum over steps and grains [kg]
+    double work{}, turnover{}, damped{}, rubbed{}, rolled{}, slipped{}, yielded{}, stabilised{}; ///< [J]
+    double mass{};                     ///< sum over steps and grains [kg]
     base::Vec3d moment;                ///< sum over steps and grains of mass times place [kg m]
     base::Vec3d wallForce, wallTorque; ///< sums over steps [N], [N m about the origin]
   };

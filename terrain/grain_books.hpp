@@ -34,6 +34,7 @@ enum Book : int {
   kWallForce = kGrainBooks,
   kWallTorque = kWallForce + 3, ///< about the origin of the world
   kYielded = kWallTorque + 3,   ///< by elastic-plastic contacts
+  kStabilised,                  ///< put in by complementarity contacts that push overlaps apart
   kBooks
 };
 
@@ -77,7 +78,7 @@ template <bool kSlips, bool kHolds> using GrainBooksOf = BooksOf<0, kHolds   ? k
                                                                              : kSlipped>;
 using GrainBooks = GrainBooksOf<true, true>;
 using WallBooks = BooksOf<kFirstOfWalls, kYielded>;
-using YieldBooks = BooksOf<kYielded, kBooks>;
+using RareBooks = BooksOf<kYielded, kBooks>;
 
 /// What half the square of a velocity gains in a step that adds `faster` to it: faster (v_old + v_new) / 2, and what
 /// rounding makes of it, whose square is beyond a double's digits.
@@ -107,6 +108,10 @@ template <class Body> struct Booked {
   std::int64_t count;
 
   double nanoseconds() const { return kOnCpu * Body::kNanoseconds; }
+  /// Of a loop over so many grains.
+  static std::int64_t items(const base::Exec& exec, std::int64_t count) {
+    return exec.onCpu() ? (count + kOnCpu - 1) / kOnCpu : count;
+  }
   GROUSER_HD void operator()(int item) const {
     typename Body::Books books;
 #if defined(__CUDA_ARCH__)

@@ -120,6 +120,7 @@ void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<Ri
   poses_ = base::Mirrored<SurfacePose>(exec_, start.size());
   surfaceSums_ = base::Mirrored<contact::PartLoad>(exec_, start.size());
   surfaceLoads_.resize(start.size());
+  strongest_ = pressed;
   surfaceForce_ = base::fixedPointFor(pressed, 40);
   surfaceTorque_ = base::fixedPointFor(pressed * contact::leverScale(model.radius), 40);
   setSurfacePoses(start);
@@ -128,6 +129,8 @@ void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<Ri
 void GrainBoundaries::setSurfacePoses(const std::vector<SurfacePose>& poses) {
   if (poses.size() != geometries_.size()) throw std::logic_error("as many poses as surfaces");
   std::copy(poses.begin(), poses.end(), poses_.host());
+  inverseMasses_.clear();
+  for (const SurfacePose& pose : poses) inverseMasses_.push_back(pose.inverseMass);
   poses_.upload();
 }
 
@@ -148,7 +151,8 @@ void GrainBoundaries::list(const GrainConstants& c, const GrainKernelData& d, Gr
   // A list made between rebuilds, on account of surfaces, starts from grains that may be half the skin from their
   // reference already, and may end half the skin on its other side.
   const double skin = (hasSurfaces() ? 1.0 : 0.5) * c.model.skin * c.smallestRadius;
-  const double reach = (c.manyRadii() ? 0 : c.model.radius) + skin + d.unitLength;
+  const double margin = static_cast<double>(c.marginUnits) * d.unitLength;
+  const double reach = (c.manyRadii() ? 0 : c.model.radius) + skin + margin + d.unitLength;
   base::forEach(exec_, "mark grains near boundaries", n,
                 MarkNearBoundary{d, reach, c.manyRadii(), room_, ghosts, before.data()});
   const std::uint32_t total = base::exclusiveScan(exec_, before.data(), before.data(), slots);

@@ -179,6 +179,10 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   s.total = static_cast<std::int64_t>(system.present()), s.gone = system.gone;
   s.skin = system.constants.model.skin, s.rebuilds = system.rebuilds;
   s.books = system.books.save(system.comm);
+  if (system.impulses) {
+    const std::vector<std::int64_t> words = system.impulses->totals().words();
+    s.books.insert(s.books.end(), words.begin(), words.end());
+  }
   saveFields(system.arrays, slots, s);
   saveMotion(system.arrays.fields(), slots, s);
   saveTravelled(system, slots, s);
@@ -264,7 +268,12 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   loadBoundarySprings(system);
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
-  system.books.restore(own_.books, system.comm);
+  std::vector<std::int64_t> books = own_.books;
+  if (system.impulses && books.size() >= ImpulseTotals::kWords) {
+    system.impulses->setTotals(books.data() + books.size() - ImpulseTotals::kWords);
+    books.resize(books.size() - ImpulseTotals::kWords);
+  }
+  system.books.restore(books, system.comm);
 }
 
 /// Grains in touch get a place for their springs, which the next list of grains near boundaries begins with.

@@ -23,7 +23,8 @@ struct GrainConstants {
   base::PositionScale scale;
   double smallestRadius;      ///< of the scene [m]
   std::int64_t diameterUnits; ///< of the largest grain [units]
-  std::int64_t skinUnits;     ///< of the neighbour list [units]
+  std::int64_t marginUnits;   ///< complementarity: pairs whose gap is below this take part in a step [units]; else 0
+  std::int64_t skinUnits;     ///< of the neighbour list, with the margin [units]
   unsigned features;          ///< see featuresOf()
   int historyWidth;           ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
   int wallCount;              ///< planes
@@ -41,8 +42,13 @@ struct GrainConstants {
   bool manyRadii() const { return has(kManyRadii); }
   /// Two grains farther apart than this never touch before the neighbour list is built anew [units].
   std::int64_t listRange() const { return diameterUnits + skinUnits; }
-  /// How far a grain may move from where it was listed, squared [units^2]: half the skin.
-  std::int64_t halfSkinUnits2() const { return (skinUnits / 2) * (skinUnits / 2); }
+  /// How far a grain may move from where it was listed, squared [units^2]: half the skin without the margin.
+  std::int64_t halfSkinUnits2() const {
+    const std::int64_t half = (skinUnits - marginUnits) / 2;
+    return half * half;
+  }
+  /// Share of the smallest radius that the margin is [-].
+  static constexpr double kMargin = 0.2;
   /// What the state holds in velocity.w: the grain's radius [m], 0 where all grains are of one; of a fixed grain the
   /// opposite of its radius, or -1.
   float storedRadius(const GrainSpec& grain) const;

@@ -77,11 +77,11 @@ struct GrainKernelData {
   }
 };
 
-/// Books what the contacts of slot i have lost by yielding in this step [J]; few scenes have any.
-GROUSER_HD void addYielded(const GrainKernelData& d, int i, double yielded) {
-  if (yielded == 0) return;
-  YieldBooks books;
-  books.add(kYielded, wholeQuanta(d.bookScale.perEnergy * yielded));
+/// Books an energy of slot i in this step [J] that few scenes have: from kYielded on.
+GROUSER_HD void addRare(const GrainKernelData& d, int i, Book book, double energy) {
+  if (energy == 0) return;
+  RareBooks books;
+  books.add(book, wholeQuanta(d.bookScale.perEnergy * energy));
   addToBank(d.books, i / 32, books);
 }
 
@@ -104,6 +104,16 @@ template <class Real> struct GrainSize {
 
 GROUSER_HD base::Vec3f loadVector(const float* at) { return {at[0], at[1], at[2]}; }
 GROUSER_HD void storeVector(float* at, const base::Vec3f& v) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
+/// A spring that is kept in axes which have `turned` since the start; null: in those of the world.
+template <class Real> GROUSER_HD base::Vec3<Real> turnedSpring(const float* history, const base::Mat3d* turned) {
+  const base::Vec3f kept = loadVector(history);
+  return turned ? (*turned * kept.as<double>()).template as<Real>() : kept.template as<Real>();
+}
+template <class Real>
+GROUSER_HD void storeTurned(float* history, const base::Mat3d* turned, const base::Vec3<Real>& spring) {
+  storeVector(history, turned ? transposedTimes(*turned, spring.template as<double>()).template as<float>()
+                              : spring.template as<float>());
+}
 template <class Real> GROUSER_HD contact::BasicPlasticState<Real> loadPlastic(const float* at) {
   return {static_cast<Real>(at[0]), static_cast<Real>(at[1])};
 }

@@ -31,11 +31,6 @@ template <unsigned... kSets, class Run> void runChosen(KernelList<kSets...>, uns
   if (!found) throw std::logic_error("no kernel of grains is compiled for the features that were chosen");
 }
 
-/// Items of a loop over `count` grains whose energies are accounted.
-template <class Body> std::int64_t itemsOf(const base::Exec& exec, std::int64_t count) {
-  return exec.onCpu() ? (count + Booked<Body>::kOnCpu - 1) / Booked<Body>::kOnCpu : count;
-}
-
 /// A kernel that keeps books where there are some. On a CPU a thread takes several grains before it adds to the books
 /// that all share.
 template <template <unsigned, class> class Kernel, unsigned kSet, class Real>
@@ -47,7 +42,7 @@ void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d,
   if constexpr (detail::withoutBooks(kSet, kOfStep))
     if (!d.books) return base::forEach(exec, name, count, body);
   if constexpr (detail::withBooks(kSet, kOfStep))
-    if (d.books) return base::forEach(exec, name, itemsOf<Body>(exec, count), Booked<Body>{body, count});
+    if (d.books) return base::forEach(exec, name, Booked<Body>::items(exec, count), Booked<Body>{body, count});
   throw std::logic_error("a kernel of grains was chosen that is not compiled for scenes with, or without, books");
 }
 

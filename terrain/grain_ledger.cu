@@ -251,7 +251,7 @@ void addBooks(GrainLedger& ledger, const GrainSystem& system) {
   const GrainModel& model = system.constants.model;
   const GrainBookkeeping::Totals books = system.books.totals(system.comm);
   ledger.damped = books.damped, ledger.rubbed = books.rubbed, ledger.rolled = books.rolled;
-  ledger.slipped = books.slipped, ledger.yielded = books.yielded;
+  ledger.slipped = books.slipped, ledger.yielded = books.yielded, ledger.stabilised = books.stabilised;
   ledger.work = books.work, ledger.turnover = books.turnover;
   ledger.impulse = (model.gravity * books.mass + books.wallForce) * model.timeStep;
   ledger.angularImpulse = (cross(books.moment, model.gravity) + books.wallTorque) * model.timeStep;
@@ -299,6 +299,7 @@ GrainLedger measureLedger(GrainSystem& system) {
   }
   ledger.deepestOverlap = static_cast<double>(~most[0]) * system.constants.scale.unit;
   ledger.fastest = static_cast<double>(~most[1]) * 1e-9;
+  if (model.complementarity && model.complementarity->compliance == contact::Compliance::rigid) ledger.elastic = 0;
   addBooks(ledger, system);
   return ledger;
 }

@@ -3,10 +3,11 @@
 
 #include "base/fixed_point.hpp"
 #include "base/position.hpp"
-#include "contact/contact_law.hpp"
+#include "contact/impulse_law.hpp"
 #include "terrain/height_field.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace grouser::terrain {
@@ -59,10 +60,15 @@ struct GrainModel {
   double maxEntryOverlap{0.2};   ///< of grains that enter [-]
   bool fixedGrains{false};       ///< whether some grains are fixed: those at the start say so too
   bool ledger{true};             ///< whether books are kept of work and what is dissipated
-  GrainMaterials materials;      ///< instead of law, floorLaw and the walls' laws where grains are of several
+  /// Steps whose contacts are impulses that are solved for together; else they are springs, step by step.
+  std::optional<contact::ComplementarityOptions> complementarity;
+  GrainMaterials materials; ///< instead of law, floorLaw and the walls' laws where grains are of several
   Precision precision{Precision::single};
   bool specialised{true}; ///< false: the general kernel, whatever the scene has; same bits, for tests
-  int mostSimdLanes{16};  ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests
+  /// How far a grain may move in a step, as a share of the smallest radius [-]: with penalty contacts half of the skin,
+  /// so that no contact is missed.
+  double mostWay() const { return complementarity ? 0.5 : 0.5 * skin; }
+  int mostSimdLanes{16}; ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests
 };
 
 /// The grains at one instant, from state functions, and what has happened to them since the start, from the books;
@@ -72,7 +78,8 @@ struct GrainLedger {
   double damped{}, rubbed{}, rolled{}; ///< dissipated by dashpots, sliding and rolling resistance [J]; 0 without books
   double slipped{};                    ///< the same by springs of Hertz' law as they stiffen and soften [J]
   double yielded{};                    ///< the same by plastic work of contacts [J]
-  double dissipated() const { return damped + rubbed + rolled + slipped + yielded; }
+  double stabilised{};                 ///< put in where complementarity contacts push overlaps apart [J]
+  double dissipated() const { return damped + rubbed + rolled + slipped + yielded - stabilised; }
   double work{};                       ///< of all forces on the grains [J]: what kinetic and rotational have gained
   double turnover{};                   ///< the same without signs, a grain and a step each [J]
   base::Vec3d momentum;                ///< now [kg m/s]

@@ -90,7 +90,9 @@ void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const 
   step.bookHeld(d.position[i], {force, torque, true}, books);
 }
 
-void bookYielded(const GrainKernelData& d, int i, float yielded) { addYielded(d, i, static_cast<double>(yielded)); }
+void bookYielded(const GrainKernelData& d, int i, float yielded) {
+  addRare(d, i, kYielded, static_cast<double>(yielded));
+}
 
 void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {
   addToBank(d.books, first / kLeastAtATime, books);

@@ -55,7 +55,9 @@ struct GrainState {
   std::vector<float> contactDeepest, contactOrigin; ///< as contactShear
   std::vector<base::Vec3f> floorNormal;             ///< [rows][places] of the last step, zero out of touch; else empty
 
-  std::vector<std::int64_t> books; ///< of the energies since the start (GrainBookkeeping); empty without a ledger
+  /// Of the energies since the start (GrainBookkeeping), none without a ledger; then, with complementarity contacts,
+  /// what their solver has done (ImpulseTotals).
+  std::vector<std::int64_t> books;
 
   // When the neighbour list was built, so that a resumed run builds the next one at the same step.
   std::vector<base::Vec3<std::uint32_t>> travelled; ///< [rows] since then [units], as wrapping words

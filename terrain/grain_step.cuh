@@ -84,7 +84,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
     if (has(kFixed) && sum.held.any) bookHeld(p, sum.held, books);
-    if (has(contact::kPlastic) && has(kLedger)) addYielded(d, i, static_cast<double>(sum.yielded));
+    if (has(contact::kPlastic) && has(kLedger)) addRare(d, i, kYielded, static_cast<double>(sum.yielded));
     if (has(kBoundaries)) addBoundaries(i, size, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);

@@ -58,14 +58,14 @@ void GrainStepper::computeBoundaryContacts(const base::Exec& exec, const Launch&
 }
 
 void GrainStepper::beginBoundaries(GrainSystem& system) {
-  if (system.boundaries.hasSurfaces()) return;
+  if (system.boundaries.hasSurfaces() || system.impulses) return;
   aside_.fork();
   computeBoundaryContacts(aside_.exec(), {system, nullptr});
   boundariesBegun_ = true;
 }
 
 bool GrainStepper::canLaunchAhead(const GrainSystem& system) const {
-  return base::Gate::canWait(exec_) && !system.distribution && !system.boundaries.hasSurfaces();
+  return base::Gate::canWait(exec_) && !system.distribution && !system.boundaries.hasSurfaces() && !system.impulses;
 }
 
 /// Of the flags of a step that is launched ahead: by the buffer that holds the state.
@@ -116,6 +116,7 @@ StepOutcome GrainStepper::endAhead(GrainSystem& system, int further) {
 
 void GrainStepper::launch(const Launch& step) {
   GrainSystem& s = step.system;
+  if (s.impulses) return launchImpulses(step);
   if (std::exchange(boundariesBegun_, false))
     aside_.join();
   else
@@ -124,6 +125,16 @@ void GrainStepper::launch(const Launch& step) {
     launchSubdomain(step);
   else
     advanceUnless(exec_, step, nullptr);
+  s.arrays.swapBuffers();
+}
+
+/// All contacts of the step are solved for together, with the host in between.
+void GrainStepper::launchImpulses(const Launch& step) {
+  GrainSystem& s = step.system;
+  s.boundaries.clearSurfaceLoads();
+  s.finishGhostUpdate();
+  s.impulses->step(s, kernelData(step));
+  if (s.distribution) s.distribution->packGhosts(exec_, s.arrays);
   s.arrays.swapBuffers();
 }
 
@@ -166,7 +177,7 @@ StepOutcome GrainStepper::end(GrainSystem& system) {
 /// rebuild: a recorded batch begins by unpacking a halo exchange, and none is under way then.
 bool GrainStepper::canBatchSteps(const GrainSystem& s) const {
   const bool lanes = exec_.onCpu() && s.constants.model.mostSimdLanes > 1;
-  if (lanes || s.boundaries.hasSurfaces()) return false;
+  if (lanes || s.boundaries.hasSurfaces() || s.impulses) return false;
   return !s.distribution ||
          (s.distribution->subdomain().stepsTogether() && s.distribution->subdomain().haloExchange().underWay());
 }

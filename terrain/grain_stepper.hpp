@@ -67,6 +67,7 @@ private:
 
   GrainKernelData kernelData(const Launch& step);
   void launch(const Launch& step);
+  void launchImpulses(const Launch& step);
   void launchSubdomain(const Launch& step);
   void computeBoundaryContacts(const base::Exec& exec, const Launch& step);
   /// Advances the grains of `slots`; equal slots are side by side and count once.

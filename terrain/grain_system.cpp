@@ -13,7 +13,7 @@ GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, cons
       boundaries(exec, constants, around),
       neighbours(exec, constants.diameterUnits, constants.skinUnits, constants.historyWidth, constants.period,
                  static_cast<std::int64_t>(2 * constants.smallestRadius / constants.scale.unit)),
-      count(0) {
+      impulses(ImpulseSolver::make(exec, constants)), count(0) {
   const std::vector<base::Position> places = placesOf(start, 0, constants);
   if (!comm.alone()) distribution = std::make_unique<GrainDistribution>(exec, partition, constants, places);
   arrays.append(entering(start, places));
@@ -65,7 +65,7 @@ GrainKernelData GrainSystem::kernelData() {
   d.maxOverlap = static_cast<float>(model.maxOverlap * r);
   d.maxOverlapShare = static_cast<float>(model.maxOverlap);
   d.maxSurfaceShare = static_cast<float>(model.maxSurfaceOverlap);
-  const double maxSpeed = 0.5 * model.skin * constants.smallestRadius / dt;
+  const double maxSpeed = model.mostWay() * constants.smallestRadius / dt;
   d.maxSpeed2 = static_cast<float>(maxSpeed * maxSpeed);
   d.gravityStep = model.gravity * dt;
   d.period = constants.period;
@@ -86,7 +86,8 @@ template ForceData<float> GrainSystem::forceData();
 template ForceData<double> GrainSystem::forceData();
 
 std::size_t GrainSystem::deviceBytes() const {
-  return neighbours.bytes() + arrays.bytes() + boundaries.bytes() + (distribution ? distribution->bytes() : 0);
+  return neighbours.bytes() + arrays.bytes() + boundaries.bytes() + (distribution ? distribution->bytes() : 0) +
+         (impulses ? impulses->bytes() : 0);
 }
 
 } // namespace grouser::terrain

@@ -5,6 +5,7 @@
 #include "terrain/grain_boundaries.hpp"
 #include "terrain/grain_distribution.hpp"
 #include "terrain/grain_laws.hpp"
+#include "terrain/impulse_solver.hpp"
 
 #include <memory>
 
@@ -26,6 +27,7 @@ struct GrainSystem {
   GrainBoundaries boundaries;
   contact::NeighbourList neighbours;
   std::unique_ptr<GrainDistribution> distribution; ///< null on one rank
+  std::unique_ptr<ImpulseSolver> impulses;         ///< null where contacts are springs
   std::size_t count;                               ///< ids given so far
   std::vector<std::uint32_t> gone;                 ///< those of grains that were taken out, ascending
   std::size_t fixedCount{0};                       ///< those of them that never move

@@ -44,6 +44,8 @@ void describeLedger(coupling::Simulation& simulation) {
   const coupling::Ground* ground = simulation.actingGround();
   const bool deforms = ground && ground->traits().deforms;
   if (deforms) causes += fmt::format("{}soil {:.4g}", causes.empty() ? "" : ", ", l.dissipated.soil);
+  if (const double heat = l.dissipated.stabilisation; heat != 0)
+    causes += fmt::format("{}stabilisation {:.4g}", causes.empty() ? "" : ", ", heat);
   if (!causes.empty()) fmt::print("          dissipated by {}\n", causes);
   if (deforms) fmt::print("soil      {}\n", soilText(l.soil));
   const auto shown = [](const base::Vec3d& v) { return fmt::format("({:.2g}, {:.2g}, {:.2g})", v.x, v.y, v.z); };

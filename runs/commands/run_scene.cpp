@@ -140,6 +140,22 @@ void describeSqueezed(const coupling::Simulation& simulation, session::Recorder&
   fmt::print("{}", recorder.squeezed().text());
 }
 
+/// How the contacts of grains were solved for.
+void describeSolver(const coupling::Simulation& simulation) {
+  if (!simulation.ground().grains || !simulation.ground().grains->system().impulses) return;
+  const terrain::ImpulseTotals& all = simulation.ground().grains->system().impulses->totals();
+  const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
+  const auto steps = static_cast<double>(std::max<std::int64_t>(1, all.steps));
+  fmt::print("solver    {:.1f} iterations a step, residual {:.2g} m/s at most ({:.2g} m/s asked for){}\n",
+             static_cast<double>(all.iterations) / steps, all.worst, asked.residual,
+             all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step"))
+                             : "");
+  if (all.missed > 0)
+    fmt::print("WARNING: {} of {} exceed run.residual; raise complementarity.iterations or run.residual, or use a "
+               "smaller time_step\n",
+               base::counted(all.missed, "step"), all.steps);
+}
+
 /// What steps an error chose.
 void describeSteps(const coupling::Mechanism& mechanism, output::Summary& summary) {
   if (!mechanism.controller()) return;
@@ -287,6 +303,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
     if (options.hash) summary.stateHash = simulation.stateHash();
     if (options.replay && total == all) describeReplay(recorded, provenance, summary.stateHash);
     describeLedger(simulation);
+    describeSolver(simulation);
     describeSqueezed(simulation, run.recorder(), summary);
     fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step), {:.1f} s of CPU "
                "time\n",

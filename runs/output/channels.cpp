@@ -86,26 +86,48 @@ Columns<coupling::GearContacts> gearColumns() {
   return c;
 }
 
-Columns<coupling::Ledger> ledgerColumns(bool touching, bool deforms, bool wet) {
+Columns<SolverReading> solverColumns() {
+  using S = SolverReading;
+  Columns<S> c("solver/");
+  c.add("residual", "m/s", "largest velocity error of a contact in the last step",
+        [](const S& s) { return s.last.residual; });
+  c.add("residual_rms", "m/s", "root mean square over its contacts", [](const S& s) { return s.last.rms; });
+  c.add("iterations", "-", "of the last step", [](const S& s) { return s.last.iterations; });
+  c.add("contacts", "-", "that the last step was solved for, those that do not touch among them",
+        [](const S& s) { return s.last.rows; });
+  c.add("all_iterations", "-", "since the start", [](const S& s) { return s.all.iterations; });
+  c.add("missed_steps", "-", "since the start, whose residual exceeded run.residual",
+        [](const S& s) { return s.all.missed; });
+  c.add("relaxed_steps", "-", "since the start, that Coulomb's law did not converge for and its relaxation ended",
+        [](const S& s) { return s.all.relaxed; });
+  c.add("worst_residual", "m/s", "of all steps since the start", [](const S& s) { return s.all.worst; });
+  return c;
+}
+
+Columns<coupling::Ledger> ledgerColumns(const LedgerParts& parts) {
   using L = coupling::Ledger;
   Columns<L> c("ledger/");
   c.add("drive_work", "J", "done by drives, moving surfaces and the hitch", &L::driveWork);
   c.add("kinetic", "J", "of grains, vehicle and bodies", &L::kinetic);
   c.add("potential", "J", "in the field of gravity", &L::potential);
   c.add("elastic", "J", "in contacts and springs", &L::elastic);
-  c.add("dissipated", "J", deforms || wet ? "sum of the nine causes below" : "sum of the eight below",
+  c.add("dissipated", "J",
+        parts.deforms || parts.wet || parts.solved ? "sum of the nine causes below" : "sum of the eight below",
         [](const L& l) { return l.dissipated.total(); });
   for (const coupling::DissipationCause& cause : coupling::kDissipationCauses)
     c.add(std::string("dissipated_") + cause.word, "J", cause.help,
           [heat = cause.heat](const L& l) { return l.dissipated.*heat; });
-  if (deforms) {
+  if (parts.deforms) {
     c.add("dissipated_soil", "J", "by deformable soil: compaction, shear, slip sinkage, damping, edges and coupling",
           [](const L& l) { return l.dissipated.soil; });
     for (const coupling::SoilEnergyEntry& entry : coupling::kSoilEnergies)
       c.add(std::string("soil_") + entry.word, "J", entry.help,
             [energy = entry.energy](const L& l) { return l.soil.*energy; });
   }
-  if (wet)
+  if (parts.solved)
+    c.add("dissipated_stabilisation", "J", "by contacts that push overlaps apart; put in where negative",
+          [](const L& l) { return l.dissipated.stabilisation; });
+  if (parts.wet)
     c.add("dissipated_fluid", "J", "by viscosity, density diffusion and walls of the fluid",
           [](const L& l) { return l.dissipated.fluid; });
   c.add("integration_error", "J",
@@ -121,7 +143,7 @@ Columns<coupling::Ledger> ledgerColumns(bool touching, bool deforms, bool wet) {
   c.add("angular_residual", "N m s",
         "angular momentum less the same impulses' moments: rounding; none with periodic boundaries",
         &L::angularResidual);
-  if (touching) c.add("impulse_residual", "N s", "impulse on vehicle plus impulse on bed", &L::impulseResidual);
+  if (parts.touching) c.add("impulse_residual", "N s", "impulse on vehicle plus impulse on bed", &L::impulseResidual);
   return c;
 }
 

@@ -93,8 +93,21 @@ struct HitchReading {
 Columns<HitchReading> hitchColumns();
 /// What grains touch of a vehicle.
 Columns<coupling::GearContacts> gearColumns();
-/// Energy and momentum. `touching`: whether vehicle and bed may exchange impulses; `deforms`: a ground of deformable
-/// soil, with energies of its own; `wet`: a fluid.
-Columns<coupling::Ledger> ledgerColumns(bool touching = true, bool deforms = false, bool wet = false);
+/// What a ledger has in some scenes only.
+struct LedgerParts {
+  bool touching = true; ///< vehicle and bed may exchange impulses
+  bool deforms = false; ///< a ground of deformable soil, with energies of its own
+  bool wet = false;     ///< a fluid
+  bool solved = false;  ///< complementarity contacts
+};
+/// Energy and momentum.
+Columns<coupling::Ledger> ledgerColumns(const LedgerParts& parts = {});
+
+/// How the last step's contacts were solved for, and all steps since the start.
+struct SolverReading {
+  terrain::ImpulseReport last;
+  terrain::ImpulseTotals all;
+};
+Columns<SolverReading> solverColumns();
 
 } // namespace grouser::output

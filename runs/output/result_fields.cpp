@@ -128,8 +128,10 @@ std::vector<FileField> resultFields() {
   for (const auto& channels :
        {terrainColumns().channels(), surfaceColumns("NAME", true).channels(), obstacleColumns("NAME").channels(),
         hitchColumns().channels(), gearColumns().channels(), ledgerColumns().channels(),
-        ledgerColumns(true, true, false).channels(), ledgerColumns(true, false, true).channels(),
-        fluidColumns({{"NAME", false, {}}}, {"bodies/NAME", "vehicle/hull", "vehicle/SIDE_track"}).channels(), probeColumns({"NAME"}).channels(),
+        ledgerColumns({.deforms = true}).channels(), ledgerColumns({.wet = true}).channels(),
+        ledgerColumns({.solved = true}).channels(), solverColumns().channels(),
+        fluidColumns({{"NAME", false, {}}}, {"bodies/NAME", "vehicle/hull", "vehicle/SIDE_track"}).channels(),
+        probeColumns({"NAME"}).channels(),
         mechanismColumns(modelOfAll(), std::vector<bool>(modelOfAll().bodies().size(), true), {}).channels()})
     for (const Channel& c : channels) add(fields, c);
   return fields;

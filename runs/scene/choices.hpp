@@ -20,6 +20,12 @@ namespace grouser::scene {
 /// Of [[grains]]: where the centres come from.
 enum class FillForm { lattice, random, file };
 
+/// Of [run]: how contacts of grains act.
+enum class ContactMethod {
+  penalty,        ///< springs and dashpots, step by step
+  complementarity ///< impulses that all contacts of a step share, solved for together
+};
+
 /// Of [terrain].
 enum class TerrainKind {
   granular,
@@ -126,6 +132,18 @@ template <> struct EnumWords<scene::ShapeKind> {
 template <> struct EnumWords<scene::PlacedWhen> {
   using E = scene::PlacedWhen;
   static constexpr EnumWord<E> list[] = {{E::before, "before"}, {E::afterSettling, "after_settling"}};
+};
+template <> struct EnumWords<scene::ContactMethod> {
+  using E = scene::ContactMethod;
+  static constexpr EnumWord<E> list[] = {{E::penalty, "penalty"}, {E::complementarity, "complementarity"}};
+};
+template <> struct EnumWords<contact::ImpulseFriction> {
+  using E = contact::ImpulseFriction;
+  static constexpr EnumWord<E> list[] = {{E::coulomb, "coulomb"}, {E::associated, "associated"}};
+};
+template <> struct EnumWords<contact::Compliance> {
+  using E = contact::Compliance;
+  static constexpr EnumWord<E> list[] = {{E::law, "law"}, {E::rigid, "rigid"}};
 };
 template <> struct EnumWords<terrain::Precision> {
   using E = terrain::Precision;

@@ -13,6 +13,20 @@ namespace {
 using base::Section;
 using base::Table;
 
+void addContactKeys(Table<RunSettings>& t) {
+  using S = RunSettings;
+  t.add("contact", &S::contact, "",
+        "of grains: penalty (springs and dashpots, explicit steps), or complementarity (impulses on Coulomb's cones, "
+        "solved for together in steps of a millisecond)");
+  t.add(
+       "residual", &S::residual, "m/s",
+       "of complementarity: velocity error to which each step is solved; \"auto\": a hundredth of what gravity adds in "
+       "a step")
+      .above(0)
+      .atMost(10)
+      .orWord("auto");
+}
+
 Table<RunSettings> runTable() {
   using S = RunSettings;
   Table<S> t("run", "Time, gravity, and the machine to run on");
@@ -56,8 +70,10 @@ Table<RunSettings> runTable() {
   t.add("seed", &S::seed, "-", "of every random number").atLeast(0);
   t.add("device", &S::device, "", "where grains are computed; \"auto\" is the GPU where there is one");
   t.add("precision", &S::precision, "", "of the grains' forces; each gives the same bits everywhere");
+  addContactKeys(t);
   t.add("impact_speed", &S::impactSpeed, "m/s",
-        "fastest impact that the time step of hertz materials is chosen and checked for")
+        "fastest impact that the time step of hertz materials is chosen and checked for; with complementarity \"auto\" "
+        "moves a grain of that speed by a tenth of its diameter in a step")
       .above(0)
       .atMost(1e4);
   t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
@@ -92,6 +108,34 @@ Table<RunSettings> runTable() {
   return t;
 }
 
+Table<Complementarity> complementarityTable() {
+  using S = Complementarity;
+  Table<S> t("complementarity", "How grains' contacts are solved for where run.contact = \"complementarity\"");
+  t.add("friction", &S::friction, "",
+        "Coulomb's own law, or associated: its convex relaxation, which parts sliding surfaces at friction times their "
+        "speed");
+  t.add("compliance", &S::compliance, "",
+        "law: springs and dashpots of the materials, implicit in time; rigid: none, overlaps are pushed apart");
+  t.add("iterations", &S::iterations, "-", "most of a step; a step that needs more is marked")
+      .atLeast(1)
+      .atMost(100'000);
+  t.add("recovery", &S::recovery, "m/s", "greatest speed at which rigid contacts that overlap part")
+      .atLeast(0)
+      .atMost(100);
+  t.add("strict", &S::strict, "", "whether a step whose residual exceeds run.residual ends the run");
+  return t;
+}
+
+void checkComplementarity(const Section& section, Complementarity&, const Scene& scene) {
+  if (scene.run.contact != ContactMethod::complementarity)
+    section.fail("", "has no effect without run.contact = \"complementarity\"; set that, or remove the section");
+}
+
+void checkContact(const Section& section, const RunSettings& run) {
+  if (run.residual && run.contact != ContactMethod::complementarity)
+    section.fail("residual", "[m/s] has no effect without contact = \"complementarity\"; set that, or remove it");
+}
+
 void checkIntervals(const Section& section, const RunSettings& run) {
   if (!run.timeStep) return;
   if (*run.timeStep > run.duration)
@@ -123,12 +167,16 @@ void checkTolerance(const Section& section, const RunSettings& run, const Scene&
 
 void checkRun(const Section& section, RunSettings& run, const Scene& scene) {
   checkTolerance(section, run, scene);
+  checkContact(section, run);
   checkIntervals(section, run);
   checkOrder(section, run);
 }
 
 } // namespace
 
-SectionList runSections() { return {required("run", &Scene::run, runTable(), checkRun)}; }
+SectionList runSections() {
+  return {required("run", &Scene::run, runTable(), checkRun),
+          optional("complementarity", &Scene::complementarity, complementarityTable(), checkComplementarity)};
+}
 
 } // namespace grouser::scene::detail

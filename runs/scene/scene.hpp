@@ -50,8 +50,10 @@ struct RunSettings {
   support::DeviceChoice device = support::DeviceChoice::automatic;
   /// Of the grains' forces.
   terrain::Precision precision = terrain::Precision::single;
-  double impactSpeed = 1.0; ///< [m/s] that the step of hertz materials is chosen for
-  int threads = 0;          ///< 0: all
+  double impactSpeed = 1.0; ///< [m/s] that the step of hertz materials and of complementarity is chosen for
+  ContactMethod contact = ContactMethod::penalty; ///< of grains
+  std::optional<double> residual;                 ///< [m/s] of complementarity; empty: a hundredth of g dt
+  int threads = 0;                                ///< 0: all
   /// Of mechanisms; the next two belong to rattle.
   multibody::Integrator integrator = multibody::Integrator::kRattle;
   int integratorOrder = 2; ///< 2, 4, 6, 8
@@ -64,6 +66,16 @@ struct RunSettings {
   /// [-] of a grain's radius, at most where it is set into the scene, and under its own weight.
   double entryOverlap() const { return maxOverlap.value_or(terrain::GrainModel{}.maxEntryOverlap); }
   bool operator==(const RunSettings&) const = default;
+};
+
+/// [complementarity]
+struct Complementarity {
+  contact::ImpulseFriction friction = contact::ImpulseFriction::coulomb;
+  contact::Compliance compliance = contact::Compliance::law;
+  std::int64_t iterations = 200;
+  double recovery = 0.1; ///< [m/s]
+  bool strict = false;
+  bool operator==(const Complementarity&) const = default;
 };
 
 /// [material.NAME]; after loading with all values that its law needs.
@@ -344,6 +356,7 @@ struct Scene {
   std::vector<MeshSection> meshes;
   std::optional<Terrain> terrain;
   std::optional<Scm> scm;
+  std::optional<Complementarity> complementarity;
   std::optional<Fluid> fluid;
   MechanismSections mechanism;
   std::optional<Vehicle> vehicle;

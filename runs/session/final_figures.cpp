@@ -19,6 +19,14 @@ void noteBed(const coupling::Simulation& simulation, output::Summary& summary) {
   }
 }
 
+void noteSolver(const terrain::ImpulseTotals& all, output::Summary& summary) {
+  summary.figures["solver_iterations_a_step"] =
+      all.steps > 0 ? static_cast<double>(all.iterations) / static_cast<double>(all.steps) : 0;
+  summary.figures["solver_worst_residual"] = all.worst;
+  summary.figures["solver_missed_steps"] = static_cast<double>(all.missed);
+  summary.figures["solver_relaxed_steps"] = static_cast<double>(all.relaxed);
+}
+
 void noteDrive(const coupling::VehicleRig& rig, output::RunWriter& writer, output::Summary& summary) {
   if (const std::optional<double> start = rig.driveStart()) summary.figures["drive_start_s"] = *start;
   if (!rig.ended().empty()) writer.fact("ended_by", rig.ended());
@@ -50,6 +58,8 @@ void noteSqueezed(Recorder& recorder, output::Summary& summary) {
 void noteFigures(RunSession& run, output::Summary& summary) {
   coupling::Simulation& simulation = run.simulation();
   noteBed(simulation, summary);
+  if (const auto& grains = simulation.ground().grains; grains && grains->system().impulses)
+    noteSolver(grains->system().impulses->totals(), summary);
   if (simulation.vehicle()) noteDrive(*simulation.vehicle(), run.writer(), summary);
   if (simulation.setup().crushes()) noteCrushing(simulation, summary);
   noteSqueezed(run.recorder(), summary);

@@ -72,8 +72,16 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
     add(output::gearColumns(), [&s = simulation](const Now&) { return s.granularGround()->onParts()->gearContacts(); });
   // A mechanism without contacts has no contact impulses to balance.
   const coupling::Ground* ground = simulation.actingGround();
-  add(output::ledgerColumns(!simulation.mechanism() || simulation.mechanism()->touches(),
-                            ground && ground->traits().deforms, coupling::fluidOf(simulation) != nullptr),
+  const bool solved = grains && simulation.ground().grains->system().impulses;
+  if (solved)
+    add(output::solverColumns(), [&s = simulation](const Now&) {
+      const terrain::ImpulseSolver& solver = *s.ground().grains->system().impulses;
+      return output::SolverReading{solver.report(), solver.totals()};
+    });
+  add(output::ledgerColumns({.touching = !simulation.mechanism() || simulation.mechanism()->touches(),
+                             .deforms = ground && ground->traits().deforms,
+                             .wet = coupling::fluidOf(simulation) != nullptr,
+                             .solved = solved}),
       [](const Now& now) { return now.ledger; });
   requirePlotted(channels_, output.plots);
 }

@@ -2,6 +2,7 @@
 #include "runs/setup/bed_alone.hpp"
 
 #include "runs/scene/scene.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -11,14 +12,28 @@
 
 namespace grouser::setup {
 
-bool isPutOnBed(const scene::Scene& scene) {
-  if (!scene.terrain || !scene.terrain->granular()) return false;
+namespace {
+
+/// Whether the scene has more than its bed, which comes once that has settled.
+bool hasMoreThanBed(const scene::Scene& scene) {
   if (!scene.grains.empty() || !scene.fills.empty()) return true;
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   return std::any_of(surfaces.begin(), surfaces.end(), [](const SceneSurface& s) { return s.placedLater; });
 }
 
+} // namespace
+
+bool isPutOnBed(const scene::Scene& scene) {
+  if (!scene.terrain || !scene.terrain->granular()) return false;
+  return hasComplementarity(scene) || hasMoreThanBed(scene); // beds settle with penalty contacts
+}
+
 scene::Scene sceneOfBed(scene::Scene scene) {
+  if (hasComplementarity(scene)) {
+    scene.run.contact = scene::ContactMethod::penalty, scene.run.timeStep.reset(), scene.run.residual.reset();
+    scene.complementarity.reset();
+    if (!hasMoreThanBed(scene)) return scene;
+  }
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   const auto removeLater = [&](coupling::SurfaceKind kind, auto& sections) {
     for (std::size_t k = surfaces.size(); k-- > 0;) // those behind first, so that numbers stay right

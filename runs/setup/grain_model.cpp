@@ -3,6 +3,7 @@
 
 #include "base/sphere.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 
@@ -73,6 +74,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
   model.timeStep = timeStep;
   model.gravity = scene.run.gravity;
   model.skin = scene.run.skin;
+  model.complementarity = complementarityOptions(scene, timeStep);
   model.maxOverlap = scene.run.maxOverlap.value_or(model.maxOverlap);
   model.maxSurfaceOverlap = scene.run.maxOverlap.value_or(model.maxSurfaceOverlap);
   model.maxEntryOverlap = scene.run.entryOverlap();

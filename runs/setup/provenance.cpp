@@ -73,7 +73,7 @@ scene::Scene bedAlone(scene::Scene scene) {
   std::erase_if(scene.contacts,
                 [&](const scene::ContactPair& p) { return !isOfBed(pairs, p.first) || !isOfBed(pairs, p.second); });
   removeVehicle(scene);
-  scene.mechanism = {}, scene.output = {}, scene.parallel = {};
+  scene.mechanism = {}, scene.output = {}, scene.parallel = {}, scene.complementarity.reset();
   scene.terrain->cache = true;
   scene.sources = sourcesOfBed(scene.sources);
   for (scene::Plane& p : scene.planes) bringToRest(p, !p.isWall());

@@ -9,6 +9,7 @@
 #include "contact/mixing.hpp"
 #include "contact/restitution.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/fluid_setup.hpp"
 #include "runs/setup/grain_contacts.hpp"
 #include "runs/setup/grain_count.hpp"
@@ -294,6 +295,14 @@ void checkFluidStep(const scene::Scene& scene) {
                          base::roundedDown(2 * limits.least(), 3), cause, base::roundedDown(limits.least(), 3)));
 }
 
+/// Contacts that are solved for set no limit.
+double implicitTimeStep(const scene::Scene& scene, const ContactPairs& pairs) {
+  if (scene.run.timeStep) checkTimeScales(scene, *scene.run.timeStep);
+  return scene.run.timeStep.value_or(
+      std::min({complementarityTimeStep(scene, pairs), resolvingStep(timeScales(scene), scene.run.stepsPerPeriod),
+                kLongestOfAll, scene.run.duration}));
+}
+
 } // namespace
 
 StepLimit stepLimit(const scene::Scene& scene) {
@@ -307,6 +316,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   if (!scene.mechanism.empty() && !scene.mechanism.touches() && !scene.vehicle) return mechanismTimeStep(scene);
   const ContactPairs pairs(scene);
   checkSoftness(scene, pairs);
+  if (hasComplementarity(scene) && pairs.kinds.any()) return implicitTimeStep(scene, pairs);
   const std::vector<GrainContact> contacts = grainContacts(scene, pairs);
   const StepLimit limit = stepLimit(scene, pairs, contacts);
   const double contact = shortestOf(contacts);
@@ -414,14 +424,16 @@ void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double ti
   if (!pairs.kinds.any()) return;
   checkSurfaceSpeeds(scene, pairs, timeStep);
   checkBodySpeeds(scene, pairs, timeStep);
-  const double most = kRounding * 0.5 * scene.run.skin * pairs.kinds.smallest / timeStep;
+  const bool implicit = hasComplementarity(scene);
+  const double most = kRounding * (implicit ? 0.5 : 0.5 * scene.run.skin) * pairs.kinds.smallest / timeStep;
+  const std::string beyond = implicit ? "more than half a grain's radius" : "more than half the neighbour list's skin";
+  const std::string remedy = implicit ? "" : ", or raise run.skin";
   const auto check = [&](const char* list, const auto& sections) {
     for (std::size_t k = 0; k < sections.size(); ++k)
       if (norm(sections[k].velocity) > most)
         scene.fail(list, k, "velocity",
-                   fmt::format("[m/s] is more than half the neighbour list's skin in a step of {:.3g} s; keep it below "
-                               "{} m/s, or lower run.time_step, or raise run.skin",
-                               timeStep, base::roundedDown(most, 4)));
+                   fmt::format("[m/s] is {} in a step of {:.3g} s; keep it below {} m/s, or lower run.time_step{}",
+                               beyond, timeStep, base::roundedDown(most, 4), remedy));
   };
   check("grain", scene.grains), check("grains", scene.fills), check("source", scene.sources);
   for (std::size_t k = 0; k < scene.fills.size(); ++k)
@@ -429,11 +441,10 @@ void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double ti
       if (norm(g.velocity) > most)
         scene.fail(
             "grains", k, "file",
-            fmt::format("has a grain at ({:.6g}, {:.6g}, {:.6g}) m with a velocity of {:.4g} m/s, more than half "
-                        "the neighbour list's skin in a step of {:.3g} s; keep it below {} m/s, or lower "
-                        "run.time_step, or raise run.skin",
-                        g.position.x, g.position.y, g.position.z, norm(g.velocity), timeStep,
-                        base::roundedDown(most, 4)));
+            fmt::format("has a grain at ({:.6g}, {:.6g}, {:.6g}) m with a velocity of {:.4g} m/s, {} in a step of "
+                        "{:.3g} s; keep it below {} m/s, or lower run.time_step{}",
+                        g.position.x, g.position.y, g.position.z, norm(g.velocity), beyond, timeStep,
+                        base::roundedDown(most, 4), remedy));
 }
 
 } // namespace grouser::setup

@@ -56,14 +56,14 @@ TEST(Channels, OfTheLedgerReadEachItsOwnField) {
                                                    {"ledger/angular_residual", {10, 11, 12}},
                                                    {"ledger/impulse_residual", {13, 14, 15}}};
   EXPECT_EQ(valuesOf(ledgerColumns(), l), expected);
-  EXPECT_FALSE(valuesOf(ledgerColumns(false), l).contains("ledger/impulse_residual")) << "of a mechanism";
+  EXPECT_FALSE(valuesOf(ledgerColumns({.touching = false}), l).contains("ledger/impulse_residual")) << "of a mechanism";
 }
 
 TEST(Channels, SoilEnergiesFollowThoseOfAllLedgers) {
   coupling::Ledger l;
   l.soil = {1, 2, 3, 4, 8, 5, 6, 7};
   l.dissipated.soil = l.soil.lost();
-  std::map<std::string, Numbers> found = valuesOf(ledgerColumns(true, true), l);
+  std::map<std::string, Numbers> found = valuesOf(ledgerColumns({.deforms = true}), l);
   const std::map<std::string, Numbers> expected = {
       {"ledger/soil_elastic_pressure", {1}}, {"ledger/soil_elastic_shear", {2}},
       {"ledger/soil_compaction", {3}},       {"ledger/soil_shear", {4}},

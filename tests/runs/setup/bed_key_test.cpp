@@ -117,6 +117,8 @@ std::vector<std::string> with(std::vector<std::string> changes, const std::strin
 const std::vector<std::string> kNoVehicle{"-[vehicle]", "-spec", "-material = \"rubber\"", "-[driver]",
                                           "-sprocket_speed"};
 
+const std::string kSolved = "run.contact=complementarity";
+
 std::vector<Change> ofRun() {
   return {{"run.duration", false, {"run.duration=7"}},
           {"run.time_step", false, {"run.time_step=2e-4"}},               // bedOrigin() is given the step itself
@@ -129,6 +131,13 @@ std::vector<Change> ofRun() {
           {"run.seed", true, {"run.seed=2"}},
           {"run.device", false, {"run.device=cpu"}},
           {"run.precision", true, {"run.precision=double"}},
+          {"run.contact", false, {"run.contact=complementarity"}}, // beds settle with penalty contacts
+          {"run.residual", false, {kSolved, "run.residual=1e-5"}, {kSolved}},
+          {"complementarity.friction", false, {kSolved, "complementarity.friction=associated"}, {kSolved}},
+          {"complementarity.compliance", false, {kSolved, "complementarity.compliance=rigid"}, {kSolved}},
+          {"complementarity.iterations", false, {kSolved, "complementarity.iterations=9"}, {kSolved}},
+          {"complementarity.recovery", false, {kSolved, "complementarity.recovery=0.2"}, {kSolved}},
+          {"complementarity.strict", false, {kSolved, "complementarity.strict=true"}, {kSolved}},
           {"run.impact_speed", false, {"run.impact_speed=2"}}, // changes the step only
           {"run.threads", false, {"run.threads=2"}},
           {"run.integrator", false, {"run.integrator=symplectic_euler"}}, // mechanisms only, as the next three

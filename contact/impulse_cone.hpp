@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/vec.hpp"
+
+#include <cmath>
+
+/// Impulses that a unilateral contact with Coulomb friction can carry, and the projections by which a solver of the
+/// complementarity problem keeps to them.
+namespace grouser::contact {
+
+/// What acts on side i of a contact within one step: a force and, with rolling resistance, a torque times the step.
+template <class T> struct Impulse {
+  base::Vec3<T> linear;  ///< [N s]
+  base::Vec3<T> rolling; ///< [N m s], in the tangent plane; zero without rolling resistance
+
+  GROUSER_HD friend Impulse operator-(const Impulse& a, const Impulse& b) {
+    return {a.linear - b.linear, a.rolling - b.rolling};
+  }
+  GROUSER_HD friend Impulse operator+(const Impulse& a, const Impulse& b) {
+    return {a.linear + b.linear, a.rolling + b.rolling};
+  }
+  GROUSER_HD friend Impulse operator*(const Impulse& a, T s) { return {a.linear * s, a.rolling * s}; }
+};
+
+/// |tangential| <= friction * normal, |rolling| <= arm * normal, normal >= 0.
+template <class T> struct ImpulseCone {
+  T friction; ///< [-]
+  T arm;      ///< of rolling resistance: its coefficient times the radius [m]
+};
+
+/// The norm of an impulse in which a solver takes its steps: normal^2 + shear tangential^2 + rolling rolling^2.
+template <class T> struct ImpulseMetric {
+  T shear;   ///< [-]
+  T rolling; ///< [1/m2]
+};
+
+/// Squares in double: those of the impulses of micrometre grains are beyond a float.
+template <class T> GROUSER_HD T lengthOf(const base::Vec3<T>& v) {
+  return static_cast<T>(base::norm(v.template as<double>()));
+}
+
+/// As long as `most`, if it is longer.
+template <class T> GROUSER_HD base::Vec3<T> cutTo(const base::Vec3<T>& v, T most) {
+  const double size2 = norm2(v.template as<double>()), limit = static_cast<double>(most);
+  if (!(size2 > limit * limit)) return v;
+  return v * (most / static_cast<T>(sqrt(size2)));
+}
+
+/// Coulomb's own law, not a projection on its cone: the normal part is kept where it presses, then the others are cut
+/// to what it allows. A fixed point of a step along the relative velocity fulfils Coulomb's law exactly: no dilation.
+/// `push`: unit normal towards side i.
+template <class T>
+GROUSER_HD Impulse<T> cutToCoulomb(const Impulse<T>& z, const base::Vec3<T>& push, const ImpulseCone<T>& cone) {
+  const T along = dot(z.linear, push);
+  if (!(along > 0)) return {};
+  const base::Vec3<T> shear = z.linear - push * along;
+  return {push * along + cutTo(shear, cone.friction * along), cutTo(z.rolling, cone.arm * along)};
+}
+
+/// The nearest impulse of the cone, in the norm of `metric`: the convex relaxation (Anitescu 2006, Math. Program.
+/// 105:113), under which a contact that slides parts with friction times its sliding speed. Where a part is beyond its
+/// limit, the normal part is the mean of what all such parts ask for, weighted with the squares of their slopes.
+template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, const base::Vec3<T>& push,
+                                                       const ImpulseCone<T>& cone, const ImpulseMetric<T>& metric) {
+  struct Limited {
+    T size, slope, weight;
+  };
+  const T along = dot(z.linear, push);
+  const base::Vec3<T> shear = z.linear - push * along;
+  const Limited slides{lengthOf(shear), cone.friction, metric.shear};
+  const Limited rolls{lengthOf(z.rolling), cone.arm, metric.rolling};
+  // The one farther beyond its limit comes first: the other may then be within its own.
+  const bool slidesFirst = slides.size * rolls.slope >= rolls.size * slides.slope;
+  T asked = along, weights = 1, normal = along;
+  for (int k = 0; k < 2; ++k) {
+    const Limited& l = (k == 0) == slidesFirst ? slides : rolls;
+    if (!(l.size > l.slope * normal)) continue;
+    asked += l.weight * l.slope * l.size, weights += l.weight * l.slope * l.slope;
+    normal = asked / weights;
+  }
+  if (!(normal > 0)) return {};
+  return {push * normal + cutTo(shear, slides.slope * normal), cutTo(z.rolling, rolls.slope * normal)};
+}
+
+} // namespace grouser::contact

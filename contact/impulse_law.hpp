@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/contact_law.hpp"
+#include "contact/impulse_cone.hpp"
+#include "contact/rolling_resistance.hpp"
+
+/// A contact as one row of the complementarity problem of a step (Moreau 1988; Tasora and Anitescu 2011, Comput.
+/// Methods Appl. Mech. Eng. 200:439): with u the relative velocity at its end and x the impulse,
+///
+///   K  >  x   perpendicular to   a = u + softness x + offset   > K*
+///
+/// Compliant contacts are the penalty law by implicit Euler: the force k (overlap - h u_n) - c u_n makes the softness
+/// 1 / (h (h k + c)) and the offset -k overlap / (h k + c). Rigid contacts have no softness.
+namespace grouser::contact {
+
+enum class ImpulseFriction { coulomb, associated }; ///< see cutToCoulomb(), projectOnCone()
+enum class Compliance { law, rigid };               ///< springs of the contact law, or none
+
+/// How steps with complementarity contacts are taken.
+struct ComplementarityOptions {
+  ImpulseFriction friction{ImpulseFriction::coulomb};
+  Compliance compliance{Compliance::law};
+  double residual{};   ///< velocity to which a step is solved [m/s], > 0
+  int iterations{200}; ///< most of a step, > 0
+  double recovery{};   ///< greatest speed at which rigid contacts that overlap part [m/s], >= 0
+  double impact{};     ///< approach [m/s] above which a new contact has Newton's restitution; slower ones have none
+  bool strict{false};  ///< whether a step that misses the residual stops the run
+  bool operator==(const ComplementarityOptions&) const = default;
+};
+
+/// The same for a kernel.
+template <class T> struct ImpulseRules {
+  T timeStep, recovery, impact;
+  T stiffness; ///< by which rigid contacts record their impulses, see keptImpulse() [N/m]
+  bool rigid, associated;
+};
+
+/// Two surfaces at the start of a step, seen from side i.
+template <class T> struct ImpulseTouch {
+  base::Vec3<T> push;     ///< unit, from j to i
+  T gap;                  ///< [m], < 0 where they overlap
+  base::Vec3<T> velocity; ///< of i's material point relative to j's [m/s]
+  base::Vec3<T> spin;     ///< of i relative to j [rad/s]
+  T freely;               ///< what the step adds to the speed of parting without contacts [m/s]
+  T effectiveMass, effectiveRadius;
+  T rollingInertia;               ///< see RollingMotion
+  T dampingShare;                 ///< see BasicContactGeometry
+  base::Vec3<T> shear{}, angle{}; ///< springs in the tangent plane [m], [rad]; rigid: see keptImpulse()
+  bool held{false};               ///< whether it carried a force in the last step
+};
+
+/// What a row does not change while it is solved for.
+template <class T> struct ImpulseRow {
+  base::Vec3<T> push;
+  base::Vec3<T> offset, turnOffset; ///< [m/s], [rad/s]
+  T softness, shearSoftness;        ///< [1/kg]
+  T rollingSoftness;                ///< [1/(kg m2)]
+  ImpulseCone<T> cone;
+  T pull;                  ///< impulse of cohesion on each side, towards the other [N s]
+  T damping, shearDamping; ///< of the dashpots, where the contact law is used [N s/m]
+  bool impact;             ///< with Newton's restitution
+  Impulse<T> start;        ///< to begin with
+};
+
+/// What a rigid contact records in the place of a spring, for the next step to begin with: a length [m] that stands for
+/// the impulse.
+template <class T> GROUSER_HD base::Vec3<T> keptImpulse(const base::Vec3<T>& impulse, const ImpulseRules<T>& rules) {
+  return impulse * (T(-1) / (rules.timeStep * rules.stiffness));
+}
+
+namespace detail {
+template <class T> GROUSER_HD base::Vec3<T> tangentOf(const base::Vec3<T>& v, const base::Vec3<T>& normal) {
+  return v - normal * dot(v, normal);
+}
+} // namespace detail
+
+/// The row of two surfaces whose gap is within what they may close in a step.
+template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, const ImpulseTouch<T>& touch,
+                                                       const ImpulseRules<T>& rules) {
+  const T h = rules.timeStep, overlap = touch.gap < 0 ? -touch.gap : T(0);
+  const T parting = dot(touch.velocity, touch.push);
+  ImpulseRow<T> row{};
+  row.push = touch.push;
+  row.cone = {law.friction, law.rollingFriction * touch.effectiveRadius};
+  if (touch.gap < 0) row.pull = h * law.pull(touch.effectiveRadius);
+  const T closing = -(touch.gap + h * (parting + touch.freely)); // overlap at the end without contacts
+  row.impact = !touch.held && parting < -rules.impact && closing > 0;
+  if (row.impact) {
+    row.offset = touch.push * (law.restitution * parting);
+    return row;
+  }
+  if (rules.rigid) {
+    const T wanted = touch.gap / h;
+    row.offset = touch.push * (wanted > -rules.recovery ? wanted : -rules.recovery);
+    if (touch.held) row.start = {touch.shear * (-h * rules.stiffness), touch.angle * (-h * rules.stiffness)};
+    return row;
+  }
+  // Hertz' law is linearised where it will be pressed most.
+  const T deep = law.hertz && closing > overlap ? closing : overlap;
+  Coefficients<T> c = coefficientsOf<kGeneral>(law, deep, touch.effectiveMass, touch.effectiveRadius);
+  const T touches = touch.gap < 0 ? touch.dampingShare : T(0); // surfaces that are apart have no dashpot yet
+  c.damping *= touches, c.tangentialDamping *= touches;
+  row.damping = c.damping, row.shearDamping = c.tangentialDamping;
+  const T stiffness = c.normalStiffness, soft = h * stiffness + c.damping;
+  const T force = c.elastic - stiffness * (deep + touch.gap); // at rest, < 0 where they are apart
+  row.softness = soft > 0 ? 1 / (h * soft) : T(0);
+  row.offset = touch.push * (soft > 0 ? -force / soft : touch.gap / h);
+  const T softShear = h * c.tangentialStiffness + c.tangentialDamping;
+  row.shearSoftness = softShear > 0 ? 1 / (h * softShear) : T(0);
+  if (softShear > 0) row.offset += touch.shear * (c.tangentialStiffness / softShear);
+  const T turn = rollingStiffness(law, stiffness, touch.effectiveRadius);
+  const T softTurn = h * turn + T(2) * law.rollingDamping * base::squareRoot(touch.rollingInertia * turn);
+  row.rollingSoftness = softTurn > 0 ? 1 / (h * softTurn) : T(0);
+  if (softTurn > 0) row.turnOffset = touch.angle * (turn / softTurn);
+  row.start = {touch.push * (h * (force > 0 ? force : T(0))) - touch.shear * (h * c.tangentialStiffness),
+               touch.angle * (-h * turn)};
+  return row;
+}
+
+/// softness x + offset: what a row adds to its relative velocity.
+template <class T> GROUSER_HD base::Vec3<T> slack(const ImpulseRow<T>& row, const base::Vec3<T>& linear) {
+  return linear * row.shearSoftness + row.push * ((row.softness - row.shearSoftness) * dot(linear, row.push)) +
+         row.offset;
+}
+template <class T> GROUSER_HD base::Vec3<T> turnSlack(const ImpulseRow<T>& row, const base::Vec3<T>& rolling) {
+  return rolling * row.rollingSoftness + row.turnOffset;
+}
+
+} // namespace grouser::contact

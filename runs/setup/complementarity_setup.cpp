@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/setup/complementarity_setup.hpp"
+
+#include "base/math.hpp"
+#include "runs/scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grouser::setup {
+
+namespace {
+
+void checkScene(const scene::Scene& scene) {
+  const auto fail = [&](const std::string& message) { scene.fail("run", "contact", message); };
+  if (!ContactPairs(scene).kinds.any()) fail("has no effect without grains; remove it, or give the scene grains");
+  if (scene.vehicle)
+    fail("is of grains with walls, floor and surfaces, not with the parts of a vehicle; choose contact = \"penalty\", "
+         "or remove [vehicle]");
+  if (scene.mechanism.touches())
+    fail("is of grains with walls, floor and surfaces, not with bodies that forces move; choose contact = \"penalty\", "
+         "or make the bodies surfaces ([[box]], [[cylinder]], [[plane]])");
+  if (!scene.meshes.empty())
+    scene.fail(
+        "mesh", 0, "file",
+        "is a mesh, which complementarity contacts do not know; use [[box]], [[cylinder]] or [[plane]], or choose "
+        "run.contact = \"penalty\"");
+  for (const scene::Material& m : scene.materials)
+    if (m.yields())
+      scene.failMaterial(
+          m.name, "law",
+          "yields, and complementarity contacts are elastic or rigid; choose \"linear\" or \"hertz\", or "
+          "run.contact = \"penalty\"");
+  if (scene.output.fieldsCell)
+    scene.fail("output", "fields_cell",
+               "[m] asks for stresses, which are measured from springs of penalty contacts; remove it, or choose "
+               "run.contact = \"penalty\"");
+}
+
+} // namespace
+
+bool hasComplementarity(const scene::Scene& scene) {
+  return scene.run.contact == scene::ContactMethod::complementarity;
+}
+
+std::optional<contact::ComplementarityOptions> complementarityOptions(const scene::Scene& scene, double timeStep) {
+  if (!hasComplementarity(scene)) return {};
+  checkScene(scene);
+  const scene::Complementarity c = scene.complementarity.value_or(scene::Complementarity{});
+  const double fall = norm(scene.run.gravity) * timeStep;
+  contact::ComplementarityOptions options;
+  options.friction = c.friction, options.compliance = c.compliance;
+  options.iterations = static_cast<int>(c.iterations);
+  options.recovery = c.recovery, options.strict = c.strict;
+  options.residual = scene.run.residual.value_or(0.01 * fall);
+  options.impact = 5 * fall;
+  if (!scene.run.residual && norm(scene.run.gravity) == 0)
+    scene.fail("run", "residual",
+               "[m/s] \"auto\" is a hundredth of what gravity adds to a speed in a step, and run.gravity is zero; give "
+               "the residual");
+  return options;
+}
+
+double complementarityTimeStep(const scene::Scene& scene, const ContactPairs& pairs) {
+  const double diameter = 2 * pairs.kinds.smallest, gravity = norm(scene.run.gravity);
+  const double falls = gravity > 0 ? 0.03 * std::sqrt(diameter / gravity) : base::kInfinity;
+  return std::min(falls, 0.1 * diameter / scene.run.impactSpeed);
+}
+
+} // namespace grouser::setup

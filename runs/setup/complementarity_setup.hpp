@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact/impulse_law.hpp"
+#include "runs/setup/contact_pairs.hpp"
+
+#include <optional>
+
+namespace grouser::setup {
+
+/// Whether the scene's grains have complementarity contacts.
+bool hasComplementarity(const scene::Scene& scene);
+
+/// How the steps of such a scene are solved; empty for penalty contacts. Throws InputError at what these contacts do
+/// not have: grains, elastic laws, rigid surfaces alone.
+std::optional<contact::ComplementarityOptions> complementarityOptions(const scene::Scene& scene, double timeStep);
+
+/// The automatic step of such a scene [s], before what moves over time is resolved: 0.03 of the time in which gravity
+/// moves a grain by its diameter, and at most a tenth of the diameter at run.impact_speed.
+double complementarityTimeStep(const scene::Scene& scene, const ContactPairs& pairs);
+
+} // namespace grouser::setup

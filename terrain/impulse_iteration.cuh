@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "terrain/impulse_setup.cuh"
+
+/// One iteration on the rows of a step, in two kernels: each grain takes a step in its own rows and sums them into its
+/// velocity; then, with the velocities of all, it finds what the rows are now.
+namespace grouser::terrain {
+
+/// Sums the impulses of a grain into its velocity. `kTry`: after a step against the gradient from the point that
+/// momentum has reached; else the impulses are as they are now.
+template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
+  static constexpr double kNanoseconds = 150;
+  using Base = ImpulseKernel<Real>;
+  using Base::d, Base::s;
+  using typename Base::Kernel, typename Base::Vec;
+
+  GROUSER_HD void operator()(int i) const {
+    if (s.ghost && s.ghost[i] != 0) return; // its master does
+    if (hasNoRows(d, s, i)) {
+      s.motion[i] = {}; // never moves
+      return;
+    }
+    const GrainSize<Real> size = Kernel::sizeOf(i);
+    Vec pushed{}, turned{};
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
+      const ImpulseRowRecord<Real> row = rows.row[at];
+      contact::Impulse<Real> x;
+      if constexpr (kTry) {
+        x = stepped(rows, at, row);
+        rows.impulse[s.tried][at] = x.linear;
+        if (rows.rolling) rows.turning[s.tried][at] = x.rolling;
+      } else {
+        x = impulseAt(rows, s.now, at);
+      }
+      pushed += x.linear;
+      int surface = 0;
+      if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
+        base::atomicAdd64(s.surfacePushes + surface, -s.push.quantise(dot(x.linear.template as<double>(), pose->axis)));
+      turned += x.rolling - cross(row.push, x.linear) * row.armOwn;
+    });
+    const ImpulseMotion<Real>& free = s.free[i];
+    s.motion[i] = {free.velocity + pushed * (Real(1) / size.mass),
+                   free.spin + turned * (Real(1) / Base::inertiaOf(size))};
+  }
+
+private:
+  GROUSER_HD contact::Impulse<Real> stepped(const ImpulseRowsView<Real>& rows, std::int64_t at,
+                                            const ImpulseRowRecord<Real>& row) const {
+    const contact::Impulse<Real> x = impulseAt(rows, s.now, at), g = gradientAt(rows, s.now, at);
+    contact::Impulse<Real> y = x + (x - impulseAt(rows, s.before, at)) * s.ahead;
+    const contact::Impulse<Real> gy = g + (g - gradientAt(rows, s.before, at)) * s.ahead;
+    const Real shearWeight = WeighRows<Real>::shearWeight(rows), step = Real(1) / (s.tau * row.weight);
+    const Real along = dot(gy.linear, row.push);
+    y.linear -= (gy.linear - row.push * along) * (step / shearWeight) + row.push * (along * step);
+    contact::ImpulseCone<Real> cone{row.friction, Real(0)};
+    contact::ImpulseMetric<Real> metric{shearWeight, Real(0)};
+    if (rows.rolling) {
+      const RollingRowRecord<Real>& roll = rows.rolling[at];
+      y.rolling -= gy.rolling * (Real(1) / (s.tau * roll.weight));
+      cone.arm = roll.arm, metric.rolling = roll.weight / row.weight;
+    }
+    return s.rules.associated ? contact::projectOnCone(y, row.push, cone, metric)
+                              : contact::cutToCoulomb(y, row.push, cone);
+  }
+};
+
+/// Finds the gradient of each row from the velocities, and adds up what decides on the next iteration. `kTry` as above.
+template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
+  static constexpr double kNanoseconds = 150;
+  using Base = ImpulseKernel<Real>;
+  using Base::d, Base::s;
+  using typename Base::Kernel, typename Base::Vec;
+  static constexpr int kOnCpu = 32; ///< grains that a thread of a CPU adds up before it adds to the sums
+
+  std::int64_t count;
+  double nanoseconds() const { return kOnCpu * kNanoseconds; }
+
+  struct Sums {
+    std::int64_t of[kImpulseSums * kSumSizes] = {};
+    float worst = 0;
+    GROUSER_HD void add(int sum, double value, double perUnit) {
+      const double large = value * perUnit, small = large * kFinerSums;
+      const bool fits = fabs(small) < 0x1p50;
+      of[sum * kSumSizes + fits] += wholeQuanta(fits ? small : large);
+    }
+  };
+
+  GROUSER_HD void operator()(int item) const {
+    Sums sums;
+#if defined(__CUDA_ARCH__)
+    run(item, sums);
+    base::atomicAddTogether(s.sums + static_cast<int>(blockIdx.x % kSumBanks) * kImpulseSums * kSumSizes, sums.of);
+#else
+    const std::int64_t first = std::int64_t{item} * kOnCpu, last = first + kOnCpu < count ? first + kOnCpu : count;
+    for (std::int64_t i = first; i < last; ++i) run(static_cast<int>(i), sums);
+    base::WideSum* const bank = s.sums + (item % kSumBanks) * kImpulseSums * kSumSizes;
+    for (int k = 0; k < kImpulseSums * kSumSizes; ++k)
+      if (sums.of[k] != 0) base::atomicAddWide(bank + k, sums.of[k]);
+#endif
+    if (sums.worst > 0) base::atomicMax32(s.worst, base::bitsAs<std::uint32_t>(sums.worst));
+  }
+
+private:
+  GROUSER_HD void run(int i, Sums& sums) const {
+    if (hasNoRows(d, s, i)) return;
+    const ImpulseMotion<Real> own = s.motion[i];
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) { find(rows, at, own, sums); });
+  }
+
+  GROUSER_HD void find(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseMotion<Real>& own,
+                       Sums& sums) const {
+    const ImpulseRowRecord<Real> row = rows.row[at];
+    const bool alone = row.other == kNobody;
+    const ImpulseMotion<Real> other = alone ? ImpulseMotion<Real>{} : s.motion[row.other];
+    const int made = kTry ? s.tried : s.now;
+    const contact::Impulse<Real> x = impulseAt(rows, made, at);
+    contact::Impulse<Real> a;
+    a.linear = (own.velocity - other.velocity) - cross(own.spin * row.armOwn + other.spin * row.armOther, row.push) +
+               x.linear * row.shearSoftness +
+               row.push * ((row.softness - row.shearSoftness) * dot(x.linear, row.push)) + row.offset;
+    int surface = 0;
+    if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
+      a.linear -= pose->axis.template as<Real>() * s.surfaceChange[surface];
+    rows.gradient[made][at] = a.linear;
+    if (rows.rolling) {
+      const RollingRowRecord<Real>& roll = rows.rolling[at];
+      a.rolling = contact::detail::tangentOf(own.spin - other.spin, row.push) + x.rolling * roll.softness + roll.offset;
+      rows.turnGradient[made][at] = a.rolling;
+    }
+    const double share = alone ? 1 : 0.5;
+    addResidual(rows, at, row, x, a, share, sums);
+    if constexpr (kTry) addProducts(rows, at, row, x, a, share, sums);
+  }
+
+  /// By how much a projected step along the velocity would change the impulse, as a velocity.
+  GROUSER_HD void addResidual(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
+                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
+                              Sums& sums) const {
+    contact::Impulse<Real> z{x.linear - a.linear * (Real(1) / row.mobility), {}};
+    contact::ImpulseCone<Real> cone{row.friction, Real(0)};
+    contact::ImpulseMetric<Real> metric{Real(1), Real(0)};
+    Real turn = 0; // of rolling impulses in the norm
+    if (rows.rolling) {
+      cone.arm = rows.rolling[at].arm;
+      metric.rolling = Real(2.5) / (row.armOwn * row.armOwn), turn = metric.rolling;
+      z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * turn));
+    }
+    const contact::Impulse<Real> kept = s.rules.associated ? contact::projectOnCone(z, row.push, cone, metric)
+                                                           : contact::cutToCoulomb(z, row.push, cone);
+    const contact::Impulse<Real> off = x - kept;
+    const double mobility = static_cast<double>(row.mobility);
+    const double square = mobility * mobility *
+                          (norm2(off.linear.template as<double>()) +
+                           static_cast<double>(turn) * norm2(off.rolling.template as<double>()));
+    sums.add(kSquares, share * square, s.perSquare);
+    const auto residual = static_cast<float>(sqrt(square));
+    if (!(residual <= sums.worst)) sums.worst = residual; // a NaN too
+  }
+
+  /// Of the step from y to x: d N d, |d|^2 in the metric, and the gradient along the way from the last iteration.
+  GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
+                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
+                              Sums& sums) const {
+    const contact::Impulse<Real> now = impulseAt(rows, s.now, at), g = gradientAt(rows, s.now, at);
+    const contact::Impulse<Real> y = now + (now - impulseAt(rows, s.before, at)) * s.ahead;
+    const contact::Impulse<Real> gy = g + (g - gradientAt(rows, s.before, at)) * s.ahead;
+    const contact::Impulse<Real> step = x - y, way = x - now;
+    const auto product = [](const Vec& p, const Vec& q) {
+      return dot(p.template as<double>(), q.template as<double>());
+    };
+    const double along = static_cast<double>(dot(step.linear, row.push)),
+                 shearWeight = WeighRows<Real>::shearWeight(rows);
+    double length = static_cast<double>(row.weight) *
+                    (along * along * (1 - shearWeight) + shearWeight * product(step.linear, step.linear));
+    if (rows.rolling) length += static_cast<double>(rows.rolling[at].weight) * product(step.rolling, step.rolling);
+    const contact::Impulse<Real> change = a - gy;
+    const double curvature = product(step.linear, change.linear) + product(step.rolling, change.rolling);
+    const double against = product(gy.linear, way.linear) + product(gy.rolling, way.rolling);
+    sums.add(kCurvature, share * curvature, s.perEnergy);
+    sums.add(kLength, share * length, s.perEnergy);
+    sums.add(kAgainst, share * against, s.perEnergy);
+  }
+};
+
+} // namespace grouser::terrain

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/bits.hpp"
+#include "terrain/feet_search.hpp"
+#include "terrain/impulse_rows.cuh"
+
+/// The rows of a step: which surfaces may touch before its end, and what each of them begins with.
+namespace grouser::terrain {
+
+template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real> {
+  using Kernel = GrainKernel<contact::kGeneral, Real>;
+  using Kernel::d, Kernel::f, Kernel::has;
+  using Vec = base::Vec3<Real>;
+  using Touch = contact::ImpulseTouch<Real>;
+  using Law = contact::BasicLaw<Real>;
+  ImpulseData<Real> s;
+
+  struct Arms {
+    Real own, other; ///< [m]
+  };
+
+  GROUSER_HD Vec velocityOf(int i) const { return d.motion[i].velocity.xyz().template as<Real>(); }
+  GROUSER_HD Vec spinOf(int i) const { return d.motion[i].spin.xyz().template as<Real>(); }
+
+  GROUSER_HD bool fixedAt(std::uint32_t j) const { return has(kFixed) && isFixed(d.motion[j].velocity); }
+  GROUSER_HD static Real inertiaOf(const GrainSize<Real>& size) {
+    return Real(0.4) * size.mass * size.radius * size.radius;
+  }
+
+  /// The springs of the last step, turned into the present tangent plane, or none, where the contact is new: so they
+  /// stand in `history` too until the end of the step.
+  GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, Touch& touch) const {
+    const bool rolls = has(contact::kRollingFriction);
+    if (touch.held) {
+      touch.shear = turnedSpring<Real>(history, turned);
+      if (!s.rules.rigid) touch.shear = contact::detail::tangentOf(touch.shear, touch.push);
+      if (rolls) touch.angle = contact::detail::tangentOf(turnedSpring<Real>(history + 3, turned), touch.push);
+    }
+    storeTurned(history, turned, touch.shear);
+    if (rolls) storeTurned(history + 3, turned, touch.angle);
+  }
+
+  /// Stores a row and the impulse to begin with.
+  GROUSER_HD void put(const ImpulseRowsView<Real>& rows, std::int64_t at, const contact::ImpulseRow<Real>& row,
+                      const Arms& arms, Real overlap, std::uint32_t other, std::uint32_t place) const {
+    rows.row[at] = {row.push,
+                    row.offset,
+                    row.softness,
+                    row.shearSoftness,
+                    row.cone.friction,
+                    arms.own,
+                    arms.other,
+                    Real(0),
+                    Real(0),
+                    other,
+                    place | (row.impact ? kImpactBit : 0u)};
+    rows.end[at] = {overlap, row.pull, row.damping, row.shearDamping};
+    const contact::Impulse<Real> start = contact::cutToCoulomb(row.start, row.push, row.cone);
+    rows.impulse[s.now][at] = start.linear;
+    if (!rows.rolling) return;
+    rows.rolling[at] = {row.turnOffset, row.rollingSoftness, row.cone.arm, Real(0)};
+    rows.turning[s.now][at] = start.rolling;
+  }
+};
+
+/// Rows of a grain with other grains, and its motion without contacts.
+template <class Real> struct MakeGrainRows : ImpulseKernel<Real> {
+  static constexpr double kNanoseconds = 300;
+  using Base = ImpulseKernel<Real>;
+  using Base::d, Base::f, Base::has, Base::s;
+  using typename Base::Arms, typename Base::Kernel, typename Base::Law, typename Base::Touch, typename Base::Vec;
+
+  GROUSER_HD void operator()(int i) const {
+    s.grainRows[i] = 0;
+    if (hasNoRows(d, s, i)) return;
+    const GrainSize<Real> size = Kernel::sizeOf(i);
+    const base::Position p = d.position[i];
+    Vec pulled{};
+    std::uint32_t rows = 0;
+    for (std::uint32_t k = 0; k < d.neighbours.count[i]; ++k) {
+      const std::int64_t at = d.neighbours.at(i, k);
+      const std::uint32_t j = d.neighbours.slot[at];
+      const base::Vec3i apart = Kernel::apart(p, d.position[j]);
+      const std::int64_t distance2 = base::squaredNorm(apart);
+      const std::int64_t reach = has(kManyRadii) ? std::int64_t{d.neighbours.reach[at]} : d.diameterUnits;
+      const std::int64_t range = reach + s.margin;
+      if (distance2 >= range * range || distance2 == 0) continue;
+      const bool held = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
+      add(i, size, j, k, apart, distance2, reach, at, held, d.neighbours.at(i, rows++), pulled);
+    }
+    s.grainRows[i] = rows;
+    s.free[i] = freely(i, size, pulled);
+  }
+
+private:
+  GROUSER_HD void add(int i, const GrainSize<Real>& size, std::uint32_t j, std::uint32_t k, const base::Vec3i& apart,
+                      std::int64_t distance2, std::int64_t reach, std::int64_t listed, bool held, std::int64_t at,
+                      Vec& pulled) const {
+    const auto pair =
+        contact::spherePair(apart.as<Real>(), static_cast<Real>(distance2),
+                            static_cast<Real>(reach * reach - distance2), static_cast<Real>(reach), f.unit);
+    const GrainSize<Real> other = Kernel::sizeOf(static_cast<int>(j));
+    const bool ground = Base::fixedAt(j);
+    const Law& law = has(kManyMaterials) ? f.pairLaws[size.material * d.materials + other.material] : f.law;
+    // Both arms end in one point, so that angular momentum balances: each sphere gives its share of the gap.
+    const Real share = pair.distance / (size.radius + other.radius);
+    const Arms arms{size.radius * share, other.radius * share};
+    const int partner = static_cast<int>(j);
+    Touch touch{};
+    touch.push = -pair.normal, touch.gap = -pair.overlap;
+    touch.velocity = (Base::velocityOf(i) - Base::velocityOf(partner)) -
+                     cross(Base::spinOf(i) * arms.own + Base::spinOf(partner) * arms.other, touch.push);
+    touch.spin = Base::spinOf(i) - Base::spinOf(partner);
+    touch.freely = ground ? dot(d.gravityStep.template as<Real>(), touch.push) : Real(0);
+    touch.effectiveMass = ground ? size.mass : size.mass * other.mass / (size.mass + other.mass);
+    touch.effectiveRadius = size.radius * other.radius / (size.radius + other.radius);
+    touch.rollingInertia = ground ? contact::rollingInertia(size.mass, size.radius)
+                                  : contact::rollingInertia(size.mass, size.radius, other.mass, other.radius);
+    touch.dampingShare = ground ? law.fixedShare : Real(1);
+    touch.held = held;
+    if (Kernel::hasHistory()) Base::takeSprings(d.neighbours.history + listed * Kernel::historyWidth(), nullptr, touch);
+    const contact::ImpulseRow<Real> row = contact::impulseRow(law, touch, s.rules);
+    pulled -= row.push * row.pull;
+    Base::put(s.grains, at, row, arms, pair.overlap, ground ? kNobody : j, k);
+  }
+
+  /// With gravity, cohesion and the loads of rigid parts.
+  GROUSER_HD ImpulseMotion<Real> freely(int i, const GrainSize<Real>& size, const Vec& pulled) const {
+    const Remainders kept = d.remainders[i];
+    const base::Vec3f v = d.motion[i].velocity.xyz(), w = d.motion[i].spin.xyz();
+    base::Vec3d velocity, spin;
+    for (int a = 0; a < 3; ++a) {
+      velocity[a] = withRemainder(v[a], lowRemainder(kept.axis[a])) + d.gravityStep[a] +
+                    static_cast<double>(pulled[a]) / static_cast<double>(size.mass);
+      spin[a] = withRemainder(w[a], highRemainder(kept.axis[a]));
+    }
+    return {velocity.template as<Real>(), spin.template as<Real>()};
+  }
+};
+
+/// Rows of a grain with walls, floor and surfaces.
+template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
+  static constexpr double kNanoseconds = 200;
+  using Base = ImpulseKernel<Real>;
+  using Base::d, Base::f, Base::has, Base::s;
+  using typename Base::Arms, typename Base::Kernel, typename Base::Law, typename Base::Touch, typename Base::Vec;
+
+  /// A grain of the list near boundaries, and how many rows it has so far.
+  struct Grain {
+    int place, slot;
+    base::Vec3d x;
+    GrainSize<Real> size;
+    std::uint32_t before; ///< boundaries that it touched in the last step
+    std::uint32_t rows = 0;
+    Vec pulled{};
+  };
+
+  GROUSER_HD void operator()(int k) const {
+    s.boundRows[k] = 0;
+    const int i = static_cast<int>(d.nearBoundary[k]);
+    if (hasNoRows(d, s, i)) return;
+    Grain grain{k, i, base::toUnits(d.position[i]).template as<double>() * d.unitLength, Kernel::sizeOf(i),
+                d.boundaryContactMask[i]};
+    const double radius = static_cast<double>(grain.size.radius);
+    const double margin = static_cast<double>(s.margin) * d.unitLength;
+    for (int b = 0; b < d.wallCount; ++b) {
+      const double gap = dot(d.walls[b].normal, grain.x) - d.walls[b].offset - radius;
+      if (gap < margin) add(grain, b, d.walls[b].normal, gap, nullptr);
+    }
+    if (has(kFloor) && d.floor.marks)
+      addHollows(grain, radius);
+    else if (has(kFloor) && !d.floor.clearOf(grain.x, radius + margin)) {
+      const FootPoint foot = d.floor.closestPoint(grain.x);
+      if (foot.distance - radius < margin) add(grain, d.wallCount, foot.normal, foot.distance - radius, nullptr);
+    }
+    const int first = d.boundaryCount - d.surfaceCount;
+    for (int b = 0; has(kSurfaces) && b < d.surfaceCount; ++b) {
+      const contact::PartMotion& motion = d.placements[b].motion;
+      const SurfaceGap gap = gapTo(d.surfaces[b], motion.toPart(grain.x));
+      if (gap.distance - radius < margin)
+        add(grain, first + b, motion.rotation * gap.normal, gap.distance - radius, &d.placements[b]);
+    }
+    s.boundRows[k] = grain.rows;
+    s.free[i].velocity += grain.pulled * (Real(1) / grain.size.mass);
+  }
+
+private:
+  /// A floor with hollows tighter than the grain: its places in touch.
+  GROUSER_HD void addHollows(Grain& grain, double radius) const {
+    if (d.floor.clearOf(grain.x, radius)) return;
+    Feet feet;
+    FeetSearch(d.floor, grain.x, radius).run(feet);
+    const FeetLoads loads(feet, radius, lawOf(grain, d.wallCount).hertz);
+    int place[Feet::kMost];
+    const std::uint32_t floorBits = (1u << Feet::kMost) - 1;
+    float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
+    const std::uint32_t goOn = takePlaces(feet, grain.before >> d.wallCount & floorBits, normals, place);
+    grain.before = (grain.before & ~(floorBits << d.wallCount)) | goOn << d.wallCount;
+    for (int k = 0; k < feet.count; ++k) {
+      if (!(loads.overlap(k) > 0)) continue;
+      add(grain, d.wallCount + place[k], feet.foot[k].normal, -loads.overlap(k), nullptr);
+      if (normals) storeVector(normals + 3 * place[k], feet.foot[k].normal.template as<float>());
+    }
+  }
+
+  GROUSER_HD const Law& lawOf(const Grain& grain, int boundary) const {
+    return f.boundaryLaws[d.lawOf(boundary) * d.materials + grain.size.material];
+  }
+
+  /// `pose`: of a surface that may move; null where the boundary rests.
+  GROUSER_HD void add(Grain& grain, int boundary, const base::Vec3d& outward, double gap,
+                      const SurfacePose* pose) const {
+    Touch touch{};
+    touch.push = outward.template as<Real>(), touch.gap = static_cast<Real>(gap);
+    const Arms arms{grain.size.radius + (touch.gap < 0 ? touch.gap : Real(0)), Real(0)};
+    Vec moves{}, turns{};
+    if (pose) {
+      const base::Vec3d point = grain.x - outward * static_cast<double>(arms.own);
+      moves = pose->motion.velocityAt(point).template as<Real>(), turns = pose->motion.spin.template as<Real>();
+    }
+    touch.velocity = Base::velocityOf(grain.slot) - cross(Base::spinOf(grain.slot) * arms.own, touch.push) - moves;
+    touch.spin = Base::spinOf(grain.slot) - turns;
+    Vec gains{};
+    if (pose && pose->inverseMass > 0) {
+      gains = (pose->axis * pose->gains).template as<Real>();
+      base::atomicAdd32(s.surfaceRows + (boundary - (d.boundaryCount - d.surfaceCount)), 1);
+    }
+    touch.freely = dot(d.gravityStep.template as<Real>() - gains, touch.push);
+    touch.effectiveMass = grain.size.mass, touch.effectiveRadius = grain.size.radius;
+    touch.rollingInertia = contact::rollingInertia(grain.size.mass, grain.size.radius);
+    touch.dampingShare = 1;
+    touch.held = grain.before >> boundary & 1;
+    if (Kernel::hasHistory())
+      Base::takeSprings(d.historyOf(grain.place, boundary, Kernel::historyWidth()), pose ? &pose->turned : nullptr,
+                        touch);
+    contact::ImpulseRow<Real> row = contact::impulseRow(lawOf(grain, boundary), touch, s.rules);
+    grain.pulled -= row.push * row.pull;
+    row.offset -= moves + gains, row.turnOffset -= contact::detail::tangentOf(turns, row.push);
+    Base::put(s.bounds, std::int64_t{grain.place} + grain.rows++ * s.near, row, arms, -touch.gap, kNobody,
+              static_cast<std::uint32_t>(boundary));
+  }
+};
+
+/// How many rows a grain has.
+template <class Real> struct CountRows {
+  GrainKernelData d;
+  ImpulseData<Real> s;
+  GROUSER_HD void operator()(int i) const {
+    if (s.ghost && s.ghost[i] != 0) return; // its master says so
+    std::uint32_t rows = s.grainRows[i];
+    if (const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0) rows += s.boundRows[at - 1];
+    s.degree[i] = rows;
+  }
+};
+
+/// The metric of each row: a bound of what all rows of both grains add to its velocity (splitting the grains' masses
+/// among them; Tonge, Benevolenski and Voroshilov 2012, ACM Trans. Graph. 31:105), and so a step of the solver under
+/// which the energy of the problem never rises.
+template <class Real> struct WeighRows : ImpulseKernel<Real> {
+  static constexpr double kNanoseconds = 60;
+  using Base = ImpulseKernel<Real>;
+  using Base::d, Base::s;
+  using typename Base::Kernel;
+
+  GROUSER_HD void operator()(int i) const {
+    if (hasNoRows(d, s, i)) return;
+    const GrainSize<Real> size = Kernel::sizeOf(i);
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) { weigh(rows, at, size, s.degree[i]); });
+  }
+
+private:
+  GROUSER_HD void weigh(const ImpulseRowsView<Real>& rows, std::int64_t at, const GrainSize<Real>& own,
+                        std::uint32_t degree) const {
+    ImpulseRowRecord<Real>& row = rows.row[at];
+    const bool alone = row.other == kNobody;
+    const GrainSize<Real> other = alone ? own : Kernel::sizeOf(static_cast<int>(row.other));
+    const Real many = static_cast<Real>(degree), more = alone ? Real(0) : static_cast<Real>(s.degree[row.other]);
+    // Before surfaces touch, arms are longer than radii.
+    const Real longer = row.armOwn / own.radius, arm2 = longer > 1 ? longer * longer : Real(1);
+    int surface = 0;
+    const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface);
+    const Real given = pose ? static_cast<Real>(pose->inverseMass) : Real(0);
+    const Real masses = many / own.mass + more / other.mass + (pose ? s.surfaceRows[surface] * given : Real(0));
+    const Real shear = (shearWeight(rows) * masses * arm2 + row.shearSoftness) / shearWeight(rows);
+    const Real normal = masses + row.softness;
+    row.weight = normal > shear ? normal : shear;
+    row.mobility = Real(1) / own.mass + (alone ? given : Real(1) / other.mass) + row.softness;
+    if (!rows.rolling) return;
+    RollingRowRecord<Real>& roll = rows.rolling[at];
+    // Rolling and shear turn one grain: each counts twice.
+    roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other)) + roll.softness;
+  }
+
+public:
+  /// Of the metric: 1 + m R^2 / I of a solid sphere; with rolling rows, which share the turning part, twice that part.
+  GROUSER_HD static Real shearWeight(const ImpulseRowsView<Real>& rows) { return rows.rolling ? Real(6) : Real(3.5); }
+};
+
+} // namespace grouser::terrain

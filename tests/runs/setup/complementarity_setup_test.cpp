@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes with complementarity contacts: the step they take, and what they refuse.
+#include "base/error.hpp"
+#include "runs/setup/complementarity_setup.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "runs/setup/step_limit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grouser::setup {
+namespace {
+
+const std::string kSand = "[material.sand]\nstiffness = 1e6\nrestitution = 0.5\nfriction = 0.5\n",
+                  kGrains = "[[grain]]\nposition = [0, 0, 0.02]\nradius = 0.01\nmaterial = \"sand\"\n"
+                            "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"sand\"\n";
+
+std::string run(const std::string& more = "") {
+  return "version = 1\n[run]\nduration = 1\ncontact = \"complementarity\"\n" + more;
+}
+
+scene::Scene parsed(const std::string& text) { return parseScene(text, "scene.toml"); }
+
+TEST(ComplementarityScene, StepsFollowGravityAndImpactsNotStiffness) {
+  const double falls = 0.03 * std::sqrt(0.02 / 9.81), meets = 0.1 * 0.02;
+  ASSERT_LT(falls, meets);
+  for (const std::string more : {"", "[contact.\"sand|sand\"]\nstiffness = 1e9\n"})
+    EXPECT_NEAR(chooseTimeStep(parsed(run() + kSand + more + kGrains)), falls, 1e-12);
+  EXPECT_NEAR(chooseTimeStep(parsed(run("impact_speed = 4\n") + kSand + kGrains)), 0.1 * 0.02 / 4, 1e-12);
+  EXPECT_EQ(chooseTimeStep(parsed(run("time_step = 2e-3\n") + kSand + kGrains)), 2e-3);
+}
+
+TEST(ComplementarityScene, KeysReachTheModel) {
+  const std::string section = "[complementarity]\nfriction = \"associated\"\ncompliance = \"rigid\"\niterations = 7\n"
+                              "recovery = 0.3\nstrict = true\n";
+  const auto options = simulationSetup(parsed(run("residual = 1e-5\ntime_step = 1e-3\n") + section + kSand + kGrains))
+                           .ground.grains->model.complementarity;
+  contact::ComplementarityOptions expected;
+  expected.friction = contact::ImpulseFriction::associated, expected.compliance = contact::Compliance::rigid;
+  expected.iterations = 7, expected.recovery = 0.3, expected.strict = true, expected.residual = 1e-5;
+  expected.impact = 5 * 9.81 * 1e-3;
+  EXPECT_EQ(*options, expected);
+  const auto usual =
+      simulationSetup(parsed(run("time_step = 1e-3\n") + kSand + kGrains)).ground.grains->model.complementarity;
+  EXPECT_NEAR(usual->residual, 0.01 * 9.81 * 1e-3, 1e-15);
+  EXPECT_FALSE(simulationSetup(parsed("version = 1\n[run]\nduration = 1\n" + kSand + kGrains))
+                   .ground.grains->model.complementarity);
+}
+
+TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
+  const std::string body = "[[body]]\nname = \"b\"\nmaterial = \"sand\"\nmass = 1\nposition = [0, 0, 1]\n"
+                           "[[body.shape]]\nkind = \"sphere\"\nradius = 0.1\n";
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {run() + kSand + "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"sand\"\n" + body,
+       "has no effect without grains"},
+      {run() + kSand + kGrains + body, "not with bodies that forces move"},
+      {run() + "[material.sand]\nlaw = \"luding\"\nstiffness = 1e6\n" + kGrains, "yields, and complementarity"},
+      {run() + "[material.sand]\nlaw = \"eepa\"\nyoung = 1e8\n" + kGrains, "yields, and complementarity"},
+      {run() + kSand + kGrains + "[output]\nfields_cell = 0.1\nfields_low = [-1, -1, 0]\nfields_high = [1, 1, 1]\n",
+       "measured from springs of penalty contacts"},
+      {run("gravity = [0, 0, 0]\n") + kSand + kGrains, "run.gravity is zero; give the residual"},
+      {run("residual = 0\n") + kSand + kGrains, "residual"},
+      {run("residual = -1\n") + kSand + kGrains, "residual"},
+      {run("residual = 11\n") + kSand + kGrains, "residual"},
+      {run("residual = \"small\"\n") + kSand + kGrains, "residual"},
+      {"version = 1\n[run]\nduration = 1\ncontact = \"springs\"\n" + kSand + kGrains, "contact"},
+      {"version = 1\n[run]\nduration = 1\nresidual = 1e-4\n" + kSand + kGrains,
+       "without contact = \"complementarity\""},
+      {"version = 1\n[run]\nduration = 1\n[complementarity]\niterations = 9\n" + kSand + kGrains,
+       "has no effect without run.contact = \"complementarity\""},
+      {run() + "[complementarity]\niterations = 0\n" + kSand + kGrains, "iterations"},
+      {run() + "[complementarity]\niterations = 2.5\n" + kSand + kGrains, "iterations"},
+      {run() + "[complementarity]\niterations = 1e9\n" + kSand + kGrains, "iterations"},
+      {run() + "[complementarity]\nfriction = \"dry\"\n" + kSand + kGrains, "friction"},
+      {run() + "[complementarity]\ncompliance = \"soft\"\n" + kSand + kGrains, "compliance"},
+      {run() + "[complementarity]\nrecovery = -0.1\n" + kSand + kGrains, "recovery"},
+      {run() + "[complementarity]\nstrict = 1\n" + kSand + kGrains, "strict"},
+      {run() + "[complementarity]\nomega = 1\n" + kSand + kGrains, "omega"},
+      {run("time_step = 0.01\n") + kSand + kGrains +
+           "[[grain]]\nposition = [0, 1, 0.02]\nvelocity = [2, 0, 0]\n"
+           "radius = 0.01\nmaterial = \"sand\"\n",
+       "is more than half a grain's radius in a step"},
+  };
+  for (const auto& [text, said] : all) {
+    try {
+      static_cast<void>(simulationSetup(parsed(text)));
+      ADD_FAILURE() << "taken: " << text;
+    } catch (const base::InputError& fault) {
+      EXPECT_NE(std::string(fault.what()).find(said), std::string::npos) << fault.what();
+    }
+  }
+}
+
+} // namespace
+} // namespace grouser::setup
