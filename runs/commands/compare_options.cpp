@@ -27,19 +27,23 @@ namespace fs = std::filesystem;
 
 struct CompareCommand {
   std::string scene, device, folder;
-  std::vector<std::string> grounds;
+  std::vector<std::string> grounds, contacts;
   std::optional<int> threads;
   sweeps::CompareOptions options;
 };
 
 void compareCommand(CompareCommand command) {
   sweeps::CompareOptions& options = command.options;
-  options.grounds = sweeps::groundsOf(command.grounds);
+  if (command.grounds.empty() == command.contacts.empty())
+    throw base::InputError("compare needs either --grounds or --contact, with two or more words");
+  if (!command.grounds.empty()) options.grounds = sweeps::groundsOf(command.grounds);
+  if (!command.contacts.empty()) options.contacts = sweeps::contactsOf(command.contacts);
   addDeviceOverrides(options.fixed, command.device, command.threads);
   sweeps::checkGivenOnce(options.fixed);
   for (const std::string& set : options.fixed)
-    for (const auto& [key, option] : {std::pair{"terrain.kind", "--grounds"}, {"run.seed", "--seeds"}})
-      if (sweeps::keyOf(set) == key)
+    for (const auto& [key, option] :
+         {std::pair{"terrain.kind", "--grounds"}, {"run.contact", "--contact"}, {"run.seed", "--seeds"}})
+      if (sweeps::keyOf(set) == key && (std::string(option) != "--contact" || !command.contacts.empty()))
         throw base::InputError(fmt::format("--set {}: {} sets this key; leave it out", set, option));
   const fs::path file = command.scene;
   options.sweep.program = fs::read_symlink("/proc/self/exe");
@@ -57,16 +61,20 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
   const auto command = std::make_shared<CompareCommand>();
   CompareCommand& c = *command;
   c.options.words = invocation.words;
-  CLI::App* compare = app.add_subcommand("compare", "The same vehicle and drive on several kinds of ground: figures, "
-                                                    "differences with verdicts, cost");
+  CLI::App* compare = app.add_subcommand("compare", "One scene on several kinds of ground, or with several contact "
+                                                    "methods: figures, differences with verdicts, cost");
   compare->add_option("scene", c.scene, "scene file")->required();
   compare
       ->add_option(
           "--grounds", c.grounds,
           fmt::format("two or more of {}, separated by commas", fmt::join(base::wordsOf<scene::TerrainKind>(), ", ")))
-      ->delimiter(',')
-      ->required();
-  compare->add_option("--seeds", c.options.seeds, "beds of granular ground; other grounds have one run")
+      ->delimiter(',');
+  compare
+      ->add_option("--contact", c.contacts,
+                   fmt::format("two or more of {}, separated by commas; in place of --grounds",
+                               fmt::join(base::wordsOf<scene::ContactMethod>(), ", ")))
+      ->delimiter(',');
+  compare->add_option("--seeds", c.options.seeds, "of grains, a run each; other grounds have one run")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   compare

@@ -13,6 +13,7 @@
 #include "runs/scene/soil.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/drive_length.hpp"
 #include "runs/setup/free_surface_notes.hpp"
@@ -207,9 +208,13 @@ std::string switchesText(const scene::Scene& scene) {
                   kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
                                     : fmt::format("all {:g} m", kinds.largest));
     text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in all", kinds.material.size()));
-    text += fmt::format("       {:<26} {}\n", "kernel of the grains",
-                        terrain::stepKernelText(traits.features, traits.model));
-    if (has(terrain::kBoundaries))
+    const bool implicit = setup::hasComplementarity(scene);
+    if (implicit)
+      text += onOff(true, "complementarity contacts", "no kernel of their own for each scene");
+    else
+      text += fmt::format("       {:<26} {}\n", "kernel of the grains",
+                          terrain::stepKernelText(traits.features, traits.model));
+    if (has(terrain::kBoundaries) && !implicit)
       text += fmt::format("       {:<26} {}\n", "kernel of walls and floor",
                           terrain::boundaryKernelText(traits.features, traits.model));
   }
@@ -252,6 +257,7 @@ std::string switchesText(const scene::Scene& scene) {
 
 std::string planText(const scene::Scene& scene, const forecast::CountedGrains* counted) {
   setup::checkRestitutions(scene);
+  setup::checkComplementarity(scene);
   std::string text;
   if (const std::string warning = setup::shortDriveWarning(scene); !warning.empty())
     text = fmt::format("WARNING: {}\n\n", warning);
@@ -281,7 +287,9 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   text += pairsText(scene);
   const setup::StepLimit limit = setup::stepLimit(scene);
   text += timeText(scene, limit, step, static_cast<double>(grains));
-  if (const double calm = limit.calm; grains && (scene.mechanism.empty() || scene.mechanism.touches()) && step > calm)
+  const bool implicit = setup::hasComplementarity(scene);
+  if (const double calm = limit.calm;
+      grains && !implicit && (scene.mechanism.empty() || scene.mechanism.touches()) && step > calm)
     text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
                         "(docs/step_limits.md)\n",
                         base::roundedDown(calm, 4));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/rounded.hpp"
 #include "runs/commands/plan.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +30,8 @@ std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, d
   std::string text = "\ntime\n";
   const double contact = setup::shortestContact(scene);
   const double resolved = contact / scene.run.stepsPerContact;
-  if (contact > 0) {
+  const bool implicit = setup::hasComplementarity(scene); // its steps resolve no contact
+  if (contact > 0 && !implicit) {
     text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
     text += fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved,
                         scene.run.stepsPerContact);
@@ -39,12 +41,12 @@ std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, d
     text += fmt::format("  {:<24} as the error allows, {:g} m or rad a second\n", "time step", *scene.run.tolerance);
   } else {
     text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
-                        contact > 0 ? fmt::format(", {:.1f} a contact", contact / step) : "");
+                        contact > 0 && !implicit ? fmt::format(", {:.1f} a contact", contact / step) : "");
     text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
   }
   if (scene.vehicle) text += boundsText(limit);
   if (grains > 0) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * grains);
-  if (contact > 0 && step > resolved * 1.0000001)
+  if (contact > 0 && !implicit && step > resolved * 1.0000001)
     text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
                         contact / step, base::roundedDown(resolved, 4));
   return text;

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of a comparison of grounds: compare.py COMPARE.json FILE.png
+"""Plot of a comparison: compare.py COMPARE.json FILE.png
 
-A panel a figure, with a bar for each kind of ground and its 95 % interval, and the wall time for a second of the drive.
+A panel a figure, with a bar for each kind of ground or contact method and its 95 % interval, and the wall time for a
+simulated second.
 """
 import json
 from pathlib import Path
 
 import drawing
 
-COLOURS = {"rigid": "#8a8d91", "scm": "#b0763a", "granular": "#d8b365"}
+COLOURS = {"rigid": "#8a8d91", "scm": "#b0763a", "granular": "#d8b365", "penalty": "#4c72b0",
+           "complementarity": "#c44e52"}
 # (name of the figure, label, factor)
 PANELS = (
     ("speed [m/s]", "speed [m/s]", 1),
@@ -21,9 +23,9 @@ PANELS = (
 )
 
 
-def bars(axis, label, grounds, values, halves):
-    places = range(len(grounds))
-    axis.bar(places, [value if value is not None else 0 for value in values], color=[COLOURS.get(g, "C0") for g in grounds],
+def bars(axis, label, variants, values, halves):
+    places = range(len(variants))
+    axis.bar(places, [value if value is not None else 0 for value in values], color=[COLOURS.get(v, "C0") for v in variants],
              width=0.6)
     for place, value, half in zip(places, values, halves):
         if value is None:
@@ -31,7 +33,7 @@ def bars(axis, label, grounds, values, halves):
         elif half:
             axis.errorbar(place, value, yerr=half, color="black", capsize=3)
     axis.axhline(0, color="black", linewidth=0.6)
-    axis.set_xticks(places, grounds, fontsize=8)
+    axis.set_xticks(places, variants, fontsize=8)
     axis.set_ylabel(label, fontsize=8)
     axis.tick_params(axis="y", labelsize=7)
     axis.grid(False, axis="x")
@@ -41,7 +43,7 @@ def bars(axis, label, grounds, values, halves):
 def draw(path):
     with open(path, encoding="utf-8") as file:
         results = json.load(file)
-    grounds = [ground["ground"] for ground in results["grounds"]]
+    variants = [v["variant"] for v in results["variants"]]
     rows = {row["figure"]: row["means"] for row in results["rows"]}
     panels = [(label, factor, rows[name]) for name, label, factor in PANELS
               if any(mean["mean"] is not None for mean in rows.get(name, ()))]
@@ -51,10 +53,10 @@ def draw(path):
     figure = drawing.Figure(figsize=(2.6 * columns, 2.6 * ((len(panels) + columns) // columns)))
     axes = list(figure.subplots((len(panels) + columns) // columns, columns, squeeze=False).flatten())
     for axis, (label, factor, means) in zip(axes, panels):
-        bars(axis, label, grounds, *([None if mean[key] is None else factor * mean[key] for mean in means]
+        bars(axis, label, variants, *([None if mean[key] is None else factor * mean[key] for mean in means]
                                      for key in ("mean", "half_width")))
-    bars(axes[len(panels)], "wall time a second [s]", grounds, [g["wall_time_per_second"] for g in results["grounds"]],
-         [None] * len(grounds))
+    bars(axes[len(panels)], "wall time a second [s]", variants, [g["wall_time_per_second"] for g in results["variants"]],
+         [None] * len(variants))
     for axis in axes[len(panels) + 1:]:
         axis.set_visible(False)
     figure.suptitle(f"{Path(results['scene']).stem}: means over the steady part", fontsize=9)

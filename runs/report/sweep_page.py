@@ -274,7 +274,7 @@ def page(folder, options):
     made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep, faults),
                                                                            opened=not sweep.means or bool(faults)))
     if grounds := ground_table.section(folder):
-        made.section("grounds", "Comparison of grounds", grounds)
+        made.section("grounds", "Comparison", grounds)
     made.section("plots", "Plots", plots(made, sweep, options.program))
     add_runs(made, first_seeds(sweep, faults), options, "The first run of each combination.")
     return made

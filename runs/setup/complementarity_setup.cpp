@@ -9,9 +9,8 @@
 
 namespace grouser::setup {
 
-namespace {
-
-void checkScene(const scene::Scene& scene) {
+void checkComplementarity(const scene::Scene& scene) {
+  if (!hasComplementarity(scene)) return;
   const auto fail = [&](const std::string& message) { scene.fail("run", "contact", message); };
   if (!ContactPairs(scene).kinds.any()) fail("has no effect without grains; remove it, or give the scene grains");
   if (scene.vehicle)
@@ -35,9 +34,11 @@ void checkScene(const scene::Scene& scene) {
     scene.fail("output", "fields_cell",
                "[m] asks for stresses, which are measured from springs of penalty contacts; remove it, or choose "
                "run.contact = \"penalty\"");
+  if (!scene.run.residual && norm(scene.run.gravity) == 0)
+    scene.fail("run", "residual",
+               "[m/s] \"auto\" is a hundredth of what gravity adds to a speed in a step, and run.gravity is zero; give "
+               "the residual");
 }
-
-} // namespace
 
 bool hasComplementarity(const scene::Scene& scene) {
   return scene.run.contact == scene::ContactMethod::complementarity;
@@ -45,7 +46,6 @@ bool hasComplementarity(const scene::Scene& scene) {
 
 std::optional<contact::ComplementarityOptions> complementarityOptions(const scene::Scene& scene, double timeStep) {
   if (!hasComplementarity(scene)) return {};
-  checkScene(scene);
   const scene::Complementarity c = scene.complementarity.value_or(scene::Complementarity{});
   const double fall = norm(scene.run.gravity) * timeStep;
   contact::ComplementarityOptions options;
@@ -54,10 +54,6 @@ std::optional<contact::ComplementarityOptions> complementarityOptions(const scen
   options.recovery = c.recovery, options.strict = c.strict;
   options.residual = scene.run.residual.value_or(0.01 * fall);
   options.impact = 5 * fall;
-  if (!scene.run.residual && norm(scene.run.gravity) == 0)
-    scene.fail("run", "residual",
-               "[m/s] \"auto\" is a hundredth of what gravity adds to a speed in a step, and run.gravity is zero; give "
-               "the residual");
   return options;
 }
 

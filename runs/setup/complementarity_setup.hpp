@@ -11,8 +11,11 @@ namespace grouser::setup {
 /// Whether the scene's grains have complementarity contacts.
 bool hasComplementarity(const scene::Scene& scene);
 
-/// How the steps of such a scene are solved; empty for penalty contacts. Throws InputError at what these contacts do
-/// not have: grains, elastic laws, rigid surfaces alone.
+/// Throws InputError at what these contacts do not have: vehicles, bodies, meshes, laws that yield, measured stresses;
+/// and where the scene has no grains.
+void checkComplementarity(const scene::Scene& scene);
+
+/// How the steps of such a scene are solved; empty for penalty contacts.
 std::optional<contact::ComplementarityOptions> complementarityOptions(const scene::Scene& scene, double timeStep);
 
 /// The automatic step of such a scene [s], before what moves over time is resolved: 0.03 of the time in which gravity

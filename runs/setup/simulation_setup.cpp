@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/setup/simulation_setup.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 
 #include "runs/scene/scene.hpp"
 #include "runs/setup/field_checks.hpp"
@@ -17,6 +18,7 @@ namespace grouser::setup {
 coupling::SimulationSetup simulationSetup(const scene::Scene& scene, int ranks, SizeChecks sizes) {
   coupling::SimulationSetup setup;
   checkRestitutions(scene);
+  checkComplementarity(scene);
   // Before the step: what does not fit its mesh may ask for a wrong one.
   if (scene.vehicle) checkParts(scene);
   setup.timeStep = chooseTimeStep(scene);

@@ -115,7 +115,7 @@ TEST(ComplementarityOfMany, ShorterStepsMeetThePenaltyLaw) {
 
 TEST(ComplementarityOfMany, AStrictRunEndsWhereAStepIsNotSolved) {
   GrainModel m = impulsiveGravel(Compliance::law);
-  m.complementarity->iterations = 1, m.complementarity->strict = true;
+  m.complementarity->iterations = 15, m.complementarity->strict = true;
   Grains grains = thrown(testExec(1), m);
   EXPECT_THROW(advance(grains, kBedSteps), base::SimulationError);
   m.complementarity->strict = false;

@@ -158,6 +158,19 @@ TEST(Complementarity, RollingResistanceHoldsAndStops) {
   }
 }
 
+TEST(Complementarity, ABallThatIsHeldDoesNotCreep) {
+  GrainModel m = impulsive(1e-3, 0.8, Compliance::law);
+  m.law.rollingFriction = 0.2, m.law.rollingDamping = 0.3, m.law.damping = 1000, m.law.tangentialDamping = 500;
+  m.gravity = tilted(std::atan(0.1));
+  const double sunk = m.mass * kG / m.law.stiffness;
+  Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius - sunk}, {}, {}}});
+  advance(grains, 1000);
+  const double rests = grains.snapshot().position[0].x;
+  EXPECT_GT(rests, 1e-8) << "its springs give way";
+  advance(grains, 1000);
+  EXPECT_NEAR(grains.snapshot().position[0].x, rests, 1e-9);
+}
+
 TEST(Complementarity, CohesionHoldsUpToItsForce) {
   for (const double share : {0.99, 1.01}) {
     GrainModel m = impulsive(1e-3, 0.5, Compliance::law);

@@ -103,7 +103,7 @@ std::vector<FigureDifference> differencesFrom(const EventSet& here, const EventS
                        ? jobs::unpairedChange(found->values, mine.values)
                        : support::Estimate{b.value - a.value, std::hypot(a.halfWidth, b.halfWidth)};
     d.verdict = mine.doubtful || found->doubtful ? kInconclusive
-                                                 : sweeps::groundVerdict(d.difference, a.value, b.value, percent);
+                                                 : sweeps::variantVerdict(d.difference, a.value, b.value, percent);
     all.push_back(std::move(d));
   }
   return all;

@@ -24,29 +24,62 @@ namespace grouser::sweeps {
 
 namespace fs = std::filesystem;
 using base::InputError;
+using scene::ContactMethod;
 using scene::TerrainKind;
 
 namespace {
 
-constexpr const char* kGroundKey = "ground";
+constexpr const char* kVariantKey = "variant";
 constexpr const char *kText = "compare.txt", *kTable = "compare.csv", *kJson = "compare.json", *kPlot = "compare.png";
 
-scene::Scene sceneOn(TerrainKind ground, const fs::path& file, const std::vector<std::string>& overrides, bool check) {
+/// One way of running the scene.
+struct Variant {
+  std::string option, word;
+  bool random; ///< it has a run for each seed
+  std::vector<std::string> overrides;
+};
+
+/// Calls `make`, whose faults then name the variant.
+template <class Make> auto naming(const std::string& option, const std::string& word, const Make& make) {
   try {
-    scene::Scene scene = setup::loadScene(file, overrides);
-    if (check) checkScene(scene);
-    return scene;
+    return make();
   } catch (const InputError& fault) {
-    throw InputError(fmt::format("--grounds {}: {}", base::wordOf(ground), fault.what()));
+    throw InputError(fmt::format("{} {}: {}", option, word, fault.what()));
   }
 }
 
-std::vector<std::string> overridesOn(TerrainKind ground, const fs::path& file, const std::vector<std::string>& fixed) {
-  try {
-    return groundOverrides(file, fixed, ground);
-  } catch (const InputError& fault) {
-    throw InputError(fmt::format("--grounds {}: {}", base::wordOf(ground), fault.what()));
+std::vector<Variant> variantsOf(const fs::path& scene, const CompareOptions& options) {
+  std::vector<Variant> variants;
+  for (const TerrainKind ground : options.grounds) {
+    const std::string word(base::wordOf(ground)), option = "--grounds";
+    variants.push_back({option, word, ground == TerrainKind::granular,
+                        naming(option, word, [&] { return groundOverrides(scene, options.fixed, ground); })});
   }
+  for (const ContactMethod contact : options.contacts) {
+    const std::string word(base::wordOf(contact));
+    std::vector<std::string> overrides = options.fixed;
+    putOverride(overrides, "run.contact=" + word);
+    variants.push_back({"--contact", word, true, overrides});
+  }
+  return variants;
+}
+
+/// Words of an option, each another value, at least two.
+template <class Enum>
+std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::string& option, const char* what) {
+  std::vector<Enum> values;
+  const std::string choices = fmt::format("{}", fmt::join(base::wordsOf<Enum>(), ", "));
+  for (const std::string& word : words) {
+    const auto value = base::valueOf<Enum>(word);
+    if (!value) throw InputError(fmt::format("{} {}: is not {}; give two or more of {}", option, word, what, choices));
+    if (std::find(values.begin(), values.end(), *value) != values.end())
+      throw InputError(fmt::format("{}: {} is there twice; remove one", option, word));
+    values.push_back(*value);
+  }
+  if (values.size() < 2)
+    throw InputError(
+        fmt::format("{} {}: a comparison needs two or more of {}", option, fmt::join(words, ","), choices));
+  return values;
 }
 
 void writeComparison(const fs::path& scene, const Comparison& comparison, const CompareOptions& options) {
@@ -70,40 +103,31 @@ void writeComparison(const fs::path& scene, const Comparison& comparison, const 
 } // namespace
 
 std::vector<TerrainKind> groundsOf(const std::vector<std::string>& words) {
-  std::vector<TerrainKind> grounds;
-  for (const std::string& word : words) {
-    const auto ground = base::valueOf<TerrainKind>(word);
-    if (!ground)
-      throw InputError(fmt::format("--grounds {}: is not a kind of ground; give two or more of {}", word,
-                                   fmt::join(base::wordsOf<TerrainKind>(), ", ")));
-    if (std::find(grounds.begin(), grounds.end(), *ground) != grounds.end())
-      throw InputError(fmt::format("--grounds: {} is there twice; remove one", word));
-    grounds.push_back(*ground);
-  }
-  if (grounds.size() < 2)
-    throw InputError(fmt::format("--grounds {}: a comparison needs two or more of {}", fmt::join(words, ","),
-                                 fmt::join(base::wordsOf<TerrainKind>(), ", ")));
-  return grounds;
+  return differentOf<TerrainKind>(words, "--grounds", "a kind of ground");
+}
+
+std::vector<ContactMethod> contactsOf(const std::vector<std::string>& words) {
+  return differentOf<ContactMethod>(words, "--contact", "a contact method");
 }
 
 SweepPlan planCompare(const fs::path& scene, const CompareOptions& options) {
   SweepPlan plan;
   plan.scene = scene;
-  plan.keys = {kGroundKey, kSeedKey};
-  for (const TerrainKind ground : options.grounds) {
-    const std::string word(base::wordOf(ground));
-    const std::vector<std::string> overrides = overridesOn(ground, scene, options.fixed);
-    const bool random = ground == TerrainKind::granular;
-    for (int seed = 1; seed <= (random ? options.seeds : 1); ++seed) {
+  plan.keys = {kVariantKey, kSeedKey};
+  for (const Variant& variant : variantsOf(scene, options))
+    for (int seed = 1; seed <= (variant.random ? options.seeds : 1); ++seed) {
       SweepRun run;
-      run.name = random ? fmt::format("{},seed={}", word, seed) : word;
-      run.overrides = overrides;
-      if (random) putOverride(run.overrides, fmt::format("{}={}", kSeedKey, seed));
-      run.scene = sceneOn(ground, scene, run.overrides, seed == 1);
-      run.values = {word, fmt::format("{}", run.scene.run.seed)};
+      run.name = variant.random ? fmt::format("{},seed={}", variant.word, seed) : variant.word;
+      run.overrides = variant.overrides;
+      if (variant.random) putOverride(run.overrides, fmt::format("{}={}", kSeedKey, seed));
+      run.scene = naming(variant.option, variant.word, [&] {
+        scene::Scene loaded = setup::loadScene(scene, run.overrides);
+        if (seed == 1) checkScene(loaded);
+        return loaded;
+      });
+      run.values = {variant.word, fmt::format("{}", run.scene.run.seed)};
       plan.runs.push_back(std::move(run));
     }
-  }
   return plan;
 }
 
@@ -114,7 +138,10 @@ int runCompare(const fs::path& scene, const CompareOptions& options) {
   const auto outcomes = runMissing(plan, options.sweep, "compare", [&](const std::vector<SweepOutcome>& now) {
     writeSummary(plan, now, options.sweep.folder);
   });
-  writeComparison(scene, comparisonOf(plan, outcomes, options.grounds, options.percent, options.sweep.folder), options);
+  std::vector<std::string> random;
+  for (const Variant& variant : variantsOf(scene, options))
+    if (variant.random) random.push_back(variant.word);
+  writeComparison(scene, comparisonOf(plan, outcomes, random, options.percent, options.sweep.folder), options);
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const SweepOutcome& o) { return o.status == output::RunStatus::failed; });
   for (std::size_t i = 0; i < outcomes.size(); ++i)

@@ -7,24 +7,26 @@
 #include <string>
 #include <vector>
 
-/// `grouser compare`: the same vehicle and drive on several kinds of ground.
+/// `grouser compare`: the same scene on several kinds of ground, or with several contact methods.
 namespace grouser::sweeps {
 
 struct CompareOptions {
   SweepOptions sweep;
-  std::vector<scene::TerrainKind> grounds; ///< at least two
-  int seeds = 3;                           ///< of a granular bed; other grounds have nothing random, and one run
-  std::vector<std::string> fixed;          ///< "key=value", of all runs
-  double percent = 5;                      ///< of a figure, within which it counts as equal
-  std::string words;                       ///< the whole command line
+  std::vector<scene::TerrainKind> grounds;    ///< at least two, or none
+  std::vector<scene::ContactMethod> contacts; ///< likewise
+  int seeds = 3;                              ///< of grains; other grounds have nothing random, and one run
+  std::vector<std::string> fixed;             ///< "key=value", of all runs
+  double percent = 5;                         ///< of a figure, within which it counts as equal
+  std::string words;                          ///< the whole command line
 };
 
-/// Kinds of ground by their words. Throws InputError for a word that is none, for one that is there twice, and for
-/// fewer than two.
+/// Kinds of ground, or contact methods, by their words. Throws InputError for a word that is none, for one that is
+/// there twice, and for fewer than two.
 std::vector<scene::TerrainKind> groundsOf(const std::vector<std::string>& words);
+std::vector<scene::ContactMethod> contactsOf(const std::vector<std::string>& words);
 
-/// A run for each ground and, on grains, each seed. The scene of every run is loaded and checked; throws InputError
-/// that names the ground.
+/// A run for each ground or contact method and, of grains, each seed. The scene of every run is loaded and checked;
+/// throws InputError that names the variant.
 SweepPlan planCompare(const std::filesystem::path& scene, const CompareOptions& options);
 
 /// Runs what is missing (runMissing()), and writes compare.txt, compare.csv, compare.json, compare.png and summary.csv.

@@ -16,8 +16,6 @@
 namespace grouser::sweeps {
 
 namespace fs = std::filesystem;
-using scene::TerrainKind;
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -59,13 +57,13 @@ SweepFigures figuresOf(const SweepPlan& plan, const std::vector<SweepOutcome>& o
   return figures;
 }
 
-GroundResult resultOf(TerrainKind ground, const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
-                      SweepFigures& figures, const fs::path& folder) {
-  GroundResult result;
-  result.ground = ground, result.random = ground == TerrainKind::granular;
+VariantResult resultOf(const std::string& variant, bool random, const SweepPlan& plan,
+                       const std::vector<SweepOutcome>& outcomes, SweepFigures& figures, const fs::path& folder) {
+  VariantResult result;
+  result.variant = variant, result.random = random;
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
-    if (plan.runs[i].scene.terrain->kind == ground) runs.push_back(i);
+    if (plan.runs[i].values.front() == variant) runs.push_back(i);
   result.runs = static_cast<int>(runs.size());
   figures.keepSound(runs), result.doubt = figures.doubtOf(runs);
   for (const std::size_t i : runs) {
@@ -90,26 +88,26 @@ GroundResult resultOf(TerrainKind ground, const SweepPlan& plan, const std::vect
   return result;
 }
 
-GroundDifference differenceOf(const Comparison& all, std::size_t from, std::size_t to, double percent) {
-  const GroundResult &a = all.grounds[from], &b = all.grounds[to];
-  GroundDifference difference{from, to, {}, {}};
+VariantDifference differenceOf(const Comparison& all, std::size_t from, std::size_t to, double percent) {
+  const VariantResult &a = all.variants[from], &b = all.variants[to];
+  VariantDifference difference{from, to, {}, {}};
   for (std::size_t c = 0; c < all.columns.size(); ++c) {
-    const support::Estimate change = groundDifference(a, b, c);
+    const support::Estimate change = variantDifference(a, b, c);
     difference.changes.push_back(change);
     const bool doubtful = !a.doubt.empty() || !b.doubt.empty();
     difference.verdicts.push_back(!std::isfinite(change.value) ? ""
                                   : doubtful                   ? kInconclusive
-                                             : groundVerdict(change, a.figures[c].value, b.figures[c].value, percent));
+                                             : variantVerdict(change, a.figures[c].value, b.figures[c].value, percent));
   }
   return difference;
 }
 
-/// Why a ground has no sound figures; empty if it has.
-std::string whyNone(const Comparison& all, const GroundResult& ground) {
-  if (!ground.doubt.empty()) return ground.doubt;
+/// Why a variant has no sound figures; empty if it has.
+std::string whyNone(const Comparison& all, const VariantResult& result) {
+  if (!result.doubt.empty()) return result.doubt;
   for (std::size_t c = 0; c < all.columns.size(); ++c)
-    if (isShown(all.columns[c]) && std::isfinite(ground.figures[c].value)) return {};
-  return ground.ended > 0 ? "its runs end before the drive is up to speed; raise run.duration" : "no run has ended";
+    if (isShown(all.columns[c]) && std::isfinite(result.figures[c].value)) return {};
+  return result.ended > 0 ? "its runs end before the drive is up to speed; raise run.duration" : "no run has ended";
 }
 
 } // namespace
@@ -119,58 +117,64 @@ std::string figureText(const support::Estimate& e) {
   return e.halfWidth == 0 || !std::isfinite(e.halfWidth) ? fmt::format("{:.4g}", e.value) : jobs::valueText(e);
 }
 
-support::Estimate groundDifference(const GroundResult& a, const GroundResult& b, std::size_t column) {
+support::Estimate variantDifference(const VariantResult& a, const VariantResult& b, std::size_t column) {
   const support::Estimate &x = a.figures[column], &y = b.figures[column];
   if (!std::isfinite(x.value) || !std::isfinite(y.value)) return {base::kNaN, base::kNaN};
   if (a.random && b.random) return jobs::unpairedChange(a.values[column], b.values[column]);
   return {y.value - x.value, a.random ? x.halfWidth : b.random ? y.halfWidth : 0};
 }
 
-std::string groundVerdict(const support::Estimate& difference, double a, double b, double percent) {
+std::string variantVerdict(const support::Estimate& difference, double a, double b, double percent) {
   const double bar = percent / 100 * std::max(std::fabs(a), std::fabs(b));
   const jobs::Verdict verdict = jobs::judge(difference, bar);
   return verdict == jobs::Verdict::notShown ? kInconclusive : jobs::verdictText(verdict);
 }
 
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
-                        const std::vector<TerrainKind>& grounds, double percent, const fs::path& folder) {
+                        const std::vector<std::string>& random, double percent, const fs::path& folder) {
   SweepFigures figures = figuresOf(plan, outcomes, folder);
   Comparison all;
   all.columns = figures.columns;
-  for (const TerrainKind ground : grounds) all.grounds.push_back(resultOf(ground, plan, outcomes, figures, folder));
-  for (std::size_t a = 0; a < all.grounds.size(); ++a)
-    for (std::size_t b = a + 1; b < all.grounds.size(); ++b)
+  std::vector<std::string> variants;
+  for (const SweepRun& run : plan.runs)
+    if (variants.empty() || variants.back() != run.values.front()) variants.push_back(run.values.front());
+  for (const std::string& v : variants) {
+    const bool hasSeeds = std::find(random.begin(), random.end(), v) != random.end();
+    all.variants.push_back(resultOf(v, hasSeeds, plan, outcomes, figures, folder));
+  }
+  for (std::size_t a = 0; a < all.variants.size(); ++a)
+    for (std::size_t b = a + 1; b < all.variants.size(); ++b)
       all.differences.push_back(differenceOf(all, a, b, percent));
   return all;
 }
 
 std::string comparisonText(const Comparison& all, double percent) {
-  const auto word = [&](std::size_t g) { return base::wordOf(all.grounds[g].ground); };
-  std::string text = "means over the steady part; granular: +- half of the 95 % interval over the seeds\n";
+  const auto word = [&](std::size_t g) { return all.variants[g].variant; };
+  std::string text = "means over the steady part; +- half of the 95 % interval over the seeds, where there are some\n";
   text += fmt::format("{:<28}", "figure");
-  for (std::size_t g = 0; g < all.grounds.size(); ++g) text += fmt::format("{:>22}", word(g));
+  for (std::size_t g = 0; g < all.variants.size(); ++g) text += fmt::format("{:>22}", word(g));
   text += "\n";
   const auto isKnown = [&](std::size_t c) {
-    return std::any_of(all.grounds.begin(), all.grounds.end(),
-                       [c](const GroundResult& g) { return std::isfinite(g.figures[c].value); });
+    return std::any_of(all.variants.begin(), all.variants.end(),
+                       [c](const VariantResult& g) { return std::isfinite(g.figures[c].value); });
   };
   const auto line = [&](const std::string& name, const auto& cell) {
     text += fmt::format("{:<28}", name);
-    for (const GroundResult& g : all.grounds) text += fmt::format("{:>22}", cell(g));
+    for (const VariantResult& g : all.variants) text += fmt::format("{:>22}", cell(g));
     text += "\n";
   };
   for (std::size_t c = 0; c < all.columns.size(); ++c)
     if (isShown(all.columns[c]) && isKnown(c))
-      line(all.columns[c], [c](const GroundResult& g) { return figureText(g.figures[c]); });
-  line("runs", [](const GroundResult& g) { return fmt::format("{} of {}", g.ended, g.runs); });
-  line("preparation of a run [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.preparation); });
-  line("wall time of its steps [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.wallTime); });
-  line("CPU time of its steps [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.cpuTime); });
-  line("wall time a second [s]", [](const GroundResult& g) { return fmt::format("{:.3g}", g.perSecond); });
-  for (const GroundResult& g : all.grounds)
+      line(all.columns[c], [c](const VariantResult& g) { return figureText(g.figures[c]); });
+  line("runs", [](const VariantResult& g) { return fmt::format("{} of {}", g.ended, g.runs); });
+  line("preparation of a run [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.preparation); });
+  line("wall time of its steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.wallTime); });
+  line("CPU time of its steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.cpuTime); });
+  line("wall time a second [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.perSecond); });
+  for (const VariantResult& g : all.variants)
     if (const std::string why = whyNone(all, g); !why.empty())
-      text += fmt::format("WARNING: {} is inconclusive: {}\n", base::wordOf(g.ground), why);
-  for (const GroundDifference& d : all.differences) {
+      text += fmt::format("WARNING: {} is inconclusive: {}\n", g.variant, why);
+  for (const VariantDifference& d : all.differences) {
     if (std::all_of(d.verdicts.begin(), d.verdicts.end(), [](const std::string& v) { return v.empty(); })) continue;
     text += fmt::format("\n{} - {}; equal: within {:g} % of the larger mean\n", word(d.to), word(d.from), percent);
     for (std::size_t c = 0; c < all.columns.size(); ++c)
@@ -181,46 +185,46 @@ std::string comparisonText(const Comparison& all, double percent) {
 }
 
 std::string comparisonCsv(const Comparison& all) {
-  std::string text = "figure,ground,runs,mean,half width,inconclusive,compared with,difference,half width of the "
+  std::string text = "figure,variant,runs,mean,half width,inconclusive,compared with,difference,half width of the "
                      "difference,verdict\n";
   for (std::size_t c = 0; c < all.columns.size(); ++c)
-    for (std::size_t g = 0; g < all.grounds.size(); ++g) {
-      const GroundResult& ground = all.grounds[g];
+    for (std::size_t g = 0; g < all.variants.size(); ++g) {
+      const VariantResult& result = all.variants[g];
       const std::string head =
-          fmt::format("{},{},{},{},{},{}", support::csvCell(all.columns[c]), base::wordOf(ground.ground),
-                      ground.values[c].size(), support::csvCell(ground.figures[c].value),
-                      support::csvCell(ground.figures[c].halfWidth), support::csvCell(ground.doubt));
+          fmt::format("{},{},{},{},{},{}", support::csvCell(all.columns[c]), result.variant, result.values[c].size(),
+                      support::csvCell(result.figures[c].value), support::csvCell(result.figures[c].halfWidth),
+                      support::csvCell(result.doubt));
       if (g == 0) text += head + ",,,,\n";
-      for (const GroundDifference& d : all.differences)
+      for (const VariantDifference& d : all.differences)
         if (d.to == g)
-          text += fmt::format("{},{},{},{},{}\n", head, base::wordOf(all.grounds[d.from].ground),
-                              support::csvCell(d.changes[c].value), support::csvCell(d.changes[c].halfWidth),
-                              d.verdicts[c]);
+          text +=
+              fmt::format("{},{},{},{},{}\n", head, all.variants[d.from].variant, support::csvCell(d.changes[c].value),
+                          support::csvCell(d.changes[c].halfWidth), d.verdicts[c]);
     }
   return text;
 }
 
 nlohmann::ordered_json comparisonJson(const Comparison& all) {
   const auto number = [](double v) { return std::isfinite(v) ? Json(v) : Json(); };
-  const auto words = [&](std::size_t g) { return std::string(base::wordOf(all.grounds[g].ground)); };
+  const auto words = [&](std::size_t g) { return all.variants[g].variant; };
   Json json;
-  for (const GroundResult& g : all.grounds)
-    json["grounds"].push_back({{"ground", base::wordOf(g.ground)},
-                               {"runs", g.runs},
-                               {"ended", g.ended},
-                               {"inconclusive", g.doubt},
-                               {"wall_time_s", number(g.wallTime)},
-                               {"preparation_s", number(g.preparation)},
-                               {"cpu_time_s", number(g.cpuTime)},
-                               {"wall_time_per_second", number(g.perSecond)}});
+  for (const VariantResult& g : all.variants)
+    json["variants"].push_back({{"variant", g.variant},
+                                {"runs", g.runs},
+                                {"ended", g.ended},
+                                {"inconclusive", g.doubt},
+                                {"wall_time_s", number(g.wallTime)},
+                                {"preparation_s", number(g.preparation)},
+                                {"cpu_time_s", number(g.cpuTime)},
+                                {"wall_time_per_second", number(g.perSecond)}});
   for (std::size_t c = 0; c < all.columns.size(); ++c) {
     Json row = {{"figure", all.columns[c]}, {"means", Json::array()}, {"differences", Json::array()}};
-    for (const GroundResult& g : all.grounds)
-      row["means"].push_back({{"ground", base::wordOf(g.ground)},
+    for (const VariantResult& g : all.variants)
+      row["means"].push_back({{"variant", g.variant},
                               {"mean", number(g.figures[c].value)},
                               {"half_width", number(g.figures[c].halfWidth)},
                               {"values", g.values[c]}});
-    for (const GroundDifference& d : all.differences)
+    for (const VariantDifference& d : all.differences)
       if (!d.verdicts[c].empty())
         row["differences"].push_back({{"from", words(d.from)},
                                       {"to", words(d.to)},

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-/// Figures of a scene on several kinds of ground, and their differences.
+/// Figures of a scene in several variants (kinds of ground, contact methods), and their differences.
 namespace grouser::sweeps {
 
-/// One kind of ground over its runs.
-struct GroundResult {
-  scene::TerrainKind ground{};
+/// One variant over its runs.
+struct VariantResult {
+  std::string variant;                     ///< "granular", "penalty"
   bool random = false;                     ///< it has seeds; without them a value has no interval
   int runs = 0, ended = 0;                 ///< planned; with figures
   std::string doubt;                       ///< why all its figures are inconclusive; else empty
@@ -27,8 +27,8 @@ struct GroundResult {
   double perSecond = 0;                    ///< the same over the simulated time [-]
 };
 
-/// One kind of ground less another.
-struct GroundDifference {
+/// One variant less another.
+struct VariantDifference {
   std::size_t from = 0, to = 0;           ///< of the results
   std::vector<support::Estimate> changes; ///< of the columns; NaN where one has none
   std::vector<std::string> verdicts;      ///< "equal", "differs", "inconclusive"; empty where one has none
@@ -36,27 +36,27 @@ struct GroundDifference {
 
 struct Comparison {
   std::vector<std::string> columns;
-  std::vector<GroundResult> grounds;
-  std::vector<GroundDifference> differences; ///< of all pairs
+  std::vector<VariantResult> variants;
+  std::vector<VariantDifference> differences; ///< of all pairs
 };
 
 /// Difference b - a with its 95 % half width: Welch's interval between two samples, that of the other mean where one
-/// ground has no scatter, 0 where both have none.
-support::Estimate groundDifference(const GroundResult& a, const GroundResult& b, std::size_t column);
+/// variant has no scatter, 0 where both have none.
+support::Estimate variantDifference(const VariantResult& a, const VariantResult& b, std::size_t column);
 
 /// Verdict on a difference by the bar `percent` of the larger of both means.
-std::string groundVerdict(const support::Estimate& difference, double a, double b, double percent);
+std::string variantVerdict(const support::Estimate& difference, double a, double b, double percent);
 
 /// Value with its half width ("12.3 +- 0.4"); four digits if the half width is zero or infinite; "-" for NaN.
 std::string figureText(const support::Estimate& e);
 
+/// The first value of each run names its variant. `random`: those that have seeds.
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
-                        const std::vector<scene::TerrainKind>& grounds, double percent,
-                        const std::filesystem::path& folder);
+                        const std::vector<std::string>& random, double percent, const std::filesystem::path& folder);
 
 /// The figures one asks for first, their differences, and the cost.
 std::string comparisonText(const Comparison& comparison, double percent);
-/// A row for each figure, ground and ground before it.
+/// A row for each figure, variant and variant before it.
 std::string comparisonCsv(const Comparison& comparison);
 nlohmann::ordered_json comparisonJson(const Comparison& comparison);
 

@@ -3,6 +3,7 @@
 
 #include "coupling/mechanism.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/mechanism_setup.hpp"
@@ -17,6 +18,7 @@ namespace grouser::sweeps {
 void checkScene(const scene::Scene& scene, bool sizes) {
   if (sizes) setup::checkFillSizes(scene), setup::checkBedSize(scene);
   setup::checkRestitutions(scene);
+  setup::checkComplementarity(scene);
   setup::plannedGrains(scene);
   if (scene.vehicle) {
     setup::placeVehicle(scene, setup::vehicleSpec(scene));

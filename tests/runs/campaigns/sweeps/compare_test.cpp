@@ -117,47 +117,47 @@ TEST(Compare, GroundsAreTwoDifferentOnes) {
     EXPECT_THROW(groundsOf(words), base::InputError) << words.back();
 }
 
-GroundResult resultWith(TerrainKind ground, const std::vector<double>& values) {
-  GroundResult g;
-  g.ground = ground, g.random = ground == TerrainKind::granular, g.values = {values};
+VariantResult resultWith(TerrainKind ground, const std::vector<double>& values) {
+  VariantResult g;
+  g.variant = base::wordOf(ground), g.random = ground == TerrainKind::granular, g.values = {values};
   g.runs = g.ended = static_cast<int>(values.size());
   g.figures = {g.random ? jobs::interval95(values) : support::Estimate{values.front(), 0}};
   return g;
 }
 
 TEST(Compare, DifferencesHaveTheScatterOfTheirSeeds) {
-  const GroundResult scm = resultWith(TerrainKind::scm, {2.0}), rigid = resultWith(TerrainKind::rigid, {1.5}),
-                     bed = resultWith(TerrainKind::granular, {1.0, 1.1, 1.2});
-  EXPECT_DOUBLE_EQ(groundDifference(rigid, scm, 0).value, 0.5);
-  EXPECT_EQ(groundDifference(rigid, scm, 0).halfWidth, 0);
+  const VariantResult scm = resultWith(TerrainKind::scm, {2.0}), rigid = resultWith(TerrainKind::rigid, {1.5}),
+                      bed = resultWith(TerrainKind::granular, {1.0, 1.1, 1.2});
+  EXPECT_DOUBLE_EQ(variantDifference(rigid, scm, 0).value, 0.5);
+  EXPECT_EQ(variantDifference(rigid, scm, 0).halfWidth, 0);
   // Student: 4.303 * 0.1 / sqrt(3)
-  for (const support::Estimate& d : {groundDifference(scm, bed, 0), groundDifference(bed, scm, 0)}) {
+  for (const support::Estimate& d : {variantDifference(scm, bed, 0), variantDifference(bed, scm, 0)}) {
     EXPECT_NEAR(std::fabs(d.value), 0.9, 1e-12); // round-off
     EXPECT_NEAR(d.halfWidth, 4.303 * 0.1 / std::sqrt(3), 1e-4);
   }
-  EXPECT_LT(groundDifference(scm, bed, 0).value, 0);
-  const GroundResult other = resultWith(TerrainKind::granular, {2.0, 2.1, 2.2});
-  EXPECT_NEAR(groundDifference(bed, other, 0).halfWidth, jobs::unpairedChange(bed.values[0], other.values[0]).halfWidth,
-              1e-15);
+  EXPECT_LT(variantDifference(scm, bed, 0).value, 0);
+  const VariantResult other = resultWith(TerrainKind::granular, {2.0, 2.1, 2.2});
+  EXPECT_NEAR(variantDifference(bed, other, 0).halfWidth,
+              jobs::unpairedChange(bed.values[0], other.values[0]).halfWidth, 1e-15);
 }
 
 TEST(Compare, VerdictsReferToTheLargerMean) {
-  EXPECT_EQ(groundVerdict({0.049, 0}, 1, 1.049, 5), "equal");
-  EXPECT_EQ(groundVerdict({0.06, 0}, 1, 1.06, 5), "differs");
-  EXPECT_EQ(groundVerdict({1.02, 0}, 20, 21.02, 5), "equal") << "less than 5 % of 21.02, more than of 20";
-  EXPECT_EQ(groundVerdict({-1.02, 0}, 21.02, 20, 5), "equal");
-  EXPECT_EQ(groundVerdict({0.06, 0.02}, 1, 1.06, 5), "inconclusive");
-  EXPECT_EQ(groundVerdict({0.06, INFINITY}, 1, 1.06, 5), "inconclusive") << "one seed";
+  EXPECT_EQ(variantVerdict({0.049, 0}, 1, 1.049, 5), "equal");
+  EXPECT_EQ(variantVerdict({0.06, 0}, 1, 1.06, 5), "differs");
+  EXPECT_EQ(variantVerdict({1.02, 0}, 20, 21.02, 5), "equal") << "less than 5 % of 21.02, more than of 20";
+  EXPECT_EQ(variantVerdict({-1.02, 0}, 21.02, 20, 5), "equal");
+  EXPECT_EQ(variantVerdict({0.06, 0.02}, 1, 1.06, 5), "inconclusive");
+  EXPECT_EQ(variantVerdict({0.06, INFINITY}, 1, 1.06, 5), "inconclusive") << "one seed";
 }
 
 TEST(Compare, TablesHaveEveryPairOfGrounds) {
   Comparison all;
   all.columns = {"speed [m/s]"};
-  all.grounds = {resultWith(TerrainKind::rigid, {1.0}), resultWith(TerrainKind::scm, {0.9}),
-                 resultWith(TerrainKind::granular, {0.5, 0.6, 0.7})};
-  all.grounds[2].doubt = "1.2 teeth";
+  all.variants = {resultWith(TerrainKind::rigid, {1.0}), resultWith(TerrainKind::scm, {0.9}),
+                  resultWith(TerrainKind::granular, {0.5, 0.6, 0.7})};
+  all.variants[2].doubt = "1.2 teeth";
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}})
-    all.differences.push_back({a, b, {groundDifference(all.grounds[a], all.grounds[b], 0)}, {"differs"}});
+    all.differences.push_back({a, b, {variantDifference(all.variants[a], all.variants[b], 0)}, {"differs"}});
   const std::string csv = comparisonCsv(all), text = comparisonText(all, 5);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 1 + 1 + 2);
   EXPECT_NE(csv.find("speed [m/s],scm,1,0.9,0,,rigid,-0.1"), std::string::npos) << csv;
@@ -166,10 +166,18 @@ TEST(Compare, TablesHaveEveryPairOfGrounds) {
   const nlohmann::ordered_json json = comparisonJson(all);
   EXPECT_EQ(json["rows"][0]["differences"].size(), 3u);
   EXPECT_EQ(json["rows"][0]["means"][2]["values"].size(), 3u);
-  all.grounds[0].figures[0] = {NAN, NAN}, all.differences[0].verdicts[0] = all.differences[1].verdicts[0] = "";
+  all.variants[0].figures[0] = {NAN, NAN}, all.differences[0].verdicts[0] = all.differences[1].verdicts[0] = "";
   const std::string none = comparisonText(all, 5);
   EXPECT_NE(none.find("rigid is inconclusive: its runs end before the drive"), std::string::npos) << none;
   EXPECT_EQ(none.find("scm - rigid"), std::string::npos) << none;
+}
+
+TEST(Compare, ContactMethodsAreTwoDifferentOnes) {
+  using scene::ContactMethod;
+  EXPECT_EQ(contactsOf({"complementarity", "penalty"}),
+            (std::vector{ContactMethod::complementarity, ContactMethod::penalty}));
+  for (const Words& words : {Words{"penalty"}, {"penalty", "penalty"}, {"penalty", "springs"}})
+    EXPECT_THROW(contactsOf(words), base::InputError) << words.back();
 }
 
 class CompareRuns : public ProgramTest {};
@@ -195,6 +203,21 @@ TEST_F(CompareRuns, HaveOneFolderAGroundAndAreNotRepeated) {
   } catch (const base::InputError& error) {
     EXPECT_EQ(std::string(error.what()).find("--grounds granular: "), 0u) << error.what();
   }
+}
+
+TEST_F(CompareRuns, ContactMethodsHaveRunsOfTheSameSeeds) {
+  CompareOptions options;
+  options.contacts = {scene::ContactMethod::penalty, scene::ContactMethod::complementarity}, options.seeds = 2;
+  options.fixed = {"run.duration=0.004",  "output.picture=false", "output.plots=false",
+                   "output.frames=false", "grains.0.number=100",  "run.threads=1"};
+  options.sweep.program = programUnderTest(), options.sweep.folder = folder_ / "out", options.sweep.plot = false;
+  EXPECT_EQ(runCompare(shipped("drum.toml"), options), 0);
+  for (const char* name : {"penalty,seed=1", "penalty,seed=2", "complementarity,seed=1", "complementarity,seed=2"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name / "manifest.json")) << name;
+  const SweepPlan plan = planCompare(shipped("drum.toml"), options);
+  EXPECT_EQ(plan.runs[1].scene.run.contact, scene::ContactMethod::penalty);
+  EXPECT_EQ(plan.runs[2].scene.run.contact, scene::ContactMethod::complementarity);
+  EXPECT_EQ(plan.runs[2].values, (Words{"complementarity", "1"}));
 }
 
 } // namespace

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole scenes with complementarity contacts: what forces move, what turns, and beds.
+#include "coupling/simulation.hpp"
+#include "runs/setup/load_scene.hpp"
+#include "runs/setup/simulation_setup.hpp"
+#include "tests/device_under_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace grouser {
+namespace {
+
+coupling::Simulation made(const std::string& text, int threads = 2) {
+  return {setup::simulationSetup(setup::parseScene(text, "scene.toml")), testExec(threads)};
+}
+
+/// Nine balls in a square on a plane, under a plate that is free to fall.
+std::string underPlate(double mass, const std::string& method) {
+  return "version = 1\n[run]\nduration = 1\ncontact = \"" + method +
+         "\"\n[material.glass]\ndensity = 2500\nstiffness = 1e5\nrestitution = 0\nfriction = 0.5\n"
+         "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n"
+         "[[grains]]\nform = \"lattice\"\nlow = [-0.04, -0.04, 0]\nhigh = [0.04, 0.04, 0.0225]\nradius = 0.01\n"
+         "spacing = 2.2\nmaterial = \"glass\"\n"
+         "[[box]]\nname = \"plate\"\nposition = [0, 0, 0.03]\nsize = [0.1, 0.1, 0.01]\nmaterial = \"glass\"\n"
+         "free = [0, 0, 1]\nmass = " +
+         std::to_string(mass) + "\n";
+}
+
+TEST(ComplementarityScene, APlateLiesOnGrainsWithItsWeightHoweverLight) {
+  // Half of one ball's mass, and a hundred of them: a plate that answered a step later would be thrown away.
+  for (const double mass : {0.005, 1.0}) {
+    coupling::Simulation s = made(underPlate(mass, "complementarity"));
+    while (s.time() < 0.4) s.step();
+    s.surfaces()->restartMeans();
+    for (int k = 0; k < 20; ++k) s.step();
+    const auto plate = s.surfaces()->observe(0, s.steps());
+    EXPECT_NEAR(plate.force.z, -9.81 * mass, 0.02 * 9.81 * mass) << mass;
+    EXPECT_NEAR(plate.centre.z, 0.025, 2e-4) << mass;
+    EXPECT_EQ(s.ground().grains->system().impulses->totals().missed, 0);
+    const coupling::Ledger l = s.ledger();
+    EXPECT_NEAR(l.residual, 0, 1e-6 * l.turnover);
+    EXPECT_LT(norm(l.momentumResidual), 1e-5 * mass * 9.81 * s.time());
+  }
+}
+
+TEST(ComplementarityScene, ResumesToTheSameBits) {
+  const std::string text = underPlate(0.05, "complementarity");
+  coupling::Simulation whole = made(text), first = made(text, 1);
+  while (first.steps() < 60) first.step();
+  coupling::Simulation resumed(first.setup(), testExec(2), first.save());
+  while (whole.steps() < 130) whole.step();
+  while (resumed.steps() < 130) resumed.step();
+  EXPECT_EQ(resumed.stateHash(), whole.stateHash());
+  const auto& a = resumed.ground().grains->system().impulses->totals();
+  const auto& b = whole.ground().grains->system().impulses->totals();
+  EXPECT_EQ(a.words(), b.words());
+}
+
+TEST(ComplementarityScene, ABedSettlesAsWithPenaltyContacts) {
+  const auto bed = [](const std::string& method) {
+    return "version = 1\n[run]\nduration = 0.2\ncontact = \"" + method +
+           "\"\n[material.soil]\ndensity = 2500\nstiffness = 1e6\nrestitution = 0.3\nfriction = 0.5\n"
+           "[terrain]\nheightmap = \"" GROUSER_SOURCE_DIR "/assets/heightmaps/flat.png\"\nsize = [0.8, 0.8]\n"
+           "height_range = [0, 0]\nmaterial = \"soil\"\ngrain_radius = 0.04\ndepth = 0.25\n"
+           "settle_time_limit = 4\ncache = false\n";
+  };
+  coupling::Simulation explicitly = made(bed("penalty")), solved = made(bed("complementarity"));
+  ASSERT_EQ(explicitly.ground().structure->porosity, solved.ground().structure->porosity);
+  const double before = solved.ledger().potential;
+  while (solved.time() < 0.1) solved.step();
+  // At rest it stays where it was, with the springs that it came with.
+  EXPECT_LT(solved.ledger().fastestGrain, 0.01);
+  const double weight = solved.ground().grains->count() * 2500 * 4.19 * 0.04 * 0.04 * 0.04 * 9.81;
+  EXPECT_NEAR(solved.ledger().potential, before, weight * 1e-4);
+  EXPECT_EQ(solved.ground().grains->system().impulses->totals().missed, 0);
+}
+
+} // namespace
+} // namespace grouser
