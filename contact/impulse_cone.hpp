@@ -9,7 +9,7 @@
 /// complementarity problem keeps to them.
 namespace grouser::contact {
 
-/// What acts on side i of a contact within one step: a force and, with rolling resistance, a torque times the step.
+/// Force on side i of a contact and, with rolling resistance, torque, times the step.
 template <class T> struct Impulse {
   base::Vec3<T> linear;  ///< [N s]
   base::Vec3<T> rolling; ///< [N m s], in the tangent plane; zero without rolling resistance
@@ -60,7 +60,7 @@ GROUSER_HD Impulse<T> cutToCoulomb(const Impulse<T>& z, const base::Vec3<T>& pus
 
 /// The nearest impulse of the cone, in the norm of `metric`: the convex relaxation (Anitescu 2006, Math. Program.
 /// 105:113), under which a contact that slides parts with friction times its sliding speed. Where a part is beyond its
-/// limit, the normal part is the mean of what all such parts ask for, weighted with the squares of their slopes.
+/// limit, the normal part is a mean of the values at which these parts reach their limits and of its own.
 template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, const base::Vec3<T>& push,
                                                        const ImpulseCone<T>& cone, const ImpulseMetric<T>& metric) {
   struct Limited {

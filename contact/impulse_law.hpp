@@ -42,15 +42,16 @@ template <class T> struct ImpulseTouch {
   T gap;                  ///< [m], < 0 where they overlap
   base::Vec3<T> velocity; ///< of i's material point relative to j's [m/s]
   base::Vec3<T> spin;     ///< of i relative to j [rad/s]
-  T freely;               ///< what the step adds to the speed of parting without contacts [m/s]
+  T freely;               ///< change of the separation speed in this step without contacts [m/s]
   T effectiveMass, effectiveRadius;
   T rollingInertia;               ///< see RollingMotion
   T dampingShare;                 ///< see BasicContactGeometry
+  T pullShare = 1;                ///< likewise
   base::Vec3<T> shear{}, angle{}; ///< springs in the tangent plane [m], [rad]; rigid: see keptImpulse()
-  bool held{false};               ///< whether it carried a force in the last step
+  bool held{false};               ///< whether it overlapped or carried a force in the last step
 };
 
-/// What a row does not change while it is solved for.
+/// Constants of a row during a step.
 template <class T> struct ImpulseRow {
   base::Vec3<T> push;
   base::Vec3<T> offset, turnOffset; ///< [m/s], [rad/s]
@@ -63,8 +64,8 @@ template <class T> struct ImpulseRow {
   Impulse<T> start;        ///< to begin with
 };
 
-/// What a rigid contact records in the place of a spring, for the next step to begin with: a length [m] that stands for
-/// the impulse.
+/// The record of a rigid contact in the place of a spring: a length [m] that stands for the impulse with which the next
+/// step begins.
 template <class T> GROUSER_HD base::Vec3<T> keptImpulse(const base::Vec3<T>& impulse, const ImpulseRules<T>& rules) {
   return impulse * (T(-1) / (rules.timeStep * rules.stiffness));
 }
@@ -83,7 +84,8 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
   ImpulseRow<T> row{};
   row.push = touch.push;
   row.cone = {law.friction, law.rollingFriction * touch.effectiveRadius};
-  if (touch.gap < 0) row.pull = h * law.pull(touch.effectiveRadius);
+  // A rigid contact that is held lies within a unit of length of touch, on either side.
+  if (touch.gap < 0 || (rules.rigid && touch.held)) row.pull = h * law.pull(touch.effectiveRadius) * touch.pullShare;
   const T closing = -(touch.gap + h * (parting + touch.freely)); // overlap at the end without contacts
   row.impact = !touch.held && parting < -rules.impact && closing > 0;
   if (row.impact) {
@@ -116,15 +118,6 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
   row.start = {touch.push * (h * (force > 0 ? force : T(0))) - touch.shear * (h * c.tangentialStiffness),
                touch.angle * (-h * turn)};
   return row;
-}
-
-/// softness x + offset: what a row adds to its relative velocity.
-template <class T> GROUSER_HD base::Vec3<T> slack(const ImpulseRow<T>& row, const base::Vec3<T>& linear) {
-  return linear * row.shearSoftness + row.push * ((row.softness - row.shearSoftness) * dot(linear, row.push)) +
-         row.offset;
-}
-template <class T> GROUSER_HD base::Vec3<T> turnSlack(const ImpulseRow<T>& row, const base::Vec3<T>& rolling) {
-  return rolling * row.rollingSoftness + row.turnOffset;
 }
 
 } // namespace grouser::contact

@@ -32,14 +32,14 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   return x;
 }
 
-std::string EnergyGuard::judge(const Ledger& now, double held) const {
+std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) const {
   const Exchange x = since(now, held);
   if (!std::isfinite(x.lost) || !std::isfinite(x.moved)) return "the energies are no numbers any more";
   const auto found = [&](const char* what, double energy) {
     return fmt::format("{} {:.3g} J since the last look {} steps ago at most, in which {:.3g} J were exchanged", what,
                        energy, kInterval, x.moved);
   };
-  if (x.lost > kMostLost * x.moved + x.neverAlarms) return found("the steps have lost", x.lost);
+  if (!implicit && x.lost > kMostLost * x.moved + x.neverAlarms) return found("the steps have lost", x.lost);
   if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMostChurned * x.moved + x.neverAlarms)
     return found("the steps have made", -x.lost);
   if (x.given > kMostGiven * x.moved + x.neverAlarms)

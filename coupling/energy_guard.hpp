@@ -72,8 +72,8 @@ public:
   };
   /// `held`: energy of bodies and contacts, and m g radius of all grains [J].
   Exchange since(const Ledger& now, double held) const;
-  /// What is wrong since the last look, in words; empty where nothing is.
-  std::string judge(const Ledger& now, double held) const;
+  /// What is wrong since the last look, in words; empty where nothing is. `implicit`: steps may lose any energy.
+  std::string judge(const Ledger& now, double held, bool implicit = false) const;
   /// Remembers `now` for the next judgement.
   void look(const Ledger& now);
 

@@ -381,7 +381,9 @@ double Simulation::weightHeld() const {
   return one * static_cast<double>(laid_.grains->count() - laid_.grains->system().fixedCount);
 }
 
-std::string Simulation::energyVerdict(const Ledger& now) const { return guard_.judge(now, energyHeld(now)); }
+std::string Simulation::energyVerdict(const Ledger& now) const {
+  return guard_.judge(now, energyHeld(now), laid_.grains && laid_.grains->model().complementarity);
+}
 
 void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);

@@ -84,7 +84,7 @@ void Simulation::command() {
   if (mechanism_) mechanism_->command(inputs_, gravity);
   if (gravity == gravity_) return;
   gravity_ = gravity;
-  if (surfaces_) surfaces_->setGravity(gravity);
+  if (surfaces_) surfaces_->setGravity(gravity), surfaces_->place(*laid_.grains, steps_);
   if (ground_) ground_->setGravity(gravity);
   ahead_.reset(); // its graphs hold the former one
 }

@@ -47,8 +47,8 @@ struct GrainConstants {
     const std::int64_t half = (skinUnits - marginUnits) / 2;
     return half * half;
   }
-  /// Share of the smallest radius that the margin is [-].
-  static constexpr double kMargin = 0.2;
+  /// Share of the smallest radius that the margin is [-]: two grains close no more in a step.
+  static constexpr double kMargin = 2 * GrainModel::kMostWaySolved;
   /// What the state holds in velocity.w: the grain's radius [m], 0 where all grains are of one; of a fixed grain the
   /// opposite of its radius, or -1.
   float storedRadius(const GrainSpec& grain) const;

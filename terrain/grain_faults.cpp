@@ -37,10 +37,11 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
                      fmt::format("{} leaves the range of positions, {:.6g} m from the origin", where, c.scale.limit()),
                      "give the scene a floor or walls that hold it");
   case Fault::speed:
-    throw GrainFault(fault, id,
-                     fmt::format("{} moves at {:.4g} m/s, more than half {} in one step", where, found[3],
-                                 c.model.complementarity ? "the smallest grain's radius" : "the neighbour list's skin"),
-                     c.model.complementarity ? "use a smaller time_step" : "use a smaller time_step or a larger skin");
+    throw GrainFault(
+        fault, id,
+        fmt::format("{} moves at {:.4g} m/s, more than {} in one step", where, found[3],
+                    c.model.complementarity ? "a fifth of the smallest radius" : "half the neighbour list's skin"),
+        c.model.complementarity ? "use a smaller time_step" : "use a smaller time_step or a larger skin");
   default:
     throw GrainFault(fault, id, where + " has a velocity that is no number", "use a smaller time_step");
   }

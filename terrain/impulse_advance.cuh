@@ -60,8 +60,7 @@ private:
 
   GROUSER_HD static Relative between(const ImpulseMotion<Real>& own, const ImpulseMotion<Real>& other,
                                      const ImpulseRowRecord<Real>& row) {
-    return {(own.velocity - other.velocity) - cross(own.spin * row.armOwn + other.spin * row.armOther, row.push),
-            own.spin - other.spin};
+    return {relativeVelocity(own, other, row), own.spin - other.spin};
   }
   GROUSER_HD ImpulseMotion<Real> before(int i) const {
     return {d.motion[i].velocity.xyz().template as<Real>(), d.motion[i].spin.xyz().template as<Real>()};
@@ -157,11 +156,13 @@ private:
     const Vec shear = x - row.push * along;
     const double first = static_cast<double>(dot(start.velocity, row.push)),
                  last = static_cast<double>(dot(end.velocity, row.push)), normal = static_cast<double>(along);
-    const Vec sped = contact::detail::tangentOf(end.velocity - start.velocity, row.push) * Real(0.5);
-    total.lost.rubbed -= share * static_cast<double>(dot(shear, slip - sped));
     const bool impact = row.place & kImpactBit;
+    // Work is by the mean of both velocities, slip is at the end: what implicit springs lose is no friction.
+    const Real mean = impact || s.rules.rigid ? Real(0.5) : Real(0);
+    const Vec sped = contact::detail::tangentOf(end.velocity - start.velocity, row.push) * mean;
+    total.lost.rubbed -= share * static_cast<double>(dot(shear, slip - sped));
     const double given = share * normal * 0.5 * (first + last);
-    if (!impact && s.rules.rigid && more.overlap > 0)
+    if (!impact && s.rules.rigid && more.overlap > 0 && given > 0)
       total.stabilised += given;
     else if (impact || s.rules.rigid)
       total.lost.damped -= given;
@@ -171,7 +172,7 @@ private:
                             static_cast<double>(more.shearDamping) * static_cast<double>(norm2(way)));
     if (rows.rolling) {
       const Vec r = rows.turning[s.now][at];
-      const Vec turnSped = contact::detail::tangentOf(end.spin - start.spin, row.push) * Real(0.5);
+      const Vec turnSped = contact::detail::tangentOf(end.spin - start.spin, row.push) * mean;
       total.lost.rolled -= share * static_cast<double>(dot(r, rows.turnGradient[s.now][at] - turnSped));
     }
     const bool touches = along > 0 || more.overlap > 0;

@@ -16,7 +16,7 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   using typename Base::Kernel, typename Base::Vec;
 
   GROUSER_HD void operator()(int i) const {
-    if (s.ghost && s.ghost[i] != 0) return; // its master does
+    if (s.ghost && s.ghost[i] != 0) return; // from its master
     if (hasNoRows(d, s, i)) {
       s.motion[i] = {}; // never moves
       return;
@@ -36,7 +36,9 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
       pushed += x.linear;
       int surface = 0;
       if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
-        base::atomicAdd64(s.surfacePushes + surface, -s.push.quantise(dot(x.linear.template as<double>(), pose->axis)));
+        base::atomicAdd64(
+            s.surfacePushes + surface,
+            -s.push.quantise(dot((x.linear - row.push * rows.end[at].pull).template as<double>(), pose->axis)));
       turned += x.rolling - cross(row.push, x.linear) * row.armOwn;
     });
     const ImpulseMotion<Real>& free = s.free[i];
@@ -47,9 +49,7 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
 private:
   GROUSER_HD contact::Impulse<Real> stepped(const ImpulseRowsView<Real>& rows, std::int64_t at,
                                             const ImpulseRowRecord<Real>& row) const {
-    const contact::Impulse<Real> x = impulseAt(rows, s.now, at), g = gradientAt(rows, s.now, at);
-    contact::Impulse<Real> y = x + (x - impulseAt(rows, s.before, at)) * s.ahead;
-    const contact::Impulse<Real> gy = g + (g - gradientAt(rows, s.before, at)) * s.ahead;
+    auto [y, gy] = Base::ahead(rows, at);
     const Real shearWeight = WeighRows<Real>::shearWeight(rows), step = Real(1) / (s.tau * row.weight);
     const Real along = dot(gy.linear, row.push);
     y.linear -= (gy.linear - row.push * along) * (step / shearWeight) + row.push * (along * step);
@@ -64,6 +64,9 @@ private:
                               : contact::cutToCoulomb(y, row.push, cone);
   }
 };
+
+/// Residual of a row whose numbers have left their range.
+inline constexpr float kNoResidual = 3e38f;
 
 /// Finds the gradient of each row from the velocities, and adds up what decides on the next iteration. `kTry` as above.
 template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
@@ -116,8 +119,7 @@ private:
     const int made = kTry ? s.tried : s.now;
     const contact::Impulse<Real> x = impulseAt(rows, made, at);
     contact::Impulse<Real> a;
-    a.linear = (own.velocity - other.velocity) - cross(own.spin * row.armOwn + other.spin * row.armOther, row.push) +
-               x.linear * row.shearSoftness +
+    a.linear = relativeVelocity(own, other, row) + x.linear * row.shearSoftness +
                row.push * ((row.softness - row.shearSoftness) * dot(x.linear, row.push)) + row.offset;
     int surface = 0;
     if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
@@ -143,7 +145,8 @@ private:
     Real turn = 0; // of rolling impulses in the norm
     if (rows.rolling) {
       cone.arm = rows.rolling[at].arm;
-      metric.rolling = Real(2.5) / (row.armOwn * row.armOwn), turn = metric.rolling;
+      const Real arm = row.armOwn > row.armOther ? row.armOwn : row.armOther;
+      metric.rolling = Real(2.5) / (arm * arm), turn = metric.rolling;
       z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * turn));
     }
     const contact::Impulse<Real> kept = s.rules.associated ? contact::projectOnCone(z, row.push, cone, metric)
@@ -154,18 +157,18 @@ private:
                           (norm2(off.linear.template as<double>()) +
                            static_cast<double>(turn) * norm2(off.rolling.template as<double>()));
     sums.add(kSquares, share * square, s.perSquare);
-    const auto residual = static_cast<float>(sqrt(square));
-    if (!(residual <= sums.worst)) sums.worst = residual; // a NaN too
+    sums.add(kContacts, share, kPerContact);
+    const bool sound = square + 0 * norm2(a.linear.template as<double>()) == square; // cones make zeros of no numbers
+    const float residual = sound ? static_cast<float>(sqrt(square)) : kNoResidual;
+    if (residual > sums.worst) sums.worst = residual;
   }
 
   /// Of the step from y to x: d N d, |d|^2 in the metric, and the gradient along the way from the last iteration.
   GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                               const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
                               Sums& sums) const {
-    const contact::Impulse<Real> now = impulseAt(rows, s.now, at), g = gradientAt(rows, s.now, at);
-    const contact::Impulse<Real> y = now + (now - impulseAt(rows, s.before, at)) * s.ahead;
-    const contact::Impulse<Real> gy = g + (g - gradientAt(rows, s.before, at)) * s.ahead;
-    const contact::Impulse<Real> step = x - y, way = x - now;
+    const auto [y, gy] = Base::ahead(rows, at);
+    const contact::Impulse<Real> step = x - y, way = x - impulseAt(rows, s.now, at);
     const auto product = [](const Vec& p, const Vec& q) {
       return dot(p.template as<double>(), q.template as<double>());
     };

@@ -6,12 +6,12 @@
 
 /// What the kernels of complementarity contacts share: the rows of a step, and what of them changes in an iteration.
 /// Both grains of a pair have a row of their own, with opposite impulses of the same bits, so that a grain sums its own
-/// in the order of its neighbours' ids, and nobody writes for others.
+/// in the order of its neighbours' ids, and writes no others.
 namespace grouser::terrain {
 
 inline constexpr std::uint32_t kNobody = ~0u; ///< the other side of a row never moves
 
-/// What a row keeps through a step.
+/// Constants of a row during a step.
 template <class Real> struct ImpulseRowRecord {
   base::Vec3<Real> push;   ///< unit, towards the grain
   base::Vec3<Real> offset; ///< [m/s] velocities of what is prescribed are in it
@@ -31,7 +31,7 @@ template <class Real> struct RollingRowRecord {
   Real softness, arm, weight;
 };
 
-/// What only the end of the step needs.
+/// Used at the end of the step alone.
 template <class Real> struct ImpulseRowEnd {
   Real overlap;               ///< at the start [m], < 0 where they are apart
   Real pull;                  ///< impulse of cohesion [N s]
@@ -55,8 +55,10 @@ template <class Real> struct ImpulseRowsView {
 
 /// Sums of an iteration over all rows, in whole quanta of two sizes, so that they have no order: a pair counts from
 /// both sides.
-enum ImpulseSum : int { kCurvature, kLength, kAgainst, kSquares, kImpulseSums };
+enum ImpulseSum : int { kCurvature, kLength, kAgainst, kSquares, kContacts, kImpulseSums };
 inline constexpr int kSumSizes = 2, kSumBanks = 64;
+/// A contact counts 2 quanta: half of one from each side of a pair.
+inline constexpr double kPerContact = 2;
 /// Quanta of the small size to one of the large.
 inline constexpr double kFinerSums = 0x1p40;
 
@@ -92,6 +94,12 @@ GROUSER_HD void forRowsOf(const GrainKernelData& d, const ImpulseData<Real>& s, 
   const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0;
   if (at == 0) return;
   for (std::uint32_t k = 0; k < s.boundRows[at - 1]; ++k) each(s.bounds, std::int64_t{at} - 1 + k * s.near);
+}
+
+/// Of a grain's point of contact relative to that of the other side [m/s]; opposite, to the bit, from the other side.
+template <class Real> GROUSER_HD base::Vec3<Real>
+relativeVelocity(const ImpulseMotion<Real>& own, const ImpulseMotion<Real>& other, const ImpulseRowRecord<Real>& row) {
+  return (own.velocity - other.velocity) - cross(own.spin * row.armOwn + other.spin * row.armOther, row.push);
 }
 
 /// The surface that a row at a boundary belongs to, where forces move it; else none.

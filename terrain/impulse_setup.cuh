@@ -23,6 +23,10 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
   GROUSER_HD Vec velocityOf(int i) const { return d.motion[i].velocity.xyz().template as<Real>(); }
   GROUSER_HD Vec spinOf(int i) const { return d.motion[i].spin.xyz().template as<Real>(); }
 
+  GROUSER_HD void raise(Fault fault, int i) const {
+    base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
+  }
+
   GROUSER_HD bool fixedAt(std::uint32_t j) const { return has(kFixed) && isFixed(d.motion[j].velocity); }
   GROUSER_HD static Real inertiaOf(const GrainSize<Real>& size) {
     return Real(0.4) * size.mass * size.radius * size.radius;
@@ -39,6 +43,15 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     }
     storeTurned(history, turned, touch.shear);
     if (rolls) storeTurned(history + 3, turned, touch.angle);
+  }
+
+  /// Impulse and gradient that momentum has reached.
+  struct Ahead {
+    contact::Impulse<Real> impulse, gradient;
+  };
+  GROUSER_HD Ahead ahead(const ImpulseRowsView<Real>& rows, std::int64_t at) const {
+    const contact::Impulse<Real> x = impulseAt(rows, s.now, at), g = gradientAt(rows, s.now, at);
+    return {x + (x - impulseAt(rows, s.before, at)) * s.ahead, g + (g - gradientAt(rows, s.before, at)) * s.ahead};
   }
 
   /// Stores a row and the impulse to begin with.
@@ -85,6 +98,7 @@ template <class Real> struct MakeGrainRows : ImpulseKernel<Real> {
       const std::int64_t distance2 = base::squaredNorm(apart);
       const std::int64_t reach = has(kManyRadii) ? std::int64_t{d.neighbours.reach[at]} : d.diameterUnits;
       const std::int64_t range = reach + s.margin;
+      if (distance2 == 0) Base::raise(Fault::overlap, i); // no direction to push in
       if (distance2 >= range * range || distance2 == 0) continue;
       const bool held = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
       add(i, size, j, k, apart, distance2, reach, at, held, d.neighbours.at(i, rows++), pulled);
@@ -125,7 +139,7 @@ private:
     Base::put(s.grains, at, row, arms, pair.overlap, ground ? kNobody : j, k);
   }
 
-  /// With gravity, cohesion and the loads of rigid parts.
+  /// With gravity and cohesion.
   GROUSER_HD ImpulseMotion<Real> freely(int i, const GrainSize<Real>& size, const Vec& pulled) const {
     const Remainders kept = d.remainders[i];
     const base::Vec3f v = d.motion[i].velocity.xyz(), w = d.motion[i].spin.xyz();
@@ -159,7 +173,7 @@ template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
   GROUSER_HD void operator()(int k) const {
     s.boundRows[k] = 0;
     const int i = static_cast<int>(d.nearBoundary[k]);
-    if (hasNoRows(d, s, i)) return;
+    if (hasNoRows(d, s, i)) return checkFixed(i);
     Grain grain{k, i, base::toUnits(d.position[i]).template as<double>() * d.unitLength, Kernel::sizeOf(i),
                 d.boundaryContactMask[i]};
     const double radius = static_cast<double>(grain.size.radius);
@@ -186,6 +200,15 @@ template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
   }
 
 private:
+  /// Grains that never move have no rows: no surface may reach one.
+  GROUSER_HD void checkFixed(int i) const {
+    const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
+    for (int b = 0; b < d.surfaceCount; ++b)
+      if (gapTo(d.surfaces[b], d.placements[b].motion.toPart(x)).distance <
+          static_cast<double>(Kernel::sizeOf(i).radius))
+        Base::raise(Fault::through, i);
+  }
+
   /// A floor with hollows tighter than the grain: its places in touch.
   GROUSER_HD void addHollows(Grain& grain, double radius) const {
     if (d.floor.clearOf(grain.x, radius)) return;
@@ -199,7 +222,10 @@ private:
     grain.before = (grain.before & ~(floorBits << d.wallCount)) | goOn << d.wallCount;
     for (int k = 0; k < feet.count; ++k) {
       if (!(loads.overlap(k) > 0)) continue;
-      add(grain, d.wallCount + place[k], feet.foot[k].normal, -loads.overlap(k), nullptr);
+      if (radius - feet.foot[k].distance > static_cast<double>(d.maxSurfaceShare) * radius)
+        Base::raise(Fault::through, grain.slot);
+      add(grain, d.wallCount + place[k], feet.foot[k].normal, -loads.overlap(k), nullptr,
+          static_cast<Real>(loads.share(k)));
       if (normals) storeVector(normals + 3 * place[k], feet.foot[k].normal.template as<float>());
     }
   }
@@ -208,9 +234,9 @@ private:
     return f.boundaryLaws[d.lawOf(boundary) * d.materials + grain.size.material];
   }
 
-  /// `pose`: of a surface that may move; null where the boundary rests.
-  GROUSER_HD void add(Grain& grain, int boundary, const base::Vec3d& outward, double gap,
-                      const SurfacePose* pose) const {
+  /// `pose`: of a surface that may move; null where the boundary rests. `share`: of dashpots and of cohesion.
+  GROUSER_HD void add(Grain& grain, int boundary, const base::Vec3d& outward, double gap, const SurfacePose* pose,
+                      Real share = 1) const {
     Touch touch{};
     touch.push = outward.template as<Real>(), touch.gap = static_cast<Real>(gap);
     const Arms arms{grain.size.radius + (touch.gap < 0 ? touch.gap : Real(0)), Real(0)};
@@ -229,7 +255,7 @@ private:
     touch.freely = dot(d.gravityStep.template as<Real>() - gains, touch.push);
     touch.effectiveMass = grain.size.mass, touch.effectiveRadius = grain.size.radius;
     touch.rollingInertia = contact::rollingInertia(grain.size.mass, grain.size.radius);
-    touch.dampingShare = 1;
+    touch.dampingShare = share, touch.pullShare = share;
     touch.held = grain.before >> boundary & 1;
     if (Kernel::hasHistory())
       Base::takeSprings(d.historyOf(grain.place, boundary, Kernel::historyWidth()), pose ? &pose->turned : nullptr,
@@ -247,7 +273,7 @@ template <class Real> struct CountRows {
   GrainKernelData d;
   ImpulseData<Real> s;
   GROUSER_HD void operator()(int i) const {
-    if (s.ghost && s.ghost[i] != 0) return; // its master says so
+    if (s.ghost && s.ghost[i] != 0) return; // from its master
     std::uint32_t rows = s.grainRows[i];
     if (const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0) rows += s.boundRows[at - 1];
     s.degree[i] = rows;
@@ -277,7 +303,8 @@ private:
     const GrainSize<Real> other = alone ? own : Kernel::sizeOf(static_cast<int>(row.other));
     const Real many = static_cast<Real>(degree), more = alone ? Real(0) : static_cast<Real>(s.degree[row.other]);
     // Before surfaces touch, arms are longer than radii.
-    const Real longer = row.armOwn / own.radius, arm2 = longer > 1 ? longer * longer : Real(1);
+    const Real a = row.armOwn / own.radius, b = row.armOther / other.radius, longer = a > b ? a : b;
+    const Real arm2 = longer > 1 ? longer * longer : Real(1);
     int surface = 0;
     const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface);
     const Real given = pose ? static_cast<Real>(pose->inverseMass) : Real(0);

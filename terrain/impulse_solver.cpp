@@ -2,10 +2,30 @@
 #include "terrain/impulse_solver.hpp"
 
 #include "base/bits.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace grouser::terrain {
+
+void checkReport(const ImpulseReport& report, const contact::ComplementarityOptions& options, std::int64_t step) {
+  constexpr double kMost = 1e30; // m/s
+  if (report.residual > kMost)
+    throw base::SimulationError(
+        fmt::format("step {}: the contacts of grains have no finite velocities; use a smaller time_step", step),
+        base::Cause::noNumber);
+  if (!options.strict || (report.met && !report.relaxed)) return;
+  if (report.met)
+    throw base::SimulationError(fmt::format("step {}: Coulomb's law did not converge; use complementarity.friction = "
+                                            "\"associated\", a smaller time_step, or strict = false",
+                                            step));
+  throw base::SimulationError(
+      fmt::format("step {}: contact residual {:.3g} m/s after {} iterations exceeds run.residual "
+                  "= {:.3g} m/s; raise complementarity.iterations or run.residual, or use a "
+                  "smaller time_step",
+                  step, report.residual, report.iterations, options.residual));
+}
 
 void ImpulseTotals::add(const ImpulseReport& report) {
   ++steps, iterations += report.iterations;

@@ -38,10 +38,13 @@ struct ImpulseTotals {
   void setWords(const std::int64_t* words);
 };
 
+/// Throws SimulationError where a step has no numbers any more, or where it misses what a strict run asks for.
+void checkReport(const ImpulseReport& report, const contact::ComplementarityOptions& options, std::int64_t step);
+
 /// Takes steps whose contacts are solved for together, as impulses on Coulomb's cones (contact/impulse_law.hpp):
 /// accelerated projected gradients in the metric of WeighRows, with restarts (Nesterov 1983; Mazhar, Heyn, Negrut and
-/// Tasora 2015, ACM Trans. Graph. 34:32), from the impulses of the last step. The residual of the natural map certifies
-/// the answer. No order of contacts enters: the bits are the same on every device and any number of ranks.
+/// Tasora 2015, ACM Trans. Graph. 34:32), from the impulses of the last step. The residual of the natural map tells how
+/// good the answer is. No order of contacts enters: the bits are the same on every device and any number of ranks.
 class ImpulseSolver {
 public:
   /// Null where the model has penalty contacts.

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace grouser::terrain {
@@ -60,19 +59,9 @@ template <class Real> struct RowMemory {
   }
 };
 
-/// Adds up the rows of grains, those with other grains apart.
-struct AddRows {
-  const std::uint32_t *grainRows, *degree, *ghost;
-  std::int64_t* sums; ///< rows with other grains, all rows
-  GROUSER_HD void operator()(int i) const {
-    if (ghost && ghost[i] != 0) return;
-    base::atomicAdd64(sums, grainRows[i]), base::atomicAdd64(sums + 1, degree[i]);
-  }
-};
-
-/// What the sums of an iteration say.
-struct Verdict {
-  double curvature, length, against, squares, worst;
+/// Sums of an iteration over all ranks.
+struct IterationSums {
+  double curvature, length, against, squares, contacts, worst;
 };
 
 template <class Real> class ImpulseSolverOf : public ImpulseSolver {
@@ -179,7 +168,7 @@ private:
     if (system.distribution) system.distribution->subdomain().haloExchange().run({&field, 1});
   }
 
-  template <bool kTry> Verdict evaluate(GrainSystem& system, const GrainKernelData& d) {
+  template <bool kTry> IterationSums evaluate(GrainSystem& system, const GrainKernelData& d) {
     using Gradient = FindGradient<Real, kTry>;
     if (!inverseMass_.empty()) surfacePushes_.zero();
     forSlots("move by impulses", d, kernel<MoveByImpulses<Real, kTry>>(system, d));
@@ -191,10 +180,10 @@ private:
     base::forEach(exec_, "gradient of rows",
                   exec_.onCpu() ? (d.count + Gradient::kOnCpu - 1) / Gradient::kOnCpu : d.count, gradient);
     ++report_.products;
-    return verdict(system.comm);
+    return summed(system.comm);
   }
 
-  Verdict verdict(const base::Comm& comm) const {
+  IterationSums summed(const base::Comm& comm) const {
     const std::vector<base::WideSum> sums =
         base::summedBanks(sums_.toHost(), std::size_t{kImpulseSums} * kSumSizes, comm);
     const auto sum = [&](int which, double perUnit) {
@@ -205,19 +194,19 @@ private:
     comm.minimum(&least, 1);
     const auto worst = base::bitsAs<float>(static_cast<std::uint32_t>(~least));
     return {sum(kCurvature, data_.perEnergy), sum(kLength, data_.perEnergy), sum(kAgainst, data_.perEnergy),
-            sum(kSquares, data_.perSquare), static_cast<double>(worst)};
+            sum(kSquares, data_.perSquare),   sum(kContacts, kPerContact),   static_cast<double>(worst)};
   }
 
   void solve(GrainSystem& system, const GrainKernelData& d) {
     report_ = {};
-    Verdict last = evaluate<false>(system, d);
-    data_.tau = Real(kFirstTau), data_.ahead = 0;
+    IterationSums last = evaluate<false>(system, d);
+    data_.tau = Real(kSafeTau), data_.ahead = 0;
     double theta = 1, halved = last.worst;
     int halvedAt = 0;
     while (last.worst > options_.residual && report_.iterations < options_.iterations) {
-      const Verdict tried = evaluate<true>(system, d);
-      if (tried.curvature > static_cast<double>(data_.tau) * tried.length && tried.length > 0) {
-        data_.tau *= 2; // too long a step: once more from where it began
+      const IterationSums tried = evaluate<true>(system, d);
+      if (data_.tau < kSafeTau && tried.curvature > static_cast<double>(data_.tau) * tried.length) {
+        data_.tau = std::min(2 * data_.tau, Real(kSafeTau)); // too long a step: once more from where it began
         continue;
       }
       const double next = tried.against > 0 ? 1 : 0.5 * theta * (std::sqrt(theta * theta + 4) - theta);
@@ -231,29 +220,15 @@ private:
       if (report_.iterations - halvedAt > kPatience && !data_.rules.associated) relax(system, d, last, theta);
     }
     report_.residual = last.worst, report_.met = last.worst <= options_.residual;
-    report_.rows = countRows(system, d);
+    report_.rows = last.contacts;
     report_.rms = report_.rows > 0 ? std::sqrt(last.squares / report_.rows) : 0;
     totals_.add(report_);
-    if (!report_.met && options_.strict)
-      throw base::SimulationError("step " + std::to_string(system.steps) + ": the contacts are solved for to " +
-                                  std::to_string(report_.residual) + " m/s after " +
-                                  std::to_string(report_.iterations) + " iterations, and run.residual is " +
-                                  std::to_string(options_.residual) +
-                                  " m/s; raise complementarity.iterations or run.residual, or use a smaller time_step");
     data_.rules.associated = options_.friction == contact::ImpulseFriction::associated;
+    checkReport(report_, options_, system.steps);
   }
 
-  /// Contacts, of all ranks: pairs of grains have two rows.
-  double countRows(GrainSystem& system, const GrainKernelData& d) const {
-    base::Array<std::int64_t> sums(exec_, std::vector<std::int64_t>{0, 0});
-    forSlots("count contacts", d, AddRows{data_.grainRows, data_.degree, data_.ghost, sums.data()});
-    std::vector<std::int64_t> counted = sums.toHost();
-    system.comm.sum(counted.data(), counted.size());
-    return static_cast<double>(counted[1] - counted[0]) + 0.5 * static_cast<double>(counted[0]);
-  }
-
-  /// Coulomb's own law has no potential: where its iterations do not end, the step ends with the relaxation, whose do.
-  void relax(GrainSystem& system, const GrainKernelData& d, Verdict& last, double& theta) {
+  /// Coulomb's own law has no potential: where it does not converge, the step ends with the relaxation, which does.
+  void relax(GrainSystem& system, const GrainKernelData& d, IterationSums& last, double& theta) {
     report_.relaxed = true, data_.rules.associated = true;
     data_.before = data_.now, data_.ahead = 0, theta = 1;
     last = evaluate<false>(system, d);
@@ -275,8 +250,8 @@ private:
       forSlots("advance by impulses", d, body);
   }
 
-  static constexpr double kFirstTau = 1, kLongerStep = 0.97;
-  static constexpr int kPatience = 50; ///< iterations in which the residual must have halved
+  static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< at 1 the metric bounds the curvature
+  static constexpr int kPatience = 50;                      ///< iterations in which the residual must have halved
 
   base::Exec exec_;
   ComplementarityOptions options_;

@@ -146,7 +146,7 @@ void describeSolver(const coupling::Simulation& simulation) {
   const terrain::ImpulseTotals& all = simulation.ground().grains->system().impulses->totals();
   const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, all.steps));
-  fmt::print("solver    {:.1f} iterations a step, residual {:.2g} m/s at most ({:.2g} m/s asked for){}\n",
+  fmt::print("solver    {:.1f} iterations a step, residual {:.2g} m/s at most (limit {:.2g} m/s){}\n",
              static_cast<double>(all.iterations) / steps, all.worst, asked.residual,
              all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step"))
                              : "");

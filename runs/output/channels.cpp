@@ -93,12 +93,11 @@ Columns<SolverReading> solverColumns() {
         [](const S& s) { return s.last.residual; });
   c.add("residual_rms", "m/s", "root mean square over its contacts", [](const S& s) { return s.last.rms; });
   c.add("iterations", "-", "of the last step", [](const S& s) { return s.last.iterations; });
-  c.add("contacts", "-", "that the last step was solved for, those that do not touch among them",
-        [](const S& s) { return s.last.rows; });
+  c.add("contacts", "-", "in the last step, including open ones", [](const S& s) { return s.last.rows; });
   c.add("all_iterations", "-", "since the start", [](const S& s) { return s.all.iterations; });
   c.add("missed_steps", "-", "since the start, whose residual exceeded run.residual",
         [](const S& s) { return s.all.missed; });
-  c.add("relaxed_steps", "-", "since the start, that Coulomb's law did not converge for and its relaxation ended",
+  c.add("relaxed_steps", "-", "since the start, finished with the convex relaxation",
         [](const S& s) { return s.all.relaxed; });
   c.add("worst_residual", "m/s", "of all steps since the start", [](const S& s) { return s.all.worst; });
   return c;

@@ -73,7 +73,7 @@ Table<RunSettings> runTable() {
   addContactKeys(t);
   t.add("impact_speed", &S::impactSpeed, "m/s",
         "fastest impact that the time step of hertz materials is chosen and checked for; with complementarity \"auto\" "
-        "moves a grain of that speed by a tenth of its diameter in a step")
+        "moves a grain of that speed by 0.08 of its diameter in a step")
       .above(0)
       .atMost(1e4);
   t.add("threads", &S::threads, "-", "CPU threads; 0 takes all; the answer is the same for any number")
@@ -116,7 +116,7 @@ Table<Complementarity> complementarityTable() {
         "speed");
   t.add("compliance", &S::compliance, "",
         "law: springs and dashpots of the materials, implicit in time; rigid: none, overlaps are pushed apart");
-  t.add("iterations", &S::iterations, "-", "most of a step; a step that needs more is marked")
+  t.add("iterations", &S::iterations, "-", "maximum per step; steps that reach it are counted")
       .atLeast(1)
       .atMost(100'000);
   t.add("recovery", &S::recovery, "m/s", "greatest speed at which rigid contacts that overlap part")

@@ -13,26 +13,24 @@ void checkComplementarity(const scene::Scene& scene) {
   if (!hasComplementarity(scene)) return;
   const auto fail = [&](const std::string& message) { scene.fail("run", "contact", message); };
   if (!ContactPairs(scene).kinds.any()) fail("has no effect without grains; remove it, or give the scene grains");
-  if (scene.vehicle)
-    fail("is of grains with walls, floor and surfaces, not with the parts of a vehicle; choose contact = \"penalty\", "
-         "or remove [vehicle]");
+  if (scene.vehicle) fail("does not support vehicles; use contact = \"penalty\", or remove [vehicle]");
   if (scene.mechanism.touches())
-    fail("is of grains with walls, floor and surfaces, not with bodies that forces move; choose contact = \"penalty\", "
-         "or make the bodies surfaces ([[box]], [[cylinder]], [[plane]])");
+    fail(
+        "does not support bodies among grains; use contact = \"penalty\", or surfaces in place of the bodies ([[box]], "
+        "[[cylinder]], [[plane]])");
   if (!scene.meshes.empty())
-    scene.fail(
-        "mesh", 0, "file",
-        "is a mesh, which complementarity contacts do not know; use [[box]], [[cylinder]] or [[plane]], or choose "
-        "run.contact = \"penalty\"");
+    scene.fail("mesh", 0, "file",
+               "is not supported with complementarity contacts; use [[box]], [[cylinder]] or [[plane]], or "
+               "run.contact = \"penalty\"");
   for (const scene::Material& m : scene.materials)
     if (m.yields())
       scene.failMaterial(
           m.name, "law",
-          "yields, and complementarity contacts are elastic or rigid; choose \"linear\" or \"hertz\", or "
+          "is elastic-plastic, which complementarity contacts do not support; use \"linear\", \"hertz\", or "
           "run.contact = \"penalty\"");
   if (scene.output.fieldsCell)
     scene.fail("output", "fields_cell",
-               "[m] asks for stresses, which are measured from springs of penalty contacts; remove it, or choose "
+               "[m] is measured from the springs of penalty contacts; remove it, or use "
                "run.contact = \"penalty\"");
   if (!scene.run.residual && norm(scene.run.gravity) == 0)
     scene.fail("run", "residual",
@@ -60,7 +58,7 @@ std::optional<contact::ComplementarityOptions> complementarityOptions(const scen
 double complementarityTimeStep(const scene::Scene& scene, const ContactPairs& pairs) {
   const double diameter = 2 * pairs.kinds.smallest, gravity = norm(scene.run.gravity);
   const double falls = gravity > 0 ? 0.03 * std::sqrt(diameter / gravity) : base::kInfinity;
-  return std::min(falls, 0.1 * diameter / scene.run.impactSpeed);
+  return std::min(falls, 0.08 * diameter / scene.run.impactSpeed);
 }
 
 } // namespace grouser::setup

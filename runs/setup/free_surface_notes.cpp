@@ -6,6 +6,7 @@
 #include "contact/mixing.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/body_mass.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/scene_surfaces.hpp"
@@ -24,6 +25,7 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
     if (const double mass = base::sphereMass(scene.material(kind.material).density, kind.largest); mass > grain)
       grain = mass, heaviest = &kind;
   std::vector<std::string> notes;
+  if (hasComplementarity(scene)) return notes; // whose rebounds need no dashpots
   const auto look = [&](const std::string& what, const std::string& material, double mass) {
     if (!heaviest || mass >= kHeavy * grain) return;
     const contact::ContactLaw law = pairLaw(scene, heaviest->material, material, grain);

@@ -396,7 +396,9 @@ void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, doubl
 }
 
 void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
-  const double most = kRounding * 0.5 * pairs.kinds.smallest / timeStep;
+  const bool implicit = hasComplementarity(scene);
+  const double share = implicit ? terrain::GrainModel::kMostWaySolved : 0.5;
+  const double most = kRounding * share * pairs.kinds.smallest / timeStep;
   for (const SceneSurface& s : pairs.surfaces) {
     // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
@@ -411,10 +413,11 @@ void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, do
                  turns > shifts       ? "spin"
                  : s.section.velocity ? "velocity"
                                       : "amplitude",
-                 fmt::format("moves {} at up to {:.4g} m/s, more than half the smallest grain's radius in a step of "
+                 fmt::format("moves {} at up to {:.4g} m/s, more than {} the smallest grain's radius in a step of "
                              "{:.3g} s: it could pass through a grain unfelt; keep it below {} m/s (velocity, spin, "
                              "amplitude, frequency), or lower run.time_step",
-                             s.name, shifts + turns, timeStep, base::roundedDown(most, 4)));
+                             s.name, shifts + turns, implicit ? "a fifth of" : "half", timeStep,
+                             base::roundedDown(most, 4)));
   }
 }
 
@@ -425,8 +428,10 @@ void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double ti
   checkSurfaceSpeeds(scene, pairs, timeStep);
   checkBodySpeeds(scene, pairs, timeStep);
   const bool implicit = hasComplementarity(scene);
-  const double most = kRounding * (implicit ? 0.5 : 0.5 * scene.run.skin) * pairs.kinds.smallest / timeStep;
-  const std::string beyond = implicit ? "more than half a grain's radius" : "more than half the neighbour list's skin";
+  const double most = kRounding * (implicit ? terrain::GrainModel::kMostWaySolved : 0.5 * scene.run.skin) *
+                      pairs.kinds.smallest / timeStep;
+  const std::string beyond =
+      implicit ? "more than a fifth of the smallest radius" : "more than half the neighbour list's skin";
   const std::string remedy = implicit ? "" : ", or raise run.skin";
   const auto check = [&](const char* list, const auto& sections) {
     for (std::size_t k = 0; k < sections.size(); ++k)

@@ -109,6 +109,9 @@ class FilesOfResults(FolderTest):
         soil["run.duration"] = 0.1
         soil["driver"].update(tension_ramp=0.002, weight_ramp=0.002)
         self.run_and_look(soil, "soil")
+        drum = grouser.Scene.read(ROOT / "runs/scenes/drum.toml")
+        drum["run"].update(contact="complementarity", duration=0.01)
+        self.run_and_look(drum, "drum")
         moving = grouser.Scene.read(ROOT / "tests/scenes/moving.toml")
         moving["run.duration"] = 0.01
         moving["output"] = {"fields_cell": 0.03}

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace grouser::terrain::testing {
 namespace {
 
@@ -92,7 +94,7 @@ TEST(Complementarity, TwoBallsPartWithTheirRestitutionAtAnyPhase) {
 
 TEST(Complementarity, AnObliqueImpactSticksOrSlipsAsCoulombSays) {
   const double e = 0.5, mu = 0.2, down = 0.4;
-  for (const double along : {0.1, 0.35, 0.6, 2.0}) {
+  for (const double along : {0.1, 0.35, 0.6, 0.9}) {
     GrainModel m = impulsive(1e-3, mu);
     m.gravity = {}, m.law.restitution = e;
     Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius + 1e-4}, {along, 0, -down}, {}}});
@@ -172,14 +174,17 @@ TEST(Complementarity, ABallThatIsHeldDoesNotCreep) {
 }
 
 TEST(Complementarity, CohesionHoldsUpToItsForce) {
-  for (const double share : {0.99, 1.01}) {
-    GrainModel m = impulsive(1e-3, 0.5, Compliance::law);
+  for (const auto& [share, compliance] : {std::pair{0.99, Compliance::law},
+                                          {1.01, Compliance::law},
+                                          {0.99, Compliance::rigid},
+                                          {1.01, Compliance::rigid}}) {
+    GrainModel m = impulsive(1e-3, 0.5, compliance);
     m.law.pullPerRadius = share * m.mass * kG / m.radius; // of its weight, at a wall
     m.law.stiffness = 500, m.law.damping = 1000;
     const Wall ceiling{{0, 0, -1}, -0.1, m.law};
     const double presses = 0.01 * m.mass * kG / m.law.stiffness; // where the larger pull exceeds its weight
     Grains grains(testExec(1), m, {{ceiling}, {}}, {{{0, 0, 0.1 - m.radius + presses}, {}, {}}});
-    advance(grains, 200);
+    advance(grains, 80);
     if (share < 1)
       EXPECT_LT(grains.snapshot().position[0].z, 0.1 - 1.02 * m.radius);
     else

@@ -10,7 +10,7 @@ inline GrainModel impulsiveGravel(contact::Compliance compliance, double skin = 
   GrainModel m = gravel(skin);
   m.timeStep = 1e-3;
   contact::ComplementarityOptions o;
-  o.compliance = compliance, o.recovery = 0.1;
+  o.compliance = compliance, o.recovery = 0.1, o.iterations = 80;
   o.residual = 0.01 * 9.81 * m.timeStep, o.impact = 5 * 9.81 * m.timeStep;
   m.complementarity = o;
   m.law.restitution = 0.3;
