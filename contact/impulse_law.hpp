@@ -84,8 +84,7 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
   ImpulseRow<T> row{};
   row.push = touch.push;
   row.cone = {law.friction, law.rollingFriction * touch.effectiveRadius};
-  // A rigid contact that is held lies within a unit of length of touch, on either side.
-  if (touch.gap < 0 || (rules.rigid && touch.held)) row.pull = h * law.pull(touch.effectiveRadius) * touch.pullShare;
+  if (touch.gap < 0) row.pull = h * law.pull(touch.effectiveRadius) * touch.pullShare;
   const T closing = -(touch.gap + h * (parting + touch.freely)); // overlap at the end without contacts
   row.impact = !touch.held && parting < -rules.impact && closing > 0;
   if (row.impact) {

@@ -23,7 +23,7 @@ struct GrainConstants {
   base::PositionScale scale;
   double smallestRadius;      ///< of the scene [m]
   std::int64_t diameterUnits; ///< of the largest grain [units]
-  std::int64_t marginUnits;   ///< complementarity: pairs whose gap is below this take part in a step [units]; else 0
+  std::int64_t marginUnits;   ///< complementarity: no pair takes part in a step whose gap is above this [units]; else 0
   std::int64_t skinUnits;     ///< of the neighbour list, with the margin [units]
   unsigned features;          ///< see featuresOf()
   int historyWidth;           ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
@@ -47,8 +47,9 @@ struct GrainConstants {
     const std::int64_t half = (skinUnits - marginUnits) / 2;
     return half * half;
   }
-  /// Share of the smallest radius that the margin is [-]: two grains close no more in a step.
-  static constexpr double kMargin = 2 * GrainModel::kMostWaySolved;
+  /// Shares of the smallest radius [-]: gap below which pairs always take part, and the margin, which has room for what
+  /// both may move in a step.
+  static constexpr double kLeastMargin = 0.2, kMargin = kLeastMargin + 2 * GrainModel::kMostWaySolved;
   /// What the state holds in velocity.w: the grain's radius [m], 0 where all grains are of one; of a fixed grain the
   /// opposite of its radius, or -1.
   float storedRadius(const GrainSpec& grain) const;

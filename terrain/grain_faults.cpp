@@ -40,7 +40,7 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
     throw GrainFault(
         fault, id,
         fmt::format("{} moves at {:.4g} m/s, more than {} in one step", where, found[3],
-                    c.model.complementarity ? "a fifth of the smallest radius" : "half the neighbour list's skin"),
+                    c.model.complementarity ? "0.4 of the smallest radius" : "half the neighbour list's skin"),
         c.model.complementarity ? "use a smaller time_step" : "use a smaller time_step or a larger skin");
   default:
     throw GrainFault(fault, id, where + " has a velocity that is no number", "use a smaller time_step");

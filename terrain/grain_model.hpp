@@ -68,7 +68,7 @@ struct GrainModel {
   /// How far a grain may move in a step, as a share of the smallest radius [-]: with penalty contacts half of the skin,
   /// so that no contact is missed.
   double mostWay() const { return complementarity ? kMostWaySolved : 0.5 * skin; }
-  static constexpr double kMostWaySolved = 0.2;
+  static constexpr double kMostWaySolved = 0.4;
   int mostSimdLanes{16}; ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests
 };
 

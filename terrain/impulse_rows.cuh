@@ -74,7 +74,8 @@ template <class Real> struct ImpulseData {
   ImpulseMotion<Real>* free;    ///< by slot: at the end of the step without contacts
   ImpulseMotion<Real>* motion;  ///< by slot: with the impulses of this iteration; of ghosts too
   const std::uint32_t* ghost;   ///< by slot: not 0 for those of other ranks; null: none
-  std::int64_t margin;          ///< a pair has a row where its gap is below this [units]
+  std::int64_t margin;          ///< no pair has a row whose gap is above this [units]
+  std::int64_t leastMargin;     ///< all have whose gap is below this and what both move in the step [units]
   int now, before, tried;       ///< generations
   Real ahead, tau;              ///< momentum; curvature over that of the metric
   // Of surfaces that forces move.

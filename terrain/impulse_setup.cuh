@@ -27,6 +27,13 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
   }
 
+  /// Gap [units] up to which surfaces that move at `speed` [m/s] together have a row.
+  GROUSER_HD std::int64_t marginFor(double speed) const {
+    const double way = speed * d.unitsPerSpeed, most = static_cast<double>(s.margin - s.leastMargin);
+    return s.leastMargin + static_cast<std::int64_t>(way < most ? way : most);
+  }
+  GROUSER_HD double speedOf(int i) const { return norm(d.motion[i].velocity.xyz().template as<double>()); }
+
   GROUSER_HD bool fixedAt(std::uint32_t j) const { return has(kFixed) && isFixed(d.motion[j].velocity); }
   GROUSER_HD static Real inertiaOf(const GrainSize<Real>& size) {
     return Real(0.4) * size.mass * size.radius * size.radius;
@@ -97,7 +104,8 @@ template <class Real> struct MakeGrainRows : ImpulseKernel<Real> {
       const base::Vec3i apart = Kernel::apart(p, d.position[j]);
       const std::int64_t distance2 = base::squaredNorm(apart);
       const std::int64_t reach = has(kManyRadii) ? std::int64_t{d.neighbours.reach[at]} : d.diameterUnits;
-      const std::int64_t range = reach + s.margin;
+      const double ways = Base::speedOf(i) + Base::speedOf(static_cast<int>(j)) + 2 * norm(d.gravityStep);
+      const std::int64_t range = reach + Base::marginFor(ways);
       if (distance2 == 0) Base::raise(Fault::overlap, i); // no direction to push in
       if (distance2 >= range * range || distance2 == 0) continue;
       const bool held = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
@@ -177,7 +185,8 @@ template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
     Grain grain{k, i, base::toUnits(d.position[i]).template as<double>() * d.unitLength, Kernel::sizeOf(i),
                 d.boundaryContactMask[i]};
     const double radius = static_cast<double>(grain.size.radius);
-    const double margin = static_cast<double>(s.margin) * d.unitLength;
+    const double speed = Base::speedOf(i) + norm(d.gravityStep);
+    const double margin = static_cast<double>(Base::marginFor(speed)) * d.unitLength;
     for (int b = 0; b < d.wallCount; ++b) {
       const double gap = dot(d.walls[b].normal, grain.x) - d.walls[b].offset - radius;
       if (gap < margin) add(grain, b, d.walls[b].normal, gap, nullptr);
@@ -192,7 +201,8 @@ template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
     for (int b = 0; has(kSurfaces) && b < d.surfaceCount; ++b) {
       const contact::PartMotion& motion = d.placements[b].motion;
       const SurfaceGap gap = gapTo(d.surfaces[b], motion.toPart(grain.x));
-      if (gap.distance - radius < margin)
+      const double together = speed + norm(motion.velocityAt(grain.x));
+      if (gap.distance - radius < static_cast<double>(Base::marginFor(together)) * d.unitLength)
         add(grain, first + b, motion.rotation * gap.normal, gap.distance - radius, &d.placements[b]);
     }
     s.boundRows[k] = grain.rows;

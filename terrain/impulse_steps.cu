@@ -80,6 +80,7 @@ public:
                    options_.compliance == contact::Compliance::rigid,
                    options_.friction == contact::ImpulseFriction::associated};
     data_.margin = c.marginUnits;
+    data_.leastMargin = c.scale.inUnits(GrainConstants::kLeastMargin * c.smallestRadius);
     // A step of the solver changes no grain's velocity by more than what would move it by several radii.
     const double fastest = 16 * c.model.radius / c.model.timeStep;
     data_.perEnergy = base::fixedPointFor(c.model.mass * fastest * fastest, 50).perUnit;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace grouser::setup {
 
@@ -28,6 +29,18 @@ void checkComplementarity(const scene::Scene& scene) {
           m.name, "law",
           "is elastic-plastic, which complementarity contacts do not support; use \"linear\", \"hertz\", or "
           "run.contact = \"penalty\"");
+  const bool rigid = scene.complementarity && scene.complementarity->compliance == contact::Compliance::rigid;
+  for (const scene::Material& m : scene.materials)
+    if (rigid && m.cohesion > 0)
+      scene.failMaterial(
+          m.name, "cohesion",
+          "[J/m2] acts where surfaces overlap, and rigid contacts do not; use complementarity.compliance "
+          "= \"law\"");
+  for (const scene::ContactPair& p : scene.contacts)
+    if (rigid && p.cohesion.value_or(0) > 0)
+      fail(fmt::format("has rigid contacts, and contact.\"{}|{}\" has cohesion, which acts where surfaces overlap; use "
+                       "complementarity.compliance = \"law\"",
+                       p.first, p.second));
   if (scene.output.fieldsCell)
     scene.fail("output", "fields_cell",
                "[m] is measured from the springs of penalty contacts; remove it, or use "

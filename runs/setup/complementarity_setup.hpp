@@ -19,7 +19,7 @@ void checkComplementarity(const scene::Scene& scene);
 std::optional<contact::ComplementarityOptions> complementarityOptions(const scene::Scene& scene, double timeStep);
 
 /// The automatic step of such a scene [s], before what moves over time is resolved: 0.03 of the time in which gravity
-/// moves a grain by its diameter, and at most 0.08 of the diameter at run.impact_speed: a run ends at 0.1.
+/// moves a grain by its diameter, and at most 0.08 of the diameter at run.impact_speed: a run ends at 0.2.
 double complementarityTimeStep(const scene::Scene& scene, const ContactPairs& pairs);
 
 } // namespace grouser::setup

@@ -416,7 +416,7 @@ void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, do
                  fmt::format("moves {} at up to {:.4g} m/s, more than {} the smallest grain's radius in a step of "
                              "{:.3g} s: it could pass through a grain unfelt; keep it below {} m/s (velocity, spin, "
                              "amplitude, frequency), or lower run.time_step",
-                             s.name, shifts + turns, implicit ? "a fifth of" : "half", timeStep,
+                             s.name, shifts + turns, implicit ? "0.4 of" : "half", timeStep,
                              base::roundedDown(most, 4)));
   }
 }
@@ -431,7 +431,7 @@ void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double ti
   const double most = kRounding * (implicit ? terrain::GrainModel::kMostWaySolved : 0.5 * scene.run.skin) *
                       pairs.kinds.smallest / timeStep;
   const std::string beyond =
-      implicit ? "more than a fifth of the smallest radius" : "more than half the neighbour list's skin";
+      implicit ? "more than 0.4 of the smallest radius" : "more than half the neighbour list's skin";
   const std::string remedy = implicit ? "" : ", or raise run.skin";
   const auto check = [&](const char* list, const auto& sections) {
     for (std::size_t k = 0; k < sections.size(); ++k)

@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
-
 namespace grouser::terrain::testing {
 namespace {
 
@@ -174,11 +172,8 @@ TEST(Complementarity, ABallThatIsHeldDoesNotCreep) {
 }
 
 TEST(Complementarity, CohesionHoldsUpToItsForce) {
-  for (const auto& [share, compliance] : {std::pair{0.99, Compliance::law},
-                                          {1.01, Compliance::law},
-                                          {0.99, Compliance::rigid},
-                                          {1.01, Compliance::rigid}}) {
-    GrainModel m = impulsive(1e-3, 0.5, compliance);
+  for (const double share : {0.99, 1.01}) {
+    GrainModel m = impulsive(1e-3, 0.5, Compliance::law);
     m.law.pullPerRadius = share * m.mass * kG / m.radius; // of its weight, at a wall
     m.law.stiffness = 500, m.law.damping = 1000;
     const Wall ceiling{{0, 0, -1}, -0.1, m.law};

@@ -63,6 +63,11 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
       {run() + "[material.sand]\nlaw = \"eepa\"\nyoung = 1e8\n" + kGrains, "is elastic-plastic, which"},
       {run() + kSand + kGrains + "[output]\nfields_cell = 0.1\nfields_low = [-1, -1, 0]\nfields_high = [1, 1, 1]\n",
        "measured from the springs of penalty contacts"},
+      {run() + "[complementarity]\ncompliance = \"rigid\"\n" + kSand + "cohesion = 0.1\n" + kGrains,
+       "acts where surfaces overlap, and rigid contacts do not"},
+      {run() + "[complementarity]\ncompliance = \"rigid\"\n" + kSand + kGrains +
+           "[contact.\"sand|sand\"]\ncohesion = 0.1\n",
+       "has cohesion, which acts where surfaces overlap"},
       {run("gravity = [0, 0, 0]\n") + kSand + kGrains, "run.gravity is zero; give the residual"},
       {run("residual = 0\n") + kSand + kGrains, "residual"},
       {run("residual = -1\n") + kSand + kGrains, "residual"},
@@ -84,7 +89,7 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
       {run("time_step = 0.01\n") + kSand + kGrains +
            "[[grain]]\nposition = [0, 1, 0.02]\nvelocity = [2, 0, 0]\n"
            "radius = 0.01\nmaterial = \"sand\"\n",
-       "is more than a fifth of the smallest radius in a step"},
+       "is more than 0.4 of the smallest radius in a step"},
   };
   for (const auto& [text, said] : all) {
     try {
