@@ -76,7 +76,7 @@ TEST(ComplementarityScene, ABedSettlesAsWithPenaltyContacts) {
   while (solved.time() < 0.1) solved.step();
   // At rest it stays where it was, with the springs that it came with.
   EXPECT_LT(solved.ledger().fastestGrain, 0.01);
-  const double weight = solved.ground().grains->count() * 2500 * 4.19 * 0.04 * 0.04 * 0.04 * 9.81;
+  const double weight = static_cast<double>(solved.ground().grains->count()) * 2500 * 4.19 * 0.04 * 0.04 * 0.04 * 9.81;
   EXPECT_NEAR(solved.ledger().potential, before, weight * 1e-4);
   EXPECT_EQ(solved.ground().grains->system().impulses->totals().missed, 0);
 }
