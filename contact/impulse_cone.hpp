@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-/// Impulses that a unilateral contact with Coulomb friction can carry, and the projections by which a solver of the
-/// complementarity problem keeps to them.
+/// The set of impulses of a unilateral contact with Coulomb friction, and projections onto it.
 namespace grouser::contact {
 
 /// Force on side i of a contact and, with rolling resistance, torque, times the step.
@@ -26,10 +25,10 @@ template <class T> struct Impulse {
 /// |tangential| <= friction * normal, |rolling| <= arm * normal, normal >= 0.
 template <class T> struct ImpulseCone {
   T friction; ///< [-]
-  T arm;      ///< of rolling resistance: its coefficient times the radius [m]
+  T arm;      ///< coefficient of rolling resistance times radius [m]
 };
 
-/// The norm of an impulse in which a solver takes its steps: normal^2 + shear tangential^2 + rolling rolling^2.
+/// Squared norm of an impulse: normal^2 + shear tangential^2 + rolling rolling^2.
 template <class T> struct ImpulseMetric {
   T shear;   ///< [-]
   T rolling; ///< [1/m2]
@@ -40,15 +39,15 @@ template <class T> GROUSER_HD T lengthOf(const base::Vec3<T>& v) {
   return static_cast<T>(base::norm(v.template as<double>()));
 }
 
-/// As long as `most`, if it is longer.
+/// Shortens a vector to the length `most`.
 template <class T> GROUSER_HD base::Vec3<T> cutTo(const base::Vec3<T>& v, T most) {
   const double size2 = norm2(v.template as<double>()), limit = static_cast<double>(most);
   if (!(size2 > limit * limit)) return v;
   return v * (most / static_cast<T>(sqrt(size2)));
 }
 
-/// Coulomb's own law, not a projection on its cone: the normal part is kept where it presses, then the others are cut
-/// to what it allows. A fixed point of a step along the relative velocity fulfils Coulomb's law exactly: no dilation.
+/// Coulomb's own law, which is not the projection on its cone: keeps a pressing normal part, then limits the others by
+/// it. A fixed point of steps along the relative velocity fulfils Coulomb's law exactly, without dilation.
 /// `push`: unit normal towards side i.
 template <class T>
 GROUSER_HD Impulse<T> cutToCoulomb(const Impulse<T>& z, const base::Vec3<T>& push, const ImpulseCone<T>& cone) {
@@ -70,7 +69,7 @@ template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, cons
   const base::Vec3<T> shear = z.linear - push * along;
   const Limited slides{lengthOf(shear), cone.friction, metric.shear};
   const Limited rolls{lengthOf(z.rolling), cone.arm, metric.rolling};
-  // The one farther beyond its limit comes first: the other may then be within its own.
+  // First the part that exceeds its limit more: the other may then be within its own.
   const bool slidesFirst = slides.size * rolls.slope >= rolls.size * slides.slope;
   T asked = along, weights = 1, normal = along;
   for (int k = 0; k < 2; ++k) {
@@ -81,6 +80,13 @@ template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, cons
   }
   if (!(normal > 0)) return {};
   return {push * normal + cutTo(shear, slides.slope * normal), cutTo(z.rolling, rolls.slope * normal)};
+}
+
+/// The impulse that a contact can carry in the place of `z`: by Coulomb's own law, or the nearest of the cone.
+template <class T> GROUSER_HD Impulse<T> allowed(const Impulse<T>& z, const base::Vec3<T>& push,
+                                                 const ImpulseCone<T>& cone, const ImpulseMetric<T>& metric,
+                                                 bool associated) {
+  return associated ? projectOnCone(z, push, cone, metric) : cutToCoulomb(z, push, cone);
 }
 
 } // namespace grouser::contact

@@ -17,22 +17,22 @@ namespace grouser::contact {
 enum class ImpulseFriction { coulomb, associated }; ///< see cutToCoulomb(), projectOnCone()
 enum class Compliance { law, rigid };               ///< springs of the contact law, or none
 
-/// How steps with complementarity contacts are taken.
+/// Options of complementarity contacts.
 struct ComplementarityOptions {
   ImpulseFriction friction{ImpulseFriction::coulomb};
   Compliance compliance{Compliance::law};
-  double residual{};   ///< velocity to which a step is solved [m/s], > 0
-  int iterations{200}; ///< most of a step, > 0
+  double residual{};   ///< tolerance of a step [m/s], > 0
+  int iterations{200}; ///< maximum per step, > 0
   double recovery{};   ///< greatest speed at which rigid contacts that overlap part [m/s], >= 0
   double impact{};     ///< approach [m/s] above which a new contact has Newton's restitution; slower ones have none
-  bool strict{false};  ///< whether a step that misses the residual stops the run
+  bool strict{false};  ///< steps that exceed the residual end the run
   bool operator==(const ComplementarityOptions&) const = default;
 };
 
-/// The same for a kernel.
+/// Options in the precision of a kernel.
 template <class T> struct ImpulseRules {
   T timeStep, recovery, impact;
-  T stiffness; ///< by which rigid contacts record their impulses, see keptImpulse() [N/m]
+  T stiffness; ///< scale of keptImpulse() [N/m]
   bool rigid, associated;
 };
 
@@ -40,15 +40,15 @@ template <class T> struct ImpulseRules {
 template <class T> struct ImpulseTouch {
   base::Vec3<T> push;     ///< unit, from j to i
   T gap;                  ///< [m], < 0 where they overlap
-  base::Vec3<T> velocity; ///< of i's material point relative to j's [m/s]
+  base::Vec3<T> velocity; ///< of contact point i relative to that of j [m/s]
   base::Vec3<T> spin;     ///< of i relative to j [rad/s]
   T freely;               ///< change of the separation speed in this step without contacts [m/s]
   T effectiveMass, effectiveRadius;
   T rollingInertia;               ///< see RollingMotion
   T dampingShare;                 ///< see BasicContactGeometry
-  T pullShare = 1;                ///< likewise
+  T pullShare = 1;                ///< see BasicContactGeometry
   base::Vec3<T> shear{}, angle{}; ///< springs in the tangent plane [m], [rad]; rigid: see keptImpulse()
-  bool held{false};               ///< whether it overlapped or carried a force in the last step
+  bool held{false};               ///< it overlapped or carried an impulse in the last step
 };
 
 /// Constants of a row during a step.
@@ -59,9 +59,9 @@ template <class T> struct ImpulseRow {
   T rollingSoftness;                ///< [1/(kg m2)]
   ImpulseCone<T> cone;
   T pull;                  ///< impulse of cohesion on each side, towards the other [N s]
-  T damping, shearDamping; ///< of the dashpots, where the contact law is used [N s/m]
-  bool impact;             ///< with Newton's restitution
-  Impulse<T> start;        ///< to begin with
+  T damping, shearDamping; ///< dashpot coefficients [N s/m]; 0 for rigid contacts and impacts
+  bool impact;             ///< a new contact with Newton's restitution
+  Impulse<T> start;        ///< first impulse of the solver
 };
 
 /// The record of a rigid contact in the place of a spring: a length [m] that stands for the impulse with which the next
@@ -76,7 +76,7 @@ template <class T> GROUSER_HD base::Vec3<T> tangentOf(const base::Vec3<T>& v, co
 }
 } // namespace detail
 
-/// The row of two surfaces whose gap is within what they may close in a step.
+/// Makes the row of two surfaces that may close their gap in a step.
 template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, const ImpulseTouch<T>& touch,
                                                        const ImpulseRules<T>& rules) {
   const T h = rules.timeStep, overlap = touch.gap < 0 ? -touch.gap : T(0);
@@ -97,7 +97,7 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
     if (touch.held) row.start = {touch.shear * (-h * rules.stiffness), touch.angle * (-h * rules.stiffness)};
     return row;
   }
-  // Hertz' law is linearised where it will be pressed most.
+  // Hertz' law is linearised at the larger of the present and the predicted overlap.
   const T deep = law.hertz && closing > overlap ? closing : overlap;
   Coefficients<T> c = coefficientsOf<kGeneral>(law, deep, touch.effectiveMass, touch.effectiveRadius);
   const T touches = touch.gap < 0 ? touch.dampingShare : T(0); // surfaces that are apart have no dashpot yet

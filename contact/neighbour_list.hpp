@@ -52,7 +52,7 @@ public:
   /// Neighbours in all rows, each pair from both sides.
   std::uint64_t listed() const;
 
-  std::size_t places() const { return slot_.size(); } ///< of all rows
+  std::size_t places() const { return slot_.size(); } ///< in all rows, padding included
 
   NeighbourView view();
   /// Between builds; a build needs more, for the contacts that it sets aside and for its grid of cells [B].

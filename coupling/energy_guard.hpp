@@ -72,7 +72,7 @@ public:
   };
   /// `held`: energy of bodies and contacts, and m g radius of all grains [J].
   Exchange since(const Ledger& now, double held) const;
-  /// What is wrong since the last look, in words; empty where nothing is. `implicit`: steps may lose any energy.
+  /// Describes an energy error since the last look; empty if there is none. `implicit`: energy losses are no error.
   std::string judge(const Ledger& now, double held, bool implicit = false) const;
   /// Remembers `now` for the next judgement.
   void look(const Ledger& now);

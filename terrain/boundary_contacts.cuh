@@ -122,24 +122,22 @@ private:
   /// A floor with hollows tighter than the grain: all places of contact, each with springs of its own.
   GROUSER_HD std::uint32_t touchHollows(const Grain& grain, double radius, Load& sum, Losses& lost) const {
     if (d.floor.clearOf(grain.x, radius)) return 0;
-    Feet feet;
-    FeetSearch(d.floor, grain.x, radius).run(feet);
-    const FeetLoads loads(feet, radius, lawOf(grain, d.wallCount).hertz);
-    int place[Feet::kMost];
-    const std::uint32_t floorBits = (1u << Feet::kMost) - 1;
     float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
+    const PlacedFeet placed(d.floor, grain.x, radius, grain.before >> d.wallCount, normals);
+    const Feet& feet = placed.feet;
+    const FeetLoads loads(feet, radius, Kernel::boundaryLaw(d.wallCount, grain.size.material).hertz);
     Grain here = grain;
-    here.before = takePlaces(feet, grain.before >> d.wallCount & floorBits, normals, place) << d.wallCount;
+    here.before = placed.goOn << d.wallCount;
     std::uint32_t now = 0;
     for (int k = 0; k < feet.count; ++k) {
       const Real overlap = static_cast<Real>(loads.overlap(k));
       if (overlap <= 0) continue;
       const Vec normal = feet.foot[k].normal.template as<Real>();
-      now |= 1u << (d.wallCount + place[k]);
-      touchFixed(here, d.wallCount + place[k], normal, overlap, sum, lost, static_cast<Real>(loads.share(k)));
+      now |= 1u << (d.wallCount + placed.place[k]);
+      touchFixed(here, d.wallCount + placed.place[k], normal, overlap, sum, lost, static_cast<Real>(loads.share(k)));
       const Real deep = static_cast<Real>(radius - feet.foot[k].distance);
       sum.deepest = deep > sum.deepest ? deep : sum.deepest;
-      if (normals) storeVector(normals + 3 * place[k], feet.foot[k].normal.template as<float>());
+      if (normals) storeVector(normals + 3 * placed.place[k], feet.foot[k].normal.template as<float>());
     }
     return now;
   }
@@ -173,24 +171,16 @@ private:
         sum.torque += reaction.rolling;
         torque -= reaction.rolling.template as<double>();
       }
-      contact::PartLoad& load = d.surfaceLoads[s];
-      for (int a = 0; a < 3; ++a) {
-        base::atomicAdd64(&load.force[a], -quanta[a]);
-        base::atomicAdd64(&load.torque[a], d.surfaceTorque.quantise(torque[a]));
-      }
+      Kernel::loadSurface(s, quanta, torque);
     }
     d.fromSurfaces[k] = force;
     return now;
   }
 
-  GROUSER_HD const contact::BasicLaw<Real>& lawOf(const Grain& grain, int boundary) const {
-    return f.boundaryLaws[d.lawOf(boundary) * d.materials + grain.size.material];
-  }
-
   /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
   GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
                             const Vec& spin, const base::Mat3d* turned, Load& sum, Losses& lost) const {
-    const contact::BasicLaw<Real>& law = lawOf(grain, boundary);
+    const contact::BasicLaw<Real>& law = Kernel::boundaryLaw(boundary, grain.size.material);
     const bool held = Kernel::hasHistory() && (grain.before >> boundary & 1);
     float* history = Kernel::hasHistory() ? d.historyOf(grain.place, boundary, Kernel::historyWidth()) : nullptr;
     Vec shear{};

@@ -351,6 +351,9 @@ GROUSER_HD bool deepestFoot(const HeightFieldView& surface, const Vec3d& centre,
   return true;
 }
 
+/// A bit for each place of a floor.
+inline constexpr std::uint32_t kFloorBits = (1u << Feet::kMost) - 1;
+
 /// Which of the places of the floor each foot takes, so that a contact keeps its springs from step to step: the pairs
 /// whose normals differ least come first, and none by more than 60 degrees. `held`: a bit for each place that had a
 /// foot in the last step, whose normals are `normals` [3 * place]; null where contacts have no springs. Returns the
@@ -381,5 +384,18 @@ GROUSER_HD std::uint32_t takePlaces(const Feet& feet, std::uint32_t held, const 
   }
   return goOn;
 }
+
+/// The feet of a sphere, each with its place, as takePlaces() finds it. `goOn`: bits of places whose contact goes on.
+struct PlacedFeet {
+  Feet feet;
+  int place[Feet::kMost];
+  std::uint32_t goOn;
+
+  GROUSER_HD PlacedFeet(const HeightFieldView& floor, const Vec3d& centre, double radius, std::uint32_t held,
+                        const float* normals) {
+    FeetSearch(floor, centre, radius).run(feet);
+    goOn = takePlaces(feet, held & kFloorBits, normals, place);
+  }
+};
 
 } // namespace grouser::terrain

@@ -108,7 +108,7 @@ template <class Body> struct Booked {
   std::int64_t count;
 
   double nanoseconds() const { return kOnCpu * Body::kNanoseconds; }
-  /// Of a loop over so many grains.
+  /// Number of tasks in a loop over `count` grains.
   static std::int64_t items(const base::Exec& exec, std::int64_t count) {
     return exec.onCpu() ? (count + kOnCpu - 1) / kOnCpu : count;
   }

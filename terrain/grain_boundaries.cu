@@ -129,8 +129,6 @@ void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<Ri
 void GrainBoundaries::setSurfacePoses(const std::vector<SurfacePose>& poses) {
   if (poses.size() != geometries_.size()) throw std::logic_error("as many poses as surfaces");
   std::copy(poses.begin(), poses.end(), poses_.host());
-  inverseMasses_.clear();
-  for (const SurfacePose& pose : poses) inverseMasses_.push_back(pose.inverseMass);
   poses_.upload();
 }
 

@@ -8,6 +8,7 @@
 #include "terrain/searched_height_field.hpp"
 
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -26,9 +27,8 @@ public:
   /// What all grains put on the surfaces in the last step: order-free sums, the opposite of what the grains received.
   const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
 
-  /// Of surfaces that forces move, by surface [1/kg]; 0 of others.
-  const std::vector<double>& inverseMasses() const { return inverseMasses_; }
-  double strongest() const { return strongest_; } ///< force of one contact with a surface, at most [N]
+  std::span<const SurfacePose> surfacePoses() const { return {poses_.host(), geometries_.size()}; }
+  double strongest() const { return strongest_; } ///< upper bound of the force of a contact with a surface [N]
 
   /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so the same on all
   /// ranks.
@@ -93,7 +93,6 @@ private:
   base::Mirrored<contact::PartLoad> surfaceSums_;
   base::FixedPoint surfaceForce_, surfaceTorque_;
   std::vector<SurfaceLoad> surfaceLoads_;
-  std::vector<double> inverseMasses_;
   double strongest_{};
   std::int64_t listings_{0};
 

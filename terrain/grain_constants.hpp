@@ -23,7 +23,7 @@ struct GrainConstants {
   base::PositionScale scale;
   double smallestRadius;      ///< of the scene [m]
   std::int64_t diameterUnits; ///< of the largest grain [units]
-  std::int64_t marginUnits;   ///< complementarity: no pair takes part in a step whose gap is above this [units]; else 0
+  std::int64_t marginUnits;   ///< complementarity: largest gap of a pair in the problem of a step [units]; else 0
   std::int64_t skinUnits;     ///< of the neighbour list, with the margin [units]
   unsigned features;          ///< see featuresOf()
   int historyWidth;           ///< numbers of history of a contact: 0, 3 (spring), 6 (spring, rolling angle)
@@ -42,13 +42,13 @@ struct GrainConstants {
   bool manyRadii() const { return has(kManyRadii); }
   /// Two grains farther apart than this never touch before the neighbour list is built anew [units].
   std::int64_t listRange() const { return diameterUnits + skinUnits; }
-  /// How far a grain may move from where it was listed, squared [units^2]: half the skin without the margin.
+  /// Largest displacement of a grain since the list was made, squared [units^2]: half the skin without the margin.
   std::int64_t halfSkinUnits2() const {
     const std::int64_t half = (skinUnits - marginUnits) / 2;
     return half * half;
   }
-  /// Shares of the smallest radius [-]: gap below which pairs always take part, and the margin, which has room for what
-  /// both may move in a step.
+  /// Shares of the smallest radius [-]: the gap within which pairs at rest are in the problem of a step, and the
+  /// margin, which adds the largest displacements of both grains in a step.
   static constexpr double kLeastMargin = 0.2, kMargin = kLeastMargin + 2 * GrainModel::kMostWaySolved;
   /// What the state holds in velocity.w: the grain's radius [m], 0 where all grains are of one; of a fixed grain the
   /// opposite of its radius, or -1.

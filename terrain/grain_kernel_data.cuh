@@ -150,6 +150,23 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
     return history + contact::plasticPlace(kFeatures & contact::kGeneral ? d.features : kFeatures);
   }
 
+  /// Of all faults of a step the smallest key is kept.
+  GROUSER_HD void raise(Fault fault, int i) const {
+    base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
+  }
+  /// Law between a boundary and a grain of this material.
+  GROUSER_HD const contact::BasicLaw<Real>& boundaryLaw(int boundary, int material) const {
+    return f.boundaryLaws[d.lawOf(boundary) * d.materials + material];
+  }
+  /// Adds to the load of a surface the opposite of `quanta`, the force on a grain, and `torque` [N m] about its centre.
+  GROUSER_HD void loadSurface(int surface, const base::Vec3l& quanta, const base::Vec3d& torque) const {
+    contact::PartLoad& load = d.surfaceLoads[surface];
+    for (int a = 0; a < 3; ++a) {
+      base::atomicAdd64(&load.force[a], -quanta[a]);
+      base::atomicAdd64(&load.torque[a], d.surfaceTorque.quantise(torque[a]));
+    }
+  }
+
   /// `radiusInW`: as velocity.w has it.
   GROUSER_HD GrainSize<Real> sizeOf(float radiusInW, float material) const {
     if (!has(kManyRadii)) return {f.radius, f.mass, 0, 0};

@@ -146,19 +146,16 @@ private:
     if (d.floor.clearOf(x, radius)) return;
     if (!d.floor.marks)
       return measureBoundary(i, d.wallCount, touched, radius - d.floor.closestPoint(x).distance, size, held);
-    Feet feet;
-    FeetSearch(d.floor, x, radius).run(feet);
-    int place[Feet::kMost];
     const float* normals = Kernel::hasHistory() && d.boundaryOf[i] > 0
                                ? d.floorNormals(std::int64_t{d.boundaryOf[i]} - 1, Kernel::historyWidth())
                                : nullptr;
-    const std::uint32_t before = touched >> d.wallCount & ((1u << Feet::kMost) - 1);
-    const std::uint32_t goOn = takePlaces(feet, before, normals, place) << d.wallCount;
-    const Law& law = f.boundaryLaws[d.lawOf(d.wallCount) * d.materials + size.material];
+    const PlacedFeet placed(d.floor, x, radius, touched >> d.wallCount, normals);
+    const Feet& feet = placed.feet;
+    const Law& law = Kernel::boundaryLaw(d.wallCount, size.material);
     const FeetLoads loads(feet, radius, law.hertz);
     for (int k = 0; k < feet.count; ++k) {
       const double overlap = radius - feet.foot[k].distance;
-      measureBoundary(i, d.wallCount + place[k], goOn, loads.overlap(k), size, held);
+      measureBoundary(i, d.wallCount + placed.place[k], placed.goOn << d.wallCount, loads.overlap(k), size, held);
       held.deepest = overlap > held.deepest ? overlap : held.deepest;
       if (loads.merges() > 0) held.elastic += alone(law, overlap, radius) - alone(law, loads.overlap(k), radius);
     }
@@ -178,8 +175,8 @@ private:
     const float* history = touched >> b & 1 && Kernel::hasHistory()
                                ? d.historyOf(std::int64_t{d.boundaryOf[i]} - 1, b, Kernel::historyWidth())
                                : nullptr;
-    held.elastic += stored(f.boundaryLaws[d.lawOf(b) * d.materials + size.material], overlap, radius,
-                           static_cast<double>(size.mass), history);
+    held.elastic +=
+        stored(Kernel::boundaryLaw(b, size.material), overlap, radius, static_cast<double>(size.mass), history);
     held.deepest = overlap > held.deepest ? overlap : held.deepest;
     ++held.boundary;
     if (overlap > contact::kSqueezed * radius) ++held.squeezedAtBoundary;

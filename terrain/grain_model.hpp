@@ -60,13 +60,13 @@ struct GrainModel {
   double maxEntryOverlap{0.2};   ///< of grains that enter [-]
   bool fixedGrains{false};       ///< whether some grains are fixed: those at the start say so too
   bool ledger{true};             ///< whether books are kept of work and what is dissipated
-  /// Steps whose contacts are impulses that are solved for together; else they are springs, step by step.
+  /// Options of complementarity contacts; empty: penalty contacts.
   std::optional<contact::ComplementarityOptions> complementarity;
   GrainMaterials materials; ///< instead of law, floorLaw and the walls' laws where grains are of several
   Precision precision{Precision::single};
   bool specialised{true}; ///< false: the general kernel, whatever the scene has; same bits, for tests
-  /// How far a grain may move in a step, as a share of the smallest radius [-]: with penalty contacts half of the skin,
-  /// so that no contact is missed.
+  /// Largest displacement of a grain in a step, as a share of the smallest radius [-]: half the skin with penalty
+  /// contacts, so that no contact is missed.
   double mostWay() const { return complementarity ? kMostWaySolved : 0.5 * skin; }
   static constexpr double kMostWaySolved = 0.4;
   int mostSimdLanes{16}; ///< contacts that a CPU may work on side by side: 16, 8, 4, 1; same bits, for tests

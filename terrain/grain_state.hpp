@@ -55,8 +55,8 @@ struct GrainState {
   std::vector<float> contactDeepest, contactOrigin; ///< as contactShear
   std::vector<base::Vec3f> floorNormal;             ///< [rows][places] of the last step, zero out of touch; else empty
 
-  /// Of the energies since the start (GrainBookkeeping), none without a ledger; then, with complementarity contacts,
-  /// what their solver has done (ImpulseTotals).
+  /// Energy accounts since the start (GrainBookkeeping), if a ledger is kept; then, with complementarity contacts, the
+  /// totals of their solver (ImpulseTotals).
   std::vector<std::int64_t> books;
 
   // When the neighbour list was built, so that a resumed run builds the next one at the same step.

@@ -18,7 +18,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   static constexpr int kBlocksTogether =
       std::is_same_v<Real, float> && (kFeatures & (contact::kHertz | contact::kPlastic)) == contact::kHertz ? 5 : 0;
   using Kernel = GrainKernel<kFeatures, Real>;
-  using Kernel::d, Kernel::f, Kernel::has;
+  using Kernel::d, Kernel::f, Kernel::has, Kernel::raise;
   using Vec = base::Vec3<Real>;
   static constexpr bool kMaySlip = kFeatures & (contact::kHertz | contact::kGeneral),
                         kMayHold = kFeatures & (kFixed | contact::kGeneral);
@@ -300,11 +300,6 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     }
     force += d.loads.force.value(quanta);
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
-  }
-
-  /// Of all faults of a step the smallest key is kept.
-  GROUSER_HD void raise(Fault fault, int i) const {
-    base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
   }
 
   /// `work` on a grain in this step. `massShare`: of the mass of the model.

@@ -4,7 +4,7 @@
 #include "terrain/grain_step.cuh"
 #include "terrain/impulse_iteration.cuh"
 
-/// The end of a step with complementarity contacts: each grain moves by its impulses, and contacts keep their springs.
+/// End of a step with complementarity contacts: moves the grains by their impulses and stores the springs.
 namespace grouser::terrain {
 
 template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Real> {
@@ -16,10 +16,10 @@ template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Re
   using Step::d, Step::f, Step::has;
   ImpulseData<Real> s;
 
-  /// What the rows of a grain come to.
+  /// Sums over the rows of a grain.
   struct Total {
     base::Vec3d force, torque;         ///< [N], [N m]
-    base::Vec3d heldForce, heldTorque; ///< by what never moves, about the centre
+    base::Vec3d heldForce, heldTorque; ///< exerted by walls, floor and fixed grains, about the centre
     Lost lost{};
     double stabilised = 0; ///< [J]
     float deepest = 0;
@@ -53,17 +53,14 @@ template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Re
   }
 
 private:
-  /// Relative motion of both sides at the start of the step, or at its end.
+  /// Relative motion of the two sides of a contact.
   struct Relative {
     Vec velocity, spin;
   };
 
   GROUSER_HD static Relative between(const ImpulseMotion<Real>& own, const ImpulseMotion<Real>& other,
                                      const ImpulseRowRecord<Real>& row) {
-    return {relativeVelocity(own, other, row), own.spin - other.spin};
-  }
-  GROUSER_HD ImpulseMotion<Real> before(int i) const {
-    return {d.motion[i].velocity.xyz().template as<Real>(), d.motion[i].spin.xyz().template as<Real>()};
+    return {relativeVelocity(own, other, row.push, row.armOwn, row.armOther), own.spin - other.spin};
   }
 
   GROUSER_HD void endGrainRows(int i, Total& total) const {
@@ -74,10 +71,11 @@ private:
       const ImpulseRowRecord<Real> row = s.grains.row[at];
       const std::uint32_t listed = row.place & ~kImpactBit;
       const std::int64_t home = d.neighbours.at(i, listed);
-      const bool ground = row.other == kNobody;
+      const bool ground = row.other == kFixedPartner;
       ImpulseMotion<Real> otherBefore{}, otherAfter{};
-      if (!ground) otherBefore = before(static_cast<int>(row.other)), otherAfter = s.motion[row.other];
-      const Relative start = between(before(i), otherBefore, row), end = between(s.motion[i], otherAfter, row);
+      if (!ground) otherBefore = motionAtStart<Real>(d, static_cast<int>(row.other)), otherAfter = s.motion[row.other];
+      const Relative start = between(motionAtStart<Real>(d, i), otherBefore, row),
+                     end = between(s.motion[i], otherAfter, row);
       float* const history = Step::historyAt(home);
       if (endRow(s.grains, at, row, start, end, history, nullptr, ground ? 1 : 0.5, total))
         touching[listed / 64] |= std::uint64_t{1} << (listed & 63u);
@@ -98,7 +96,7 @@ private:
       const int boundary = static_cast<int>(row.place & ~kImpactBit);
       const SurfacePose* const pose = boundary >= first ? d.placements + (boundary - first) : nullptr;
       const base::Vec3d point = x - row.push.template as<double>() * static_cast<double>(row.armOwn);
-      Relative start = between(before(i), {}, row), end = between(s.motion[i], {}, row);
+      Relative start = between(motionAtStart<Real>(d, i), {}, row), end = between(s.motion[i], {}, row);
       if (pose) {
         const Vec moves = pose->motion.velocityAt(point).template as<Real>(),
                   turns = pose->motion.spin.template as<Real>();
@@ -132,32 +130,30 @@ private:
     if (held) total.heldForce += force, total.heldTorque += torque;
   }
 
-  /// The surface gets exactly the opposite of the force that is returned, in whole quanta.
+  /// Rounds a force on a grain to whole quanta, and puts exactly the opposite on the surface.
   GROUSER_HD base::Vec3d pushSurface(int surface, std::int64_t at, const base::Vec3d& force, base::Vec3d torque) const {
     const base::Vec3l quanta = d.surfaceForce.quantise(force);
     if (s.bounds.rolling) torque -= forceOf(s.bounds.turning[s.now][at]);
-    contact::PartLoad& load = d.surfaceLoads[surface];
-    for (int a = 0; a < 3; ++a) {
-      base::atomicAdd64(&load.force[a], -quanta[a]);
-      base::atomicAdd64(&load.torque[a], d.surfaceTorque.quantise(torque[a]));
-    }
+    Kernel::loadSurface(surface, quanta, torque);
     return d.surfaceForce.value(quanta);
   }
 
-  /// Books a row and keeps its springs. `share`: of what it loses, that is this grain's. Returns whether it touches.
+  /// Accounts for the energies of a row and stores its springs. `share`: of its losses that counts for this grain [-].
+  /// Returns whether the contact is closed.
   GROUSER_HD bool endRow(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                          const Relative& start, const Relative& end, float* history, const base::Mat3d* turned,
                          double share, Total& total) const {
     const Vec x = rows.impulse[s.now][at], a = rows.gradient[s.now][at];
     const ImpulseRowEnd<Real> more = rows.end[at];
     const Vec slip = contact::detail::tangentOf(a, row.push);
-    const Vec way = contact::detail::tangentOf(end.velocity, row.push) - slip; // of the spring [m/s]
+    const Vec way = contact::detail::tangentOf(end.velocity, row.push) - slip; // rate of the shear spring [m/s]
     const Real along = dot(x, row.push);
     const Vec shear = x - row.push * along;
     const double first = static_cast<double>(dot(start.velocity, row.push)),
                  last = static_cast<double>(dot(end.velocity, row.push)), normal = static_cast<double>(along);
     const bool impact = row.place & kImpactBit;
-    // Work is by the mean of both velocities, slip is at the end: what implicit springs lose is no friction.
+    // Friction dissipates by the slip at the end of the step. Rigid contacts have no springs, so that all tangential
+    // work, which the mean velocity determines, is friction.
     const Real mean = impact || s.rules.rigid ? Real(0.5) : Real(0);
     const Vec sped = contact::detail::tangentOf(end.velocity - start.velocity, row.push) * mean;
     total.lost.rubbed -= share * static_cast<double>(dot(shear, slip - sped));
@@ -188,7 +184,7 @@ private:
       spring = contact::keptImpulse(rows.impulse[s.now][at], s.rules);
       if (rows.rolling) angle = contact::keptImpulse(rows.turning[s.now][at], s.rules);
     } else if (!(row.place & kImpactBit)) {
-      // What it was, and what of the way is no slip.
+      // The spring stretches by the tangential displacement without slip.
       if (row.shearSoftness > 0) spring = turnedSpring<Real>(history, turned) + way * h;
       if (rows.rolling)
         angle = turnedSpring<Real>(history + 3, turned) +

@@ -3,12 +3,12 @@
 
 #include "terrain/impulse_setup.cuh"
 
-/// One iteration on the rows of a step, in two kernels: each grain takes a step in its own rows and sums them into its
-/// velocity; then, with the velocities of all, it finds what the rows are now.
+/// An iteration has two kernels: each grain takes a step in its own rows and adds them to its velocity; then it
+/// computes the gradient of its rows from the velocities of all grains.
 namespace grouser::terrain {
 
-/// Sums the impulses of a grain into its velocity. `kTry`: after a step against the gradient from the point that
-/// momentum has reached; else the impulses are as they are now.
+/// Adds the impulses of a grain to its velocity. `kTry`: first a gradient step from the extrapolated impulses; else the
+/// current impulses.
 template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 150;
   using Base = ImpulseKernel<Real>;
@@ -16,9 +16,9 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   using typename Base::Kernel, typename Base::Vec;
 
   GROUSER_HD void operator()(int i) const {
-    if (s.ghost && s.ghost[i] != 0) return; // from its master
+    if (s.ghost && s.ghost[i] != 0) return; // the halo exchange sets it
     if (hasNoRows(d, s, i)) {
-      s.motion[i] = {}; // never moves
+      s.motion[i] = {}; // fixed
       return;
     }
     const GrainSize<Real> size = Kernel::sizeOf(i);
@@ -53,28 +53,27 @@ private:
     const Real shearWeight = WeighRows<Real>::shearWeight(rows), step = Real(1) / (s.tau * row.weight);
     const Real along = dot(gy.linear, row.push);
     y.linear -= (gy.linear - row.push * along) * (step / shearWeight) + row.push * (along * step);
-    contact::ImpulseCone<Real> cone{row.friction, Real(0)};
     contact::ImpulseMetric<Real> metric{shearWeight, Real(0)};
     if (rows.rolling) {
-      const RollingRowRecord<Real>& roll = rows.rolling[at];
-      y.rolling -= gy.rolling * (Real(1) / (s.tau * roll.weight));
-      cone.arm = roll.arm, metric.rolling = roll.weight / row.weight;
+      const Real weight = rows.rolling[at].weight;
+      y.rolling -= gy.rolling * (Real(1) / (s.tau * weight));
+      metric.rolling = weight / row.weight;
     }
-    return s.rules.associated ? contact::projectOnCone(y, row.push, cone, metric)
-                              : contact::cutToCoulomb(y, row.push, cone);
+    return contact::allowed(y, row.push, coneAt(rows, at), metric, s.rules.associated);
   }
 };
 
-/// Residual of a row whose numbers have left their range.
+/// Residual of a row with a NaN or an infinite gradient [m/s].
 inline constexpr float kNoResidual = 3e38f;
 
-/// Finds the gradient of each row from the velocities, and adds up what decides on the next iteration. `kTry` as above.
+/// Computes the gradient of each row from the velocities, and the sums that control the next iteration. `kTry` as
+/// above.
 template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 150;
   using Base = ImpulseKernel<Real>;
   using Base::d, Base::s;
   using typename Base::Kernel, typename Base::Vec;
-  static constexpr int kOnCpu = 32; ///< grains that a thread of a CPU adds up before it adds to the sums
+  static constexpr int kOnCpu = 32; ///< grains per CPU task
 
   std::int64_t count;
   double nanoseconds() const { return kOnCpu * kNanoseconds; }
@@ -114,12 +113,12 @@ private:
   GROUSER_HD void find(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseMotion<Real>& own,
                        Sums& sums) const {
     const ImpulseRowRecord<Real> row = rows.row[at];
-    const bool alone = row.other == kNobody;
+    const bool alone = row.other == kFixedPartner;
     const ImpulseMotion<Real> other = alone ? ImpulseMotion<Real>{} : s.motion[row.other];
     const int made = kTry ? s.tried : s.now;
     const contact::Impulse<Real> x = impulseAt(rows, made, at);
     contact::Impulse<Real> a;
-    a.linear = relativeVelocity(own, other, row) + x.linear * row.shearSoftness +
+    a.linear = relativeVelocity(own, other, row.push, row.armOwn, row.armOther) + x.linear * row.shearSoftness +
                row.push * ((row.softness - row.shearSoftness) * dot(x.linear, row.push)) + row.offset;
     int surface = 0;
     if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
@@ -135,35 +134,31 @@ private:
     if constexpr (kTry) addProducts(rows, at, row, x, a, share, sums);
   }
 
-  /// By how much a projected step along the velocity would change the impulse, as a velocity.
+  /// Natural map: the change of the impulse by a projected step along the gradient, in units of velocity.
   GROUSER_HD void addResidual(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                               const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
                               Sums& sums) const {
     contact::Impulse<Real> z{x.linear - a.linear * (Real(1) / row.mobility), {}};
-    contact::ImpulseCone<Real> cone{row.friction, Real(0)};
     contact::ImpulseMetric<Real> metric{Real(1), Real(0)};
-    Real turn = 0; // of rolling impulses in the norm
     if (rows.rolling) {
-      cone.arm = rows.rolling[at].arm;
       const Real arm = row.armOwn > row.armOther ? row.armOwn : row.armOther;
-      metric.rolling = Real(2.5) / (arm * arm), turn = metric.rolling;
-      z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * turn));
+      metric.rolling = Real(2.5) / (arm * arm); // of a solid sphere: mass over moment of inertia
+      z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * metric.rolling));
     }
-    const contact::Impulse<Real> kept = s.rules.associated ? contact::projectOnCone(z, row.push, cone, metric)
-                                                           : contact::cutToCoulomb(z, row.push, cone);
-    const contact::Impulse<Real> off = x - kept;
+    const contact::Impulse<Real> off = x - contact::allowed(z, row.push, coneAt(rows, at), metric, s.rules.associated);
     const double mobility = static_cast<double>(row.mobility);
     const double square = mobility * mobility *
                           (norm2(off.linear.template as<double>()) +
-                           static_cast<double>(turn) * norm2(off.rolling.template as<double>()));
+                           static_cast<double>(metric.rolling) * norm2(off.rolling.template as<double>()));
     sums.add(kSquares, share * square, s.perSquare);
     sums.add(kContacts, share, kPerContact);
-    const bool sound = square + 0 * norm2(a.linear.template as<double>()) == square; // cones make zeros of no numbers
+    const bool sound = square + 0 * norm2(a.linear.template as<double>()) == square; // a NaN would be cut to zero
     const float residual = sound ? static_cast<float>(sqrt(square)) : kNoResidual;
     if (residual > sums.worst) sums.worst = residual;
   }
 
-  /// Of the step from y to x: d N d, |d|^2 in the metric, and the gradient along the way from the last iteration.
+  /// Curvature d N d and squared length of the step d from y to x, and the product of the gradient with the change
+  /// since the last iteration, which decides on a restart.
   GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                               const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
                               Sums& sums) const {

@@ -4,91 +4,91 @@
 #include "contact/impulse_law.hpp"
 #include "terrain/grain_kernel_data.cuh"
 
-/// What the kernels of complementarity contacts share: the rows of a step, and what of them changes in an iteration.
-/// Both grains of a pair have a row of their own, with opposite impulses of the same bits, so that a grain sums its own
-/// in the order of its neighbours' ids, and writes no others.
+/// Rows of the complementarity problem of a step, as its kernels see them. Each grain of a pair has a row of its own,
+/// and both have opposite impulses with the same bits: a grain adds up its rows in the order of its neighbours' ids,
+/// and writes no others.
 namespace grouser::terrain {
 
-inline constexpr std::uint32_t kNobody = ~0u; ///< the other side of a row never moves
+inline constexpr std::uint32_t kFixedPartner = ~0u; ///< a wall, floor, surface or fixed grain
 
 /// Constants of a row during a step.
 template <class Real> struct ImpulseRowRecord {
   base::Vec3<Real> push;   ///< unit, towards the grain
-  base::Vec3<Real> offset; ///< [m/s] velocities of what is prescribed are in it
+  base::Vec3<Real> offset; ///< [m/s], prescribed velocities included
   Real softness, shearSoftness;
   Real friction;
-  Real armOwn, armOther; ///< from the centres to the point of contact [m]
-  Real weight;           ///< of the metric: the step of the solver is its inverse [1/kg]
-  Real mobility;         ///< inverse masses of both sides and softness [1/kg]: makes velocities of residuals
-  std::uint32_t other;   ///< slot, or kNobody
-  std::uint32_t place;   ///< in the grain's row of the neighbour list; the boundary; the highest bit: an impact
+  Real armOwn, armOther; ///< centre to contact point [m]
+  Real weight;           ///< weight in the metric, the inverse of the step size [1/kg]
+  Real mobility;         ///< sum of the inverse masses and the softness [1/kg]: scales residuals to velocities
+  std::uint32_t other;   ///< slot, or kFixedPartner
+  std::uint32_t place;   ///< place in the neighbour list, or boundary; highest bit: impact
 };
 inline constexpr std::uint32_t kImpactBit = 1u << 31;
 
-/// The same of rolling resistance.
+/// Constants of the rolling resistance of a row.
 template <class Real> struct RollingRowRecord {
   base::Vec3<Real> offset; ///< [rad/s]
   Real softness, arm, weight;
 };
 
-/// Used at the end of the step alone.
+/// Constants of a row for the end of the step.
 template <class Real> struct ImpulseRowEnd {
-  Real overlap;               ///< at the start [m], < 0 where they are apart
+  Real overlap;               ///< at the start of the step [m]; < 0: gap
   Real pull;                  ///< impulse of cohesion [N s]
-  Real damping, shearDamping; ///< of the dashpots [N s/m]
+  Real damping, shearDamping; ///< dashpot coefficients [N s/m]
 };
 
-/// Velocities of a grain within the iterations; as they are exchanged between ranks.
+/// Velocities of a grain in an iteration; element of the halo exchange.
 template <class Real> struct ImpulseMotion { base::Vec3<Real> velocity, spin; };
 
-/// Rows of one kind, device arrays by place. Three generations of what changes, in turns: of the iteration, of the one
-/// before, and what is tried.
+/// Rows of one kind, device arrays by place. Impulses and gradients are triple-buffered: current iteration, previous
+/// one and trial.
 template <class Real> struct ImpulseRowsView {
   ImpulseRowRecord<Real>* row;
   RollingRowRecord<Real>* rolling; ///< null without rolling resistance
   base::Vec3<Real>* impulse[3];    ///< [N s]
-  base::Vec3<Real>* gradient[3];   ///< a of the complementarity problem [m/s]
+  base::Vec3<Real>* gradient[3];   ///< a in impulse_law.hpp [m/s]
   base::Vec3<Real>* turning[3];    ///< rolling impulse [N m s]; null without
   base::Vec3<Real>* turnGradient[3];
   ImpulseRowEnd<Real>* end;
 };
 
-/// Sums of an iteration over all rows, in whole quanta of two sizes, so that they have no order: a pair counts from
-/// both sides.
+/// Sums of an iteration over all rows, as integers with quanta of two sizes, so that their order does not matter. Each
+/// side of a pair adds half.
 enum ImpulseSum : int { kCurvature, kLength, kAgainst, kSquares, kContacts, kImpulseSums };
 inline constexpr int kSumSizes = 2, kSumBanks = 64;
-/// A contact counts 2 quanta: half of one from each side of a pair.
+/// Quanta of a contact.
 inline constexpr double kPerContact = 2;
-/// Quanta of the small size to one of the large.
+/// Ratio of the two quanta.
 inline constexpr double kFinerSums = 0x1p40;
 
-/// What kernels of one step take.
+/// Arguments of the kernels of a step.
 template <class Real> struct ImpulseData {
   contact::ImpulseRules<Real> rules;
-  ImpulseRowsView<Real> grains; ///< places as in the neighbour list; the rows of a grain stand before others
+  ImpulseRowsView<Real> grains; ///< by place of the neighbour list; a grain's rows fill the first places of its list
   ImpulseRowsView<Real> bounds; ///< [row of the grain][place in the list of grains near boundaries]
-  std::uint32_t* grainRows;     ///< by slot: rows with other grains
-  std::uint32_t* boundRows;     ///< by place in the list near boundaries
-  std::uint32_t* degree;        ///< by slot: all rows; of ghosts too
+  std::uint32_t* grainRows;     ///< [slot] number of rows with other grains
+  std::uint32_t* boundRows;     ///< [place in the list near boundaries] number of rows
+  std::uint32_t* degree;        ///< [slot] number of all rows, ghosts included
   std::int64_t near;            ///< grains listed near boundaries
-  ImpulseMotion<Real>* free;    ///< by slot: at the end of the step without contacts
-  ImpulseMotion<Real>* motion;  ///< by slot: with the impulses of this iteration; of ghosts too
-  const std::uint32_t* ghost;   ///< by slot: not 0 for those of other ranks; null: none
-  std::int64_t margin;          ///< no pair has a row whose gap is above this [units]
-  std::int64_t leastMargin;     ///< all have whose gap is below this and what both move in the step [units]
-  int now, before, tried;       ///< generations
-  Real ahead, tau;              ///< momentum; curvature over that of the metric
-  // Of surfaces that forces move.
-  std::uint32_t* surfaceRows;  ///< [surface] its rows, of all ranks
-  std::int64_t* surfacePushes; ///< [surface] of this rank's rows along its axis
-  base::FixedPoint push;       ///< quanta of these [N s]
-  const Real* surfaceChange;   ///< [surface] of its speed along its axis by all contacts [m/s]
+  ImpulseMotion<Real>* free;    ///< [slot] at the end of the step without contacts
+  ImpulseMotion<Real>* motion;  ///< [slot] with the impulses of this iteration, ghosts included
+  const std::uint32_t* ghost;   ///< [slot] not 0 for ghosts; null: none
+  std::int64_t margin;          ///< largest gap of a row [units]
+  std::int64_t leastMargin;     ///< gap within which a pair at rest has a row [units]
+  int now, before, tried;       ///< buffers
+  Real ahead, tau;              ///< extrapolation; inverse step size over that of the metric
+  // Force-driven surfaces.
+  std::uint32_t* surfaceRows;  ///< [surface] number of rows on all ranks
+  std::int64_t* surfacePushes; ///< [surface] impulses of this rank's rows along its axis
+  base::FixedPoint push;       ///< their quantum [N s]
+  const Real* surfaceChange;   ///< [surface] speed along its axis gained by contacts [m/s]
   base::WideSum* sums;         ///< [kSumBanks][kImpulseSums][kSumSizes]
-  double perEnergy, perSquare; ///< quanta of the large size
-  std::uint32_t* worst;        ///< bits of the largest residual [m/s], a float
+  double perEnergy, perSquare; ///< large quanta per unit
+  std::uint32_t* worst;        ///< largest residual [m/s], bits of a float
 };
 
-/// Calls each(rows, place) for the rows of a grain, in the order in which it sums them.
+/// Calls each(rows, place) for the rows of a grain, in the order of their summation.
 template <class Real, class Each>
 GROUSER_HD void forRowsOf(const GrainKernelData& d, const ImpulseData<Real>& s, int i, const Each& each) {
   for (std::uint32_t k = 0; k < s.grainRows[i]; ++k) each(s.grains, d.neighbours.at(i, k));
@@ -97,13 +97,24 @@ GROUSER_HD void forRowsOf(const GrainKernelData& d, const ImpulseData<Real>& s, 
   for (std::uint32_t k = 0; k < s.boundRows[at - 1]; ++k) each(s.bounds, std::int64_t{at} - 1 + k * s.near);
 }
 
-/// Of a grain's point of contact relative to that of the other side [m/s]; opposite, to the bit, from the other side.
-template <class Real> GROUSER_HD base::Vec3<Real>
-relativeVelocity(const ImpulseMotion<Real>& own, const ImpulseMotion<Real>& other, const ImpulseRowRecord<Real>& row) {
-  return (own.velocity - other.velocity) - cross(own.spin * row.armOwn + other.spin * row.armOther, row.push);
+/// Velocities of slot i at the start of the step.
+template <class Real> GROUSER_HD ImpulseMotion<Real> motionAtStart(const GrainKernelData& d, int i) {
+  return {d.motion[i].velocity.xyz().template as<Real>(), d.motion[i].spin.xyz().template as<Real>()};
 }
 
-/// The surface that a row at a boundary belongs to, where forces move it; else none.
+/// Velocity of a grain's contact point relative to that of the other side [m/s]. Seen from the other side it has the
+/// opposite sign and the same bits.
+template <class Real>
+GROUSER_HD base::Vec3<Real> relativeVelocity(const ImpulseMotion<Real>& own, const ImpulseMotion<Real>& other,
+                                             const base::Vec3<Real>& push, Real armOwn, Real armOther) {
+  return (own.velocity - other.velocity) - cross(own.spin * armOwn + other.spin * armOther, push);
+}
+
+template <class Real> GROUSER_HD contact::ImpulseCone<Real> coneAt(const ImpulseRowsView<Real>& rows, std::int64_t at) {
+  return {rows.row[at].friction, rows.rolling ? rows.rolling[at].arm : Real(0)};
+}
+
+/// The force-driven surface of a row, or null.
 template <class Real> GROUSER_HD const SurfacePose*
 freeSurface(const GrainKernelData& d, const ImpulseRowRecord<Real>& row, bool atBoundary, int& surface) {
   surface = static_cast<int>(row.place & ~kImpactBit) - (d.boundaryCount - d.surfaceCount);
@@ -111,7 +122,7 @@ freeSurface(const GrainKernelData& d, const ImpulseRowRecord<Real>& row, bool at
   return d.placements + surface;
 }
 
-/// Whether a slot's grain has no rows of its own.
+/// True for ghosts and fixed grains.
 template <class Real> GROUSER_HD bool hasNoRows(const GrainKernelData& d, const ImpulseData<Real>& s, int i) {
   return (s.ghost && s.ghost[i] != 0) || ((d.features & kFixed) && isFixed(d.motion[i].velocity));
 }

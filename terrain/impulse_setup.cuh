@@ -5,7 +5,7 @@
 #include "terrain/feet_search.hpp"
 #include "terrain/impulse_rows.cuh"
 
-/// The rows of a step: which surfaces may touch before its end, and what each of them begins with.
+/// Kernels that make the rows of a step: geometry, constants and first impulses of all contacts that may close in it.
 namespace grouser::terrain {
 
 template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real> {
@@ -20,14 +20,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     Real own, other; ///< [m]
   };
 
-  GROUSER_HD Vec velocityOf(int i) const { return d.motion[i].velocity.xyz().template as<Real>(); }
-  GROUSER_HD Vec spinOf(int i) const { return d.motion[i].spin.xyz().template as<Real>(); }
-
-  GROUSER_HD void raise(Fault fault, int i) const {
-    base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
-  }
-
-  /// Gap [units] up to which surfaces that move at `speed` [m/s] together have a row.
+  /// Largest gap [units] of a row between sides whose speeds add up to `speed` [m/s].
   GROUSER_HD std::int64_t marginFor(double speed) const {
     const double way = speed * d.unitsPerSpeed, most = static_cast<double>(s.margin - s.leastMargin);
     return s.leastMargin + static_cast<std::int64_t>(way < most ? way : most);
@@ -39,8 +32,8 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     return Real(0.4) * size.mass * size.radius * size.radius;
   }
 
-  /// The springs of the last step, turned into the present tangent plane, or none, where the contact is new: so they
-  /// stand in `history` too until the end of the step.
+  /// Loads the springs of the last step and turns them into the present tangent plane; a new contact has none. Stores
+  /// them in `history` again for the end of the step.
   GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, Touch& touch) const {
     const bool rolls = has(contact::kRollingFriction);
     if (touch.held) {
@@ -52,7 +45,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     if (rolls) storeTurned(history + 3, turned, touch.angle);
   }
 
-  /// Impulse and gradient that momentum has reached.
+  /// Extrapolated impulse and gradient.
   struct Ahead {
     contact::Impulse<Real> impulse, gradient;
   };
@@ -61,7 +54,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     return {x + (x - impulseAt(rows, s.before, at)) * s.ahead, g + (g - gradientAt(rows, s.before, at)) * s.ahead};
   }
 
-  /// Stores a row and the impulse to begin with.
+  /// Stores a row and its first impulse.
   GROUSER_HD void put(const ImpulseRowsView<Real>& rows, std::int64_t at, const contact::ImpulseRow<Real>& row,
                       const Arms& arms, Real overlap, std::uint32_t other, std::uint32_t place) const {
     rows.row[at] = {row.push,
@@ -96,6 +89,7 @@ template <class Real> struct MakeGrainRows : ImpulseKernel<Real> {
     if (hasNoRows(d, s, i)) return;
     const GrainSize<Real> size = Kernel::sizeOf(i);
     const base::Position p = d.position[i];
+    const double ownSpeed = Base::speedOf(i) + 2 * norm(d.gravityStep);
     Vec pulled{};
     std::uint32_t rows = 0;
     for (std::uint32_t k = 0; k < d.neighbours.count[i]; ++k) {
@@ -104,8 +98,7 @@ template <class Real> struct MakeGrainRows : ImpulseKernel<Real> {
       const base::Vec3i apart = Kernel::apart(p, d.position[j]);
       const std::int64_t distance2 = base::squaredNorm(apart);
       const std::int64_t reach = has(kManyRadii) ? std::int64_t{d.neighbours.reach[at]} : d.diameterUnits;
-      const double ways = Base::speedOf(i) + Base::speedOf(static_cast<int>(j)) + 2 * norm(d.gravityStep);
-      const std::int64_t range = reach + Base::marginFor(ways);
+      const std::int64_t range = reach + Base::marginFor(ownSpeed + Base::speedOf(static_cast<int>(j)));
       if (distance2 == 0) Base::raise(Fault::overlap, i); // no direction to push in
       if (distance2 >= range * range || distance2 == 0) continue;
       const bool held = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
@@ -128,12 +121,11 @@ private:
     // Both arms end in one point, so that angular momentum balances: each sphere gives its share of the gap.
     const Real share = pair.distance / (size.radius + other.radius);
     const Arms arms{size.radius * share, other.radius * share};
-    const int partner = static_cast<int>(j);
+    const ImpulseMotion<Real> mine = motionAtStart<Real>(d, i), theirs = motionAtStart<Real>(d, static_cast<int>(j));
     Touch touch{};
     touch.push = -pair.normal, touch.gap = -pair.overlap;
-    touch.velocity = (Base::velocityOf(i) - Base::velocityOf(partner)) -
-                     cross(Base::spinOf(i) * arms.own + Base::spinOf(partner) * arms.other, touch.push);
-    touch.spin = Base::spinOf(i) - Base::spinOf(partner);
+    touch.velocity = relativeVelocity(mine, theirs, touch.push, arms.own, arms.other);
+    touch.spin = mine.spin - theirs.spin;
     touch.freely = ground ? dot(d.gravityStep.template as<Real>(), touch.push) : Real(0);
     touch.effectiveMass = ground ? size.mass : size.mass * other.mass / (size.mass + other.mass);
     touch.effectiveRadius = size.radius * other.radius / (size.radius + other.radius);
@@ -144,10 +136,10 @@ private:
     if (Kernel::hasHistory()) Base::takeSprings(d.neighbours.history + listed * Kernel::historyWidth(), nullptr, touch);
     const contact::ImpulseRow<Real> row = contact::impulseRow(law, touch, s.rules);
     pulled -= row.push * row.pull;
-    Base::put(s.grains, at, row, arms, pair.overlap, ground ? kNobody : j, k);
+    Base::put(s.grains, at, row, arms, pair.overlap, ground ? kFixedPartner : j, k);
   }
 
-  /// With gravity and cohesion.
+  /// Velocities at the end of the step without contacts: gravity and cohesion alone.
   GROUSER_HD ImpulseMotion<Real> freely(int i, const GrainSize<Real>& size, const Vec& pulled) const {
     const Remainders kept = d.remainders[i];
     const base::Vec3f v = d.motion[i].velocity.xyz(), w = d.motion[i].spin.xyz();
@@ -168,7 +160,7 @@ template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
   using Base::d, Base::f, Base::has, Base::s;
   using typename Base::Arms, typename Base::Kernel, typename Base::Law, typename Base::Touch, typename Base::Vec;
 
-  /// A grain of the list near boundaries, and how many rows it has so far.
+  /// A grain near boundaries, with the rows that it has so far.
   struct Grain {
     int place, slot;
     base::Vec3d x;
@@ -210,7 +202,7 @@ template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
   }
 
 private:
-  /// Grains that never move have no rows: no surface may reach one.
+  /// Fixed grains have no rows: a surface that reaches one is a fault.
   GROUSER_HD void checkFixed(int i) const {
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
     for (int b = 0; b < d.surfaceCount; ++b)
@@ -219,32 +211,25 @@ private:
         Base::raise(Fault::through, i);
   }
 
-  /// A floor with hollows tighter than the grain: its places in touch.
+  /// Adds the contacts with a floor whose hollows are tighter than the grain.
   GROUSER_HD void addHollows(Grain& grain, double radius) const {
     if (d.floor.clearOf(grain.x, radius)) return;
-    Feet feet;
-    FeetSearch(d.floor, grain.x, radius).run(feet);
-    const FeetLoads loads(feet, radius, lawOf(grain, d.wallCount).hertz);
-    int place[Feet::kMost];
-    const std::uint32_t floorBits = (1u << Feet::kMost) - 1;
     float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
-    const std::uint32_t goOn = takePlaces(feet, grain.before >> d.wallCount & floorBits, normals, place);
-    grain.before = (grain.before & ~(floorBits << d.wallCount)) | goOn << d.wallCount;
+    const PlacedFeet placed(d.floor, grain.x, radius, grain.before >> d.wallCount, normals);
+    const Feet& feet = placed.feet;
+    const FeetLoads loads(feet, radius, Kernel::boundaryLaw(d.wallCount, grain.size.material).hertz);
+    grain.before = (grain.before & ~(kFloorBits << d.wallCount)) | placed.goOn << d.wallCount;
     for (int k = 0; k < feet.count; ++k) {
       if (!(loads.overlap(k) > 0)) continue;
       if (radius - feet.foot[k].distance > static_cast<double>(d.maxSurfaceShare) * radius)
         Base::raise(Fault::through, grain.slot);
-      add(grain, d.wallCount + place[k], feet.foot[k].normal, -loads.overlap(k), nullptr,
+      add(grain, d.wallCount + placed.place[k], feet.foot[k].normal, -loads.overlap(k), nullptr,
           static_cast<Real>(loads.share(k)));
-      if (normals) storeVector(normals + 3 * place[k], feet.foot[k].normal.template as<float>());
+      if (normals) storeVector(normals + 3 * placed.place[k], feet.foot[k].normal.template as<float>());
     }
   }
 
-  GROUSER_HD const Law& lawOf(const Grain& grain, int boundary) const {
-    return f.boundaryLaws[d.lawOf(boundary) * d.materials + grain.size.material];
-  }
-
-  /// `pose`: of a surface that may move; null where the boundary rests. `share`: of dashpots and of cohesion.
+  /// Adds a row. `pose`: null where the boundary rests; `share`: factor of dashpots and cohesion [-].
   GROUSER_HD void add(Grain& grain, int boundary, const base::Vec3d& outward, double gap, const SurfacePose* pose,
                       Real share = 1) const {
     Touch touch{};
@@ -255,8 +240,9 @@ private:
       const base::Vec3d point = grain.x - outward * static_cast<double>(arms.own);
       moves = pose->motion.velocityAt(point).template as<Real>(), turns = pose->motion.spin.template as<Real>();
     }
-    touch.velocity = Base::velocityOf(grain.slot) - cross(Base::spinOf(grain.slot) * arms.own, touch.push) - moves;
-    touch.spin = Base::spinOf(grain.slot) - turns;
+    const ImpulseMotion<Real> mine = motionAtStart<Real>(d, grain.slot);
+    touch.velocity = relativeVelocity(mine, {}, touch.push, arms.own, arms.other) - moves;
+    touch.spin = mine.spin - turns;
     Vec gains{};
     if (pose && pose->inverseMass > 0) {
       gains = (pose->axis * pose->gains).template as<Real>();
@@ -270,29 +256,30 @@ private:
     if (Kernel::hasHistory())
       Base::takeSprings(d.historyOf(grain.place, boundary, Kernel::historyWidth()), pose ? &pose->turned : nullptr,
                         touch);
-    contact::ImpulseRow<Real> row = contact::impulseRow(lawOf(grain, boundary), touch, s.rules);
+    contact::ImpulseRow<Real> row =
+        contact::impulseRow(Kernel::boundaryLaw(boundary, grain.size.material), touch, s.rules);
     grain.pulled -= row.push * row.pull;
     row.offset -= moves + gains, row.turnOffset -= contact::detail::tangentOf(turns, row.push);
-    Base::put(s.bounds, std::int64_t{grain.place} + grain.rows++ * s.near, row, arms, -touch.gap, kNobody,
+    Base::put(s.bounds, std::int64_t{grain.place} + grain.rows++ * s.near, row, arms, -touch.gap, kFixedPartner,
               static_cast<std::uint32_t>(boundary));
   }
 };
 
-/// How many rows a grain has.
+/// Adds up the rows of each grain.
 template <class Real> struct CountRows {
   GrainKernelData d;
   ImpulseData<Real> s;
   GROUSER_HD void operator()(int i) const {
-    if (s.ghost && s.ghost[i] != 0) return; // from its master
+    if (s.ghost && s.ghost[i] != 0) return; // the halo exchange sets it
     std::uint32_t rows = s.grainRows[i];
     if (const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0) rows += s.boundRows[at - 1];
     s.degree[i] = rows;
   }
 };
 
-/// The metric of each row: a bound of what all rows of both grains add to its velocity (splitting the grains' masses
-/// among them; Tonge, Benevolenski and Voroshilov 2012, ACM Trans. Graph. 31:105), and so a step of the solver under
-/// which the energy of the problem never rises.
+/// Computes the metric of each row, which bounds the effect of all rows of both grains on its velocity: each grain's
+/// mass is split among its rows (Tonge, Benevolenski and Voroshilov 2012, ACM Trans. Graph. 31:105). With steps of this
+/// size the objective of the convex problem never rises.
 template <class Real> struct WeighRows : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 60;
   using Base = ImpulseKernel<Real>;
@@ -309,7 +296,7 @@ private:
   GROUSER_HD void weigh(const ImpulseRowsView<Real>& rows, std::int64_t at, const GrainSize<Real>& own,
                         std::uint32_t degree) const {
     ImpulseRowRecord<Real>& row = rows.row[at];
-    const bool alone = row.other == kNobody;
+    const bool alone = row.other == kFixedPartner;
     const GrainSize<Real> other = alone ? own : Kernel::sizeOf(static_cast<int>(row.other));
     const Real many = static_cast<Real>(degree), more = alone ? Real(0) : static_cast<Real>(s.degree[row.other]);
     // Before surfaces touch, arms are longer than radii.
@@ -325,12 +312,13 @@ private:
     row.mobility = Real(1) / own.mass + (alone ? given : Real(1) / other.mass) + row.softness;
     if (!rows.rolling) return;
     RollingRowRecord<Real>& roll = rows.rolling[at];
-    // Rolling and shear turn one grain: each counts twice.
+    // Rolling and shear both turn the grain, so each counts twice.
     roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other)) + roll.softness;
   }
 
 public:
-  /// Of the metric: 1 + m R^2 / I of a solid sphere; with rolling rows, which share the turning part, twice that part.
+  /// Weight of shear over that of the normal direction [-]: 1 + m R^2 / I of a solid sphere; where rolling rows turn
+  /// the grain too, 1 + 2 m R^2 / I.
   GROUSER_HD static Real shearWeight(const ImpulseRowsView<Real>& rows) { return rows.rolling ? Real(6) : Real(3.5); }
 };
 

@@ -14,21 +14,20 @@ namespace grouser::terrain {
 struct GrainKernelData;
 struct GrainSystem;
 
-/// How well the complementarity problem of a step was solved, the same on all ranks.
+/// Outcome of solving the complementarity problem of a step, the same on all ranks.
 struct ImpulseReport {
-  int iterations{};    ///< 0 where the impulses of the last step were good enough
-  int products{};      ///< evaluations of velocities from impulses: iterations, and steps that were too long
+  int iterations{};    ///< 0: the impulses of the last step met the residual
   double residual{};   ///< largest of all rows [m/s]
   double rms{};        ///< root of their mean square [m/s]
   double rows{};       ///< contacts
-  bool relaxed{false}; ///< Coulomb's law did not converge and the step was ended with the convex relaxation
-  bool met{true};      ///< whether the residual is within what was asked for
+  bool relaxed{false}; ///< the convex relaxation finished the step, since Coulomb's law did not converge
+  bool met{true};      ///< the residual is at most run.residual
 };
 
 /// All steps since the start of the run.
 struct ImpulseTotals {
   std::int64_t steps{}, iterations{};
-  std::int64_t missed{};  ///< steps whose residual exceeded what was asked for
+  std::int64_t missed{};  ///< steps that exceeded run.residual
   std::int64_t relaxed{}; ///< see ImpulseReport
   double worst{};         ///< largest residual [m/s]
 
@@ -38,13 +37,15 @@ struct ImpulseTotals {
   void setWords(const std::int64_t* words);
 };
 
-/// Throws SimulationError where a step has no numbers any more, or where it misses what a strict run asks for.
+/// Throws SimulationError for velocities that are not finite, and in strict runs for steps that exceed run.residual or
+/// needed the relaxation.
 void checkReport(const ImpulseReport& report, const contact::ComplementarityOptions& options, std::int64_t step);
 
-/// Takes steps whose contacts are solved for together, as impulses on Coulomb's cones (contact/impulse_law.hpp):
+/// Takes steps whose contacts are solved for simultaneously, as impulses on Coulomb's cones (contact/impulse_law.hpp):
 /// accelerated projected gradients in the metric of WeighRows, with restarts (Nesterov 1983; Mazhar, Heyn, Negrut and
-/// Tasora 2015, ACM Trans. Graph. 34:32), from the impulses of the last step. The residual of the natural map tells how
-/// good the answer is. No order of contacts enters: the bits are the same on every device and any number of ranks.
+/// Tasora 2015, ACM Trans. Graph. 34:32), from the impulses of the last step. The residual of the natural map
+/// measures the error. The order of contacts does not matter: the bits are the same on every device and any number of
+/// ranks.
 class ImpulseSolver {
 public:
   /// Null where the model has penalty contacts.

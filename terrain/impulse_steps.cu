@@ -78,10 +78,10 @@ public:
                    real(options_.impact),
                    real(law.stiffness),
                    options_.compliance == contact::Compliance::rigid,
-                   options_.friction == contact::ImpulseFriction::associated};
+                   false};
     data_.margin = c.marginUnits;
     data_.leastMargin = c.scale.inUnits(GrainConstants::kLeastMargin * c.smallestRadius);
-    // A step of the solver changes no grain's velocity by more than what would move it by several radii.
+    // Range of the sums: velocity changes that would move a grain by 16 radii in a step.
     const double fastest = 16 * c.model.radius / c.model.timeStep;
     data_.perEnergy = base::fixedPointFor(c.model.mass * fastest * fastest, 50).perUnit;
     data_.perSquare = base::fixedPointFor(fastest * fastest, 50).perUnit;
@@ -90,7 +90,7 @@ public:
   void step(GrainSystem& system, const GrainKernelData& d) override {
     setUp(system, d);
     solve(system, d);
-    advance(system, d);
+    advance(d);
   }
 
   std::size_t bytes() const override {
@@ -104,9 +104,9 @@ private:
   template <class Body> void forSlots(const char* name, const GrainKernelData& d, const Body& body) const {
     base::forEach(exec_, name, d.count, body);
   }
-  template <class Kernel> Kernel kernel(GrainSystem& system, const GrainKernelData& d) const {
+  template <class Kernel> Kernel kernel(const GrainKernelData& d) const {
     Kernel k;
-    k.d = d, k.f = system.forceData<Real>(), k.s = data_;
+    k.d = d, k.f = force_, k.s = data_;
     return k;
   }
 
@@ -123,20 +123,23 @@ private:
     data_.near = static_cast<std::int64_t>(near), data_.free = free_.data(), data_.motion = motion_.data();
     data_.ghost = system.ghosts(), data_.sums = sums_.data(), data_.worst = worst_.data();
     data_.now = data_.before = 0, data_.tried = 2;
+    data_.rules.associated = options_.friction == contact::ImpulseFriction::associated;
+    force_ = system.forceData<Real>();
     setUpSurfaces(system);
-    forSlots("rows of grains", d, kernel<MakeGrainRows<Real>>(system, d));
-    base::forEach(exec_, "rows at boundaries", data_.near, kernel<MakeBoundaryRows<Real>>(system, d));
+    forSlots("rows of grains", d, kernel<MakeGrainRows<Real>>(d));
+    base::forEach(exec_, "rows at boundaries", data_.near, kernel<MakeBoundaryRows<Real>>(d));
     forSlots("count rows", d, CountRows<Real>{d, data_});
     exchange(system, contact::fieldOf(degree_));
     countOnSurfaces(system.comm);
-    forSlots("weigh rows", d, kernel<WeighRows<Real>>(system, d));
+    forSlots("weigh rows", d, kernel<WeighRows<Real>>(d));
   }
 
-  // Surfaces that forces move: one speed each, which every rank knows.
+  // Force-driven surfaces: each has one speed, the same on all ranks.
 
   void setUpSurfaces(const GrainSystem& system) {
     inverseMass_.clear();
-    const std::vector<double>& masses = system.boundaries.inverseMasses();
+    std::vector<double> masses;
+    for (const SurfacePose& pose : system.boundaries.surfacePoses()) masses.push_back(pose.inverseMass);
     if (std::all_of(masses.begin(), masses.end(), [](double m) { return m == 0; })) return;
     inverseMass_ = masses;
     surfaceRows_.assign(std::vector<std::uint32_t>(masses.size()));
@@ -164,7 +167,7 @@ private:
     surfaceChange_.assign(change);
   }
 
-  /// Masters' values into the ghosts of other ranks.
+  /// Sends the values of masters to their ghosts on other ranks.
   static void exchange(GrainSystem& system, const contact::ExchangeField& field) {
     if (system.distribution) system.distribution->subdomain().haloExchange().run({&field, 1});
   }
@@ -172,15 +175,14 @@ private:
   template <bool kTry> IterationSums evaluate(GrainSystem& system, const GrainKernelData& d) {
     using Gradient = FindGradient<Real, kTry>;
     if (!inverseMass_.empty()) surfacePushes_.zero();
-    forSlots("move by impulses", d, kernel<MoveByImpulses<Real, kTry>>(system, d));
+    forSlots("move by impulses", d, kernel<MoveByImpulses<Real, kTry>>(d));
     exchange(system, contact::fieldOf(motion_));
     moveSurfaces(system.comm);
     sums_.zero(), worst_.zero();
-    Gradient gradient = kernel<Gradient>(system, d);
+    Gradient gradient = kernel<Gradient>(d);
     gradient.count = d.count;
     base::forEach(exec_, "gradient of rows",
                   exec_.onCpu() ? (d.count + Gradient::kOnCpu - 1) / Gradient::kOnCpu : d.count, gradient);
-    ++report_.products;
     return summed(system.comm);
   }
 
@@ -207,7 +209,7 @@ private:
     while (last.worst > options_.residual && report_.iterations < options_.iterations) {
       const IterationSums tried = evaluate<true>(system, d);
       if (data_.tau < kSafeTau && tried.curvature > static_cast<double>(data_.tau) * tried.length) {
-        data_.tau = std::min(2 * data_.tau, Real(kSafeTau)); // too long a step: once more from where it began
+        data_.tau = std::min(2 * data_.tau, Real(kSafeTau)); // the step was too long: repeat it
         continue;
       }
       const double next = tried.against > 0 ? 1 : 0.5 * theta * (std::sqrt(theta * theta + 4) - theta);
@@ -224,7 +226,6 @@ private:
     report_.rows = last.contacts;
     report_.rms = report_.rows > 0 ? std::sqrt(last.squares / report_.rows) : 0;
     totals_.add(report_);
-    data_.rules.associated = options_.friction == contact::ImpulseFriction::associated;
     checkReport(report_, options_, system.steps);
   }
 
@@ -235,34 +236,35 @@ private:
     last = evaluate<false>(system, d);
   }
 
-  /// What was tried becomes what is; what was, what was before.
+  /// Makes the trial the current iteration, and that the previous one.
   void accept() {
     const int old = std::exchange(data_.now, data_.tried);
     data_.before = old;
     data_.tried = 3 - data_.now - data_.before;
   }
 
-  void advance(GrainSystem& system, const GrainKernelData& d) {
+  void advance(const GrainKernelData& d) {
     using Body = AdvanceByImpulses<Real>;
-    const Body body = kernel<Body>(system, d);
+    const Body body = kernel<Body>(d);
     if (d.books)
       base::forEach(exec_, "advance by impulses", Booked<Body>::items(exec_, d.count), Booked<Body>{body, d.count});
     else
       forSlots("advance by impulses", d, body);
   }
 
-  static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< at 1 the metric bounds the curvature
-  static constexpr int kPatience = 50;                      ///< iterations in which the residual must have halved
+  static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< the metric bounds the curvature at tau = 1
+  static constexpr int kPatience = 50;                      ///< iterations within which the residual must halve
 
   base::Exec exec_;
   ComplementarityOptions options_;
   ImpulseData<Real> data_{};
+  ForceData<Real> force_{};
   RowMemory<Real> grains_, bounds_;
   base::Array<std::uint32_t> grainRows_, boundRows_, degree_;
   base::Array<ImpulseMotion<Real>> free_, motion_;
   base::Array<base::WideSum> sums_;
   base::Array<std::uint32_t> worst_;
-  std::vector<double> inverseMass_; ///< [surface] [1/kg]; empty where forces move none
+  std::vector<double> inverseMass_; ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;
   base::Array<std::int64_t> surfacePushes_;
   base::Array<Real> surfaceChange_; ///< [m/s]

@@ -20,10 +20,10 @@ using contact::SurfaceShape;
 struct SurfacePose {
   contact::PartMotion motion;                   ///< frame S in the world, velocity and spin
   base::Mat3d turned = base::Mat3d::identity(); ///< since the start, in world components: springs turn with the surface
-  // Of a surface that forces move, for contacts that are solved for together with its speed.
-  base::Vec3d axis{};   ///< along which it is free, unit; zero where it goes as prescribed
+  // Force-driven surfaces: complementarity contacts solve for their speed too.
+  base::Vec3d axis{};   ///< unit vector along which it is free; zero: prescribed motion
   double inverseMass{}; ///< [1/kg]
-  double gains{};       ///< speed along `axis` that load and gravity add in this step [m/s]
+  double gains{};       ///< change of speed along `axis` by load and gravity in this step [m/s]
 
   /// The z axis of the surface's frame, in the world: out of a plane, along a cylinder.
   GROUSER_HD base::Vec3d normal() const {

@@ -140,7 +140,7 @@ void describeSqueezed(const coupling::Simulation& simulation, session::Recorder&
   fmt::print("{}", recorder.squeezed().text());
 }
 
-/// How the contacts of grains were solved for.
+/// Prints the statistics of the solver of complementarity contacts.
 void describeSolver(const coupling::Simulation& simulation) {
   if (!simulation.ground().grains || !simulation.ground().grains->system().impulses) return;
   const terrain::ImpulseTotals& all = simulation.ground().grains->system().impulses->totals();

@@ -93,7 +93,7 @@ struct HitchReading {
 Columns<HitchReading> hitchColumns();
 /// What grains touch of a vehicle.
 Columns<coupling::GearContacts> gearColumns();
-/// What a ledger has in some scenes only.
+/// Columns of the ledger that only some scenes have.
 struct LedgerParts {
   bool touching = true; ///< vehicle and bed may exchange impulses
   bool deforms = false; ///< a ground of deformable soil, with energies of its own
@@ -103,7 +103,7 @@ struct LedgerParts {
 /// Energy and momentum.
 Columns<coupling::Ledger> ledgerColumns(const LedgerParts& parts = {});
 
-/// How the last step's contacts were solved for, and all steps since the start.
+/// Solver statistics of the last step, and of all steps since the start.
 struct SolverReading {
   terrain::ImpulseReport last;
   terrain::ImpulseTotals all;

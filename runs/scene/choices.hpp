@@ -20,10 +20,10 @@ namespace grouser::scene {
 /// Of [[grains]]: where the centres come from.
 enum class FillForm { lattice, random, file };
 
-/// Of [run]: how contacts of grains act.
+/// Contact method of grains, [run].
 enum class ContactMethod {
-  penalty,        ///< springs and dashpots, step by step
-  complementarity ///< impulses that all contacts of a step share, solved for together
+  penalty,        ///< springs and dashpots, explicit in time
+  complementarity ///< impulses of all contacts, solved for simultaneously
 };
 
 /// Of [terrain].

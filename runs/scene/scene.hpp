@@ -51,8 +51,8 @@ struct RunSettings {
   /// Of the grains' forces.
   terrain::Precision precision = terrain::Precision::single;
   double impactSpeed = 1.0; ///< [m/s] that the step of hertz materials and of complementarity is chosen for
-  ContactMethod contact = ContactMethod::penalty; ///< of grains
-  std::optional<double> residual;                 ///< [m/s] of complementarity; empty: a hundredth of g dt
+  ContactMethod contact = ContactMethod::penalty; ///< method for contacts of grains
+  std::optional<double> residual;                 ///< [m/s] tolerance of complementarity contacts; empty: 0.01 g dt
   int threads = 0;                                ///< 0: all
   /// Of mechanisms; the next two belong to rattle.
   multibody::Integrator integrator = multibody::Integrator::kRattle;

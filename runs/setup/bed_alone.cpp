@@ -14,7 +14,7 @@ namespace grouser::setup {
 
 namespace {
 
-/// Whether the scene has more than its bed, which comes once that has settled.
+/// True if the scene adds grains or surfaces to the settled bed.
 bool hasMoreThanBed(const scene::Scene& scene) {
   if (!scene.grains.empty() || !scene.fills.empty()) return true;
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);

@@ -8,14 +8,14 @@
 
 namespace grouser::setup {
 
-/// Whether the scene's grains have complementarity contacts.
+/// True for run.contact = "complementarity".
 bool hasComplementarity(const scene::Scene& scene);
 
-/// Throws InputError at what these contacts do not have: vehicles, bodies, meshes, laws that yield, measured stresses;
-/// and where the scene has no grains.
+/// Throws InputError for scenes that complementarity contacts do not support: vehicles, bodies among grains, meshes,
+/// elastic-plastic laws, rigid contacts with cohesion, measured stresses, no grains.
 void checkComplementarity(const scene::Scene& scene);
 
-/// How the steps of such a scene are solved; empty for penalty contacts.
+/// Solver options of the scene; empty for penalty contacts.
 std::optional<contact::ComplementarityOptions> complementarityOptions(const scene::Scene& scene, double timeStep);
 
 /// The automatic step of such a scene [s], before what moves over time is resolved: 0.03 of the time in which gravity

@@ -33,7 +33,7 @@ std::string underPlate(double mass, const std::string& method, double cohesion =
 }
 
 TEST(ComplementarityScene, APlateLiesOnGrainsWithItsWeightHoweverLight) {
-  // Half of one ball's mass, and a hundred of them: a plate that answered a step later would be thrown away.
+  // Lighter and heavier than a ball (0.01 kg). Staggered coupling would diverge for the light plate.
   for (const auto& [mass, cohesion] : {std::pair{0.005, 0.0}, {1.0, 0.0}, {0.05, 0.2}}) {
     coupling::Simulation s = made(underPlate(mass, "complementarity", cohesion));
     while (s.time() < 0.4) s.step();

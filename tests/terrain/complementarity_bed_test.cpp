@@ -74,8 +74,8 @@ TEST_P(ComplementarityBed, KeepsMomentumAndItsBooks) {
             1e-5 * norm(after.angularImpulse));
   const double gained = after.kinetic + after.rotational - before.kinetic - before.rotational;
   EXPECT_NEAR(after.work, gained, 1e-6 * after.turnover);
-  // What work does not go into dissipation or springs is what implicit steps lose: less than a tenth, and never gained
-  // but for g h / 2 of the momentum, by which places are ahead of speeds.
+  // Implicit steps lose the remainder: less than a tenth. It is positive but for g h / 2 times the momentum, since
+  // positions are half a step ahead of velocities.
   const double lost = before.potential - after.potential + before.elastic - after.elastic - after.dissipated() - gained;
   EXPECT_GT(lost, 0.5 * 9.81 * m.timeStep * (before.momentum.z - after.momentum.z) - 1e-3 * after.turnover);
   EXPECT_LT(lost, 0.1 * after.turnover);
@@ -105,7 +105,7 @@ TEST_P(ComplementarityBed, PairsOfAllSizesBalance) {
   advance(grains, 60);
   const GrainLedger after = grains.ledger();
   ASSERT_GT(after.dissipated(), 0.1 * before.kinetic);
-  // Sums of a few hundred impulses in single precision, each the exact opposite of another.
+  // Single precision rounds the sums of a grain, not the impulses of a pair.
   EXPECT_LT(norm(after.momentum - before.momentum), 1e-6 * norm(before.momentum));
   EXPECT_LT(norm(after.angularMomentum - before.angularMomentum), 1e-6 * norm(before.angularMomentum));
 }
@@ -128,7 +128,7 @@ TEST_P(ComplementarityBed, OfManySizesBetweenPeriodicSidesOverFixedGrainsHasTheS
 }
 
 TEST(ComplementarityOfMany, ShorterStepsMeetThePenaltyLaw) {
-  // The same springs, implicit and explicit in time: where grains bounce apart they differ by the order of the step.
+  // Both methods integrate the same springs, so that the rebound differs by an error of first order in the step.
   const auto place = [](double step, bool solved) {
     GrainModel m = solved ? impulsiveGravel(Compliance::law) : gravel();
     m.timeStep = step, m.precision = Precision::double_, m.law.damping = 500;

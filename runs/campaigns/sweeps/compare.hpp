@@ -13,10 +13,10 @@ namespace grouser::sweeps {
 struct CompareOptions {
   SweepOptions sweep;
   std::vector<scene::TerrainKind> grounds;    ///< at least two, or none
-  std::vector<scene::ContactMethod> contacts; ///< likewise
-  int seeds = 3;                              ///< of grains; other grounds have nothing random, and one run
+  std::vector<scene::ContactMethod> contacts; ///< at least two, or none
+  int seeds = 3;                              ///< runs per variant with grains; other grounds have one run
   std::vector<std::string> fixed;             ///< "key=value", of all runs
-  double percent = 5;                         ///< of a figure, within which it counts as equal
+  double percent = 5;                         ///< difference of two figures that counts as equal
   std::string words;                          ///< the whole command line
 };
 

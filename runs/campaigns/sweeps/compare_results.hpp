@@ -37,7 +37,7 @@ struct VariantDifference {
 struct Comparison {
   std::vector<std::string> columns;
   std::vector<VariantResult> variants;
-  std::vector<VariantDifference> differences; ///< of all pairs
+  std::vector<VariantDifference> differences; ///< all pairs of variants
 };
 
 /// Difference b - a with its 95 % half width: Welch's interval between two samples, that of the other mean where one
