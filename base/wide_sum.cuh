@@ -12,7 +12,7 @@ struct alignas(16) WideSum {
   std::uint64_t low{};
   std::int64_t high{};
 
-  WideSum& operator+=(const WideSum& other) {
+  GROUSER_HD WideSum& operator+=(const WideSum& other) {
     low += other.low;
     high += other.high + (low < other.low ? 1 : 0);
     return *this;
@@ -21,6 +21,12 @@ struct alignas(16) WideSum {
   double value() const {
     __extension__ using Wide = __int128;
     return static_cast<double>(static_cast<Wide>(high) * (static_cast<Wide>(1) << 64) + static_cast<Wide>(low));
+  }
+  /// Rounded once where it fits into 64 bits, the same on every device.
+  GROUSER_HD double nearly() const {
+    const auto small = static_cast<std::int64_t>(low);
+    if (high == (small < 0 ? -1 : 0)) return static_cast<double>(small);
+    return static_cast<double>(high) * 0x1p64 + static_cast<double>(low);
   }
   bool operator==(const WideSum&) const = default;
 };

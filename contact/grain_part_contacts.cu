@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/for_each_group.cuh"
 #include "contact/grain_part_kernel.cuh"
+#include "contact/part_patches.cuh"
 #include "contact/strongest_force.hpp"
 
 #include <algorithm>
@@ -116,6 +117,13 @@ struct Forget {
   }
 };
 
+std::vector<ContactLaw> scaled(const GrainPartMaterials& materials, const GrainPartModel& model) {
+  std::vector<ContactLaw> laws;
+  for (const ContactLaw& law : materials.laws) laws.push_back(scaledFor(law, model.radius));
+  if (laws.empty()) laws.push_back(scaledFor(model.law, model.radius));
+  return laws;
+}
+
 struct Box {
   Vec3d low, high;
 };
@@ -133,11 +141,10 @@ Box boxOf(const base::SphereSet& set) {
 GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
                                      const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
                                      const base::Comm& comm, const GrainPartMaterials& materials)
-    : exec_(exec), comm_(comm), model_(model), partCount_(parts.size()), rolling_(false), crushes_(materials.crush()),
+    : exec_(exec), comm_(comm), model_(model), scaledLaws_(scaled(materials, model)), partCount_(parts.size()), rolling_(false), crushes_(materials.crush()),
       features_(0) {
   std::vector<BasicLaw<float>> laws;
-  for (const ContactLaw& law : materials.laws) laws.push_back(scaledFor(law, model.radius).as<float>());
-  if (laws.empty()) laws.push_back(scaledFor(model.law, model.radius).as<float>());
+  for (const ContactLaw& law : scaledLaws_) laws.push_back(law.as<float>());
   for (const BasicLaw<float>& law : laws) features_ |= law.features(), allHertz_ = allHertz_ && law.hertz;
   rolling_ = (features_ & kRollingFriction) != 0;
   searchFrom_ = model.searchFrom > 0 ? model.searchFrom : exec.onCpu() ? ~std::size_t{0} : 8192;
@@ -156,7 +163,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   std::vector<SurfaceGridView> views;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const double edge = sets[s]->spacing > 0.006 ? 0.75 * sets[s]->spacing : 0.0045;
-    grids_.push_back(isMet[s] && sets[s]->surfaceCount > 0 ? SurfaceGrid(exec, *sets[s], model.radius, edge)
+    grids_.push_back(isMet[s] && sets[s]->surfaceCount > 0 ? SurfaceGrid(exec, *sets[s], model.radius + model.gap, edge)
                                                            : SurfaceGrid());
     views.push_back(grids_.back().view());
   }
@@ -245,7 +252,7 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
                  motion.data(),
                  parts_.data(),
                  static_cast<int>(partCount_),
-                 model_.radius + model_.margin,
+                 model_.radius + model_.gap + model_.margin,
                  {1e300, 1e300, 1e300},
                  {-1e300, -1e300, -1e300},
                  count_.data(),
@@ -350,6 +357,11 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
     run.template operator()<kFriction | kManyMasses>();
   else
     run.template operator()<kFriction>();
+}
+
+PartPatches GrainPartContacts::patches(const GrainsView& grains, const base::Array<PartMotion>& motion,
+                                       PartLoad* loads) {
+  return {forcesOf<kGeneral>(grains, motion, loads, nullptr), range_.data(), static_cast<std::int64_t>(pairs_)};
 }
 
 PartMomentsView GrainPartContacts::measure(const GrainsView& grains, const base::Array<PartMotion>& motion) {

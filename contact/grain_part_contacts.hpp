@@ -22,6 +22,7 @@
 namespace grouser::contact {
 
 template <unsigned kFeatures> struct GrainPartForces;
+struct PartPatches;
 
 /// Contacts of grains with rigid parts made of spheres.
 ///
@@ -55,6 +56,14 @@ public:
   /// base::Gate has it.
   void computeOnCleared(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                         PartLoad* loads, const std::uint32_t* off);
+  /// For complementarity contacts, whose solver computes the loads in the place of compute(): the surfaces near each
+  /// listed grain. `loads` as there; clear clearedSums() before each step. Valid until the next refresh.
+  PartPatches patches(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads);
+  /// Laws by grain material and part material, with unscaled masses.
+  const std::vector<ContactLaw>& laws() const { return scaledLaws_; }
+  bool rolls() const { return rolling_; }
+  const GrainPartModel& model() const { return model_; }
+  std::size_t parts() const { return partCount_; }
   /// Device memory to clear before each step.
   base::Parcel clearedSums();
   base::Parcel clearedCount();
@@ -123,6 +132,7 @@ private:
   base::Exec exec_;
   base::Comm comm_;
   GrainPartModel model_;
+  std::vector<ContactLaw> scaledLaws_;
   std::vector<SurfaceGrid> grids_;
   std::size_t partCount_;
   base::Array<SurfaceGridView> gridViews_;

@@ -33,7 +33,7 @@ struct ComplementarityOptions {
 template <class T> struct ImpulseRules {
   T timeStep, recovery, impact;
   T stiffness; ///< scale of keptImpulse() [N/m]
-  bool rigid, associated;
+  bool rigid;
 };
 
 /// Two surfaces at the start of a step, seen from side i.

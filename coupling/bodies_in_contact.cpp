@@ -35,9 +35,21 @@ std::vector<bool> BodiesInContact::touchingBodies() const {
   return all;
 }
 
-void BodiesInContact::collectInto(std::initializer_list<ForceMeans*> all) {
+void BodiesInContact::collectLoads() {
   contacts_->collect(loads_);
-  for (ForceMeans* means : all) {
+  if (!contacts_->solves()) addToMeans();
+}
+
+void BodiesInContact::solveContacts() {
+  if (!contacts_ || !contacts_->solves()) return;
+  if (!jointed_) jointed_ = std::make_unique<JointedBodies>(contactParts_, model(), stepSolver());
+  jointed_->begin(state_, loads_, timeStep());
+  contacts_->solve(*jointed_, loads_);
+  addToMeans();
+}
+
+void BodiesInContact::addToMeans() {
+  for (ForceMeans* means : means()) {
     if (!means) continue;
     means->sums.resize(contactParts_.count() + contacts_->surfaces());
     for (std::size_t c = 0; c < means->sums.size(); ++c) means->sums[c] += contacts_->groundForce(c);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coupling/contact_parts.hpp"
+#include "coupling/jointed_bodies.hpp"
 #include "coupling/ledger.hpp"
 #include "coupling/part_contacts.hpp"
 #include "coupling/step_observer.hpp"
@@ -10,7 +11,6 @@
 #include "multibody/state.hpp"
 
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -30,11 +30,17 @@ public:
   void setSurfacePoses() { contacts_->setPoses(state_); }
   void refreshLists(bool groundListsEnded) { contacts_->refreshLists(groundListsEnded); }
   void computeContacts(StepObserver* observer) { contacts_->compute(observer); }
-  virtual void collectLoads() = 0; ///< once the device has them
-  virtual void advance() = 0;      ///< multibody step
+  /// Once the device has them. Those of grains that solve for their contacts follow by solveContacts().
+  void collectLoads();
+  /// Adds what drives and pulls the bodies in this step.
+  virtual void actuate() = 0;
+  /// Solves for the contacts with the grains, where these do so, by the response of the bodies to all other loads.
+  void solveContacts();
+  virtual void advance() = 0; ///< multibody step
 
   virtual const multibody::Model& model() const = 0;
   virtual const multibody::Solver& solver() const = 0;
+  virtual multibody::Solver& stepSolver() = 0; ///< for a step
   const multibody::State& state() const { return state_; }
   multibody::Balance bodiesBalance() const { return multibody::balance(model(), state_, loads_); }
 
@@ -72,13 +78,15 @@ protected:
     void restart() { sums.assign(sums.size(), {}), steps = 0; }
   };
 
-  /// Puts the loads on the bodies, and adds them to the means that are not null.
-  void collectInto(std::initializer_list<ForceMeans*> all);
+  /// Of the present step, to add to; null where nobody asks.
+  virtual std::vector<ForceMeans*> means() = 0;
   /// [body] mean force on its parts [N].
   std::vector<base::Vec3d> meanForces(const ForceMeans& means, std::size_t bodies) const;
   /// Adds the bodies' energies and momenta and those of their contacts. `bodies`: with the work of all else that acts
   /// on them as drive work; `potential`, `elastic`: their energies as the ledger counts them [J].
   void enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const;
+
+  virtual double timeStep() const = 0; ///< [s]
 
   multibody::State state_;
   multibody::Loads loads_;
@@ -87,6 +95,11 @@ protected:
   std::vector<spheredecomp::CutReport> bodyCuts_;
   ContactParts contactParts_;
   std::unique_ptr<PartContacts> contacts_; ///< null where the bodies touch nothing
+
+private:
+  void addToMeans();
+
+  std::unique_ptr<JointedBodies> jointed_; ///< null until contacts with the bodies are solved for
 };
 
 } // namespace grouser::coupling

@@ -13,6 +13,8 @@ contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::
   model.radius = bed.radius, model.mass = bed.mass, model.timeStep = bed.timeStep;
   // A grain listed at one end of its half skin may touch at the other.
   model.margin = bed.skin * bed.radius + margin;
+  const terrain::GrainConstants& constants = grains.system().constants;
+  model.gap = static_cast<double>(constants.marginUnits) * constants.scale.unit; // 0 with penalty contacts
   model.law = setup.partLaws.laws.front();
   model.manyRadii = setup.manyKinds;
   model.scale = grains.scale();

@@ -15,6 +15,7 @@ GroundTraits GranularGround::traits() const {
   traits.replicated = ReplicatedWork(grains().distribution());
   traits.smallestGrain = grains().system().constants.smallestRadius;
   traits.hasMomentum = true;
+  traits.solves = grains().system().impulses != nullptr;
   return traits;
 }
 
@@ -30,7 +31,21 @@ void GranularGround::beginUncoupled() {
 
 void GranularGround::compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double*,
                              contact::PartLoad* loads) {
-  onParts_->contacts().computeOn(exec, grains().view(), motion, loads);
+  if (grains().system().impulses)
+    solved_ = {&onParts_->contacts(), &motion, loads, nullptr};
+  else
+    onParts_->contacts().computeOn(exec, grains().view(), motion, loads);
+}
+
+void GranularGround::solve(contact::BodyResponse& bodies) {
+  solved_.bodies = &bodies;
+  grains().system().impulses->meet(solved_);
+  grains().beginStep(nullptr);
+}
+
+/// Has begun where contacts were solved for.
+void GranularGround::beginStep() {
+  if (!solved_.bodies) grains().beginStep(onParts_ ? &onParts_->loads() : onMeshes_);
 }
 
 void GranularGround::setGravity(const base::Vec3d& gravity) {

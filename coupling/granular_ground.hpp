@@ -28,7 +28,8 @@ public:
   void compute(const base::Exec& exec, const base::Array<contact::PartMotion>& motion, const double* travelled,
                contact::PartLoad* loads) override;
   void collect(const contact::PartLoad& own) override { onParts_->countEnded(own.force.x); }
-  void beginStep() override { grains().beginStep(onParts_ ? &onParts_->loads() : onMeshes_); }
+  void solve(contact::BodyResponse& bodies) override;
+  void beginStep() override;
   void endStep() override { grains().endStep(); }
   void setGravity(const base::Vec3d& gravity) override;
   void addTo(Ledger& ledger) override;
@@ -51,6 +52,7 @@ private:
   base::Exec exec_;
   std::unique_ptr<GrainsOnParts> onParts_;
   const contact::GrainLoadsView* onMeshes_{nullptr};
+  terrain::ImpulseParts solved_; ///< with complementarity contacts
 };
 
 } // namespace grouser::coupling

@@ -66,6 +66,10 @@ void Mechanism::command(const Inputs& inputs, const base::Vec3d& gravity) {
       loads_.external[at(i.target)] = {{i.value[0], i.value[1], i.value[2]}, {i.value[3], i.value[4], i.value[5]}};
 }
 
+void Mechanism::actuate() {
+  if (contacts_) applied_.add(state_, loads_);
+}
+
 void Mechanism::advance() {
   if (controller_) {
     controller_->advance(solver_, state_, loads_, static_cast<double>(steps_ + 1) * timeStep_,
@@ -73,7 +77,6 @@ void Mechanism::advance() {
     ++steps_;
     return;
   }
-  if (contacts_) applied_.add(state_, loads_);
   try {
     replicated_.run([this] { solver_.step(state_, loads_, timeStep_); });
   } catch (const base::SimulationError& error) {

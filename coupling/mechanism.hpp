@@ -29,20 +29,21 @@ public:
             Ground* ground = nullptr, const std::vector<Obstacle>& obstacles = {}, SphereSets* kept = nullptr);
 
   bool touches() const { return contacts_ != nullptr; }
-  void collectLoads() override { collectInto({&rowMeans_}); }
 
   /// Throws base::InputError where the mechanism has nothing that the input could set.
   void require(const Input& input) const;
   /// From the next step on what acts among these; all have passed require().
   void command(const Inputs& inputs, const base::Vec3d& gravity);
 
-  /// One step. Throws base::SimulationError, also where the motion has become too quick for the step: at every
+  void actuate() override;
+  /// One step, after actuate(). Throws base::SimulationError, also where the motion has become too quick for the step: at every
   /// kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.
   void advance() override;
   static constexpr std::int64_t kJudgeInterval = 50;
 
   const multibody::Model& model() const override { return model_; }
   const multibody::Solver& solver() const override { return solver_; }
+  multibody::Solver& stepSolver() override { return solver_; }
 
   void addTo(Ledger& ledger) const;
 
@@ -78,6 +79,8 @@ public:
   void restore(const MechanismState& saved);
 
 private:
+  std::vector<ForceMeans*> means() override { return {&rowMeans_}; }
+  double timeStep() const override { return timeStep_; }
   void checkTravel() const;
   void watchDrift();
   void judge();

@@ -83,6 +83,18 @@ void MeshContacts::computeContacts(const terrain::Grains& grains, const std::vec
   sums_.device().zero();
   contacts_->compute(grains.view(), motion_.device(), sums_.device().data());
   grainLoads_ = contacts_->grainLoads();
+  collect();
+}
+
+terrain::ImpulseParts MeshContacts::parts(const terrain::Grains& grains,
+                                          const std::vector<contact::PartMotion>& motions, bool slotsChanged,
+                                          contact::BodyResponse& response) {
+  place(grains, motions, slotsChanged);
+  sums_.device().zero();
+  return {contacts_.get(), &motion_.device(), sums_.device().data(), &response};
+}
+
+void MeshContacts::collect() {
   sums_.download();
   base::synchronize(exec_);
   comm_.sum(&sums_.host()->force.x, 6 * sums_.size());

@@ -28,12 +28,17 @@ public:
   /// One step: contacts with the meshes where they are, one motion a mesh.
   void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                        bool slotsChanged);
+  /// The same for complementarity contacts, which the grains' step computes: collect() follows it.
+  terrain::ImpulseParts parts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
+                              bool slotsChanged, contact::BodyResponse& response);
+  /// Takes the loads over from the device; all ranks call it.
+  void collect();
   /// Contact moments of the grains in the coming step; see GrainPartContacts::measure().
   contact::PartMomentsView measure(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                                    bool slotsChanged);
   /// For the grains' step, after computeContacts().
   const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
-  /// On each mesh about its centre, of all ranks, after computeContacts().
+  /// On each mesh about its centre, of all ranks, after computeContacts() or collect().
   const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
 
   contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }

@@ -173,32 +173,52 @@ void PartContacts::computeRigid() {
   });
 }
 
+namespace {
+void add(const base::FixedPoint& force, const base::FixedPoint& torque, const contact::PartLoad& load,
+         multibody::Wrench& wrench) {
+  wrench.force += force.checked(load.force, "forces on a part");
+  wrench.torque += torque.checked(load.torque, "torques on a part");
+}
+} // namespace
+
 void PartContacts::collect(multibody::Loads& loads) {
-  const std::size_t n = parts_.count();
   const contact::PartLoad* track = gear_ ? gearLoads_.data() : track_ ? loadSums_.host() : nullptr;
-  const contact::PartLoad* surfaces = obstacles_ ? surfaceLoads_.data() : nullptr;
+  for (multibody::Wrench& wrench : loads.external) wrench = {};
+  if (!traits_.solves) sumGroundLoads();
+  for (std::size_t c = 0; c < parts_.count(); ++c) {
+    multibody::Wrench& wrench = loads.external[parts_.parts[c].body];
+    if (track) add(quanta_.force, quanta_.torque, track[c], wrench);
+    if (!traits_.solves) addGroundLoad(c, wrench);
+    if (obstacles_) add(quanta_.force, quanta_.torque, surfaceLoads_[c], wrench);
+  }
+}
+
+void PartContacts::solve(contact::BodyResponse& bodies, multibody::Loads& loads) {
+  ground_->solve(bodies);
+  base::carry(exec_, std::array{base::Parcel{groundLoads(), loadSums_.device().data() + parts_.count(),
+                                             (parts_.count() + 1) * sizeof(contact::PartLoad)}});
+  base::synchronize(exec_);
+  sumGroundLoads();
+  for (std::size_t c = 0; c < parts_.count(); ++c) addGroundLoad(c, loads.external[parts_.parts[c].body]);
+}
+
+/// Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
+void PartContacts::sumGroundLoads() {
+  const std::size_t n = parts_.count();
   contact::PartLoad* const ground = groundLoads();
-  // Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
   constexpr std::size_t kNumbers = sizeof(contact::PartLoad) / sizeof(std::int64_t);
   static_assert(kNumbers == 6 && sizeof(contact::PartLoad) % sizeof(std::int64_t) == 0);
   if (ground_ && !traits_.onHost) traits_.comm.sum(&ground->force.x, (n + 1) * kNumbers);
   if (ground_) ground_->collect(ground[n]);
-  for (multibody::Wrench& wrench : loads.external) wrench = {};
-  for (std::size_t c = 0; c < n; ++c) {
-    multibody::Wrench& wrench = loads.external[parts_.parts[c].body];
-    const auto add = [&wrench](const base::FixedPoint& force, const base::FixedPoint& torque,
-                               const contact::PartLoad& load) {
-      wrench.force += force.checked(load.force, "forces on a part");
-      wrench.torque += torque.checked(load.torque, "torques on a part");
-    };
-    if (track) add(quanta_.force, quanta_.torque, track[c]);
-    add(groundQuanta_.force, groundQuanta_.torque, ground[c]);
-    if (surfaces) add(quanta_.force, quanta_.torque, surfaces[c]);
-    impulseOnParts_ += ground[c].force;
-    angularOnParts_ += (groundQuanta_.torque.value(ground[c].torque) +
-                        cross(motion_.host()[c].centre, groundQuanta_.force.value(ground[c].force))) *
-                       timeStep_;
-  }
+}
+
+void PartContacts::addGroundLoad(std::size_t part, multibody::Wrench& wrench) {
+  const contact::PartLoad& load = groundLoads()[part];
+  add(groundQuanta_.force, groundQuanta_.torque, load, wrench);
+  impulseOnParts_ += load.force;
+  angularOnParts_ += (groundQuanta_.torque.value(load.torque) +
+                      cross(motion_.host()[part].centre, groundQuanta_.force.value(load.force))) *
+                     timeStep_;
 }
 
 contact::PartLoad* PartContacts::groundLoads() {

@@ -51,8 +51,12 @@ public:
   /// Queues the contacts on the device, without waiting, and computes those of the host. `observer`: called after each
   /// kind of contacts.
   void compute(StepObserver* observer);
-  /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them.
+  /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them. Those of a ground that
+  /// solves for them follow by solve().
   void collect(multibody::Loads& loads);
+  /// Solves for the contacts with such a ground and puts their loads on the bodies. `bodies` has all other loads.
+  void solve(contact::BodyResponse& bodies, multibody::Loads& loads);
+  bool solves() const { return traits_.solves; }
   /// Contact moments of the grains at the poses last set, for which the lists hold, without change of state.
   contact::PartMomentsView measure(GrainsOnParts& onGrains, const contact::GrainsView& grains);
   /// How far the parts may have moved in the step that has brought them to `state`.
@@ -90,6 +94,8 @@ private:
   friend std::vector<spheredecomp::CutReport> obstacleReports(const PartContacts& contacts);
 
   void makeTrack();
+  void sumGroundLoads();
+  void addGroundLoad(std::size_t part, multibody::Wrench& wrench);
   void makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept);
 
   // Whether parts have moved beyond what the lists hold.

@@ -85,12 +85,16 @@ void Simulation::step(StepObserver* observer) {
   if (touching_) base::synchronize(exec_), touching_->collectLoads();
   addFluidLoads();
   done(Stage::partLoads);
+  // Contacts that are solved for follow from all other loads on the bodies.
+  const bool solved = touching_ && touching_->contacts().solves();
+  if (solved) touching_->actuate(), touching_->solveContacts();
   if (surfaces_) surfaces_->computeContacts(*laid_.grains, steps_, listsEnded);
   if (ground_) ground_->beginStep();
   done(Stage::grainStep);
   // The device works on the ground while the host solves vehicle or mechanism.
-  if (vehicle_) vehicle_->advance();
-  if (mechanism_) mechanism_->advance();
+  BodiesInContact* const bodies = movingBodies();
+  if (bodies && !solved) bodies->actuate();
+  if (bodies) bodies->advance();
   if (fluid_) fluid_->advance(touching_ ? &touching_->state() : nullptr);
   done(Stage::multibody);
   if (ground_) namingCause([&] { ground_->endStep(); });
@@ -102,6 +106,11 @@ void Simulation::step(StepObserver* observer) {
   if (vehicle_ && steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
   afterStep();
   done(Stage::checks);
+}
+
+BodiesInContact* Simulation::movingBodies() {
+  if (vehicle_) return vehicle_.get();
+  return mechanism_.get();
 }
 
 /// `last`: the next step is not to be launched ahead of this one's end.
@@ -124,6 +133,7 @@ void Simulation::stepAhead(bool last) {
   ahead_->computeOnHost();
   ahead_->awaitLoads();
   vehicle_->collectLoads();
+  vehicle_->actuate();
   vehicle_->advance();
   namingCause([&] { ahead_->end(); });
   ++steps_;

@@ -100,6 +100,7 @@ private:
   void command();
   bool canStepAhead() const;
   void stepAhead(bool last);
+  BodiesInContact* movingBodies(); ///< null without
   void checkAlarm();
   void addGrains();
   void takeOutCrushed();

@@ -6,10 +6,28 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace grouser::coupling {
 
 using base::Vec3d;
+
+void MovedMeshes::begin(std::vector<terrain::SurfacePose> poses) {
+  poses_ = std::move(poses);
+  bodyOfPart_.resize(poses_.size()), inverses_.resize(poses_.size());
+  for (std::size_t k = 0; k < poses_.size(); ++k)
+    bodyOfPart_[k] = static_cast<std::uint32_t>(k), inverses_[k].mass = poses_[k].inverseMass;
+}
+
+void MovedMeshes::respond(const std::vector<contact::BodyImpulse>& impulses,
+                          std::vector<contact::BodyVelocity>& velocities) {
+  velocities.resize(poses_.size());
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    const terrain::SurfacePose& pose = poses_[k];
+    const double gained = pose.gains + pose.inverseMass * dot(pose.axis, impulses[k].linear);
+    velocities[k] = {pose.motion.velocity + pose.axis * gained, pose.motion.spin};
+  }
+}
 
 Surfaces::Surfaces(const GroundSetup& setup, const Vec3d& gravity, double timeStep)
     : setup_(setup), surfaces_(setup.surfaces), gravity_(gravity), timeStep_(timeStep) {
@@ -53,7 +71,13 @@ std::vector<contact::PartMotion> Surfaces::meshMotions(std::int64_t step) const 
 }
 
 void Surfaces::computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
-  if (meshes_) meshes_->computeContacts(grains, meshMotions(step), slotsChanged);
+  if (!meshes_) return;
+  terrain::ImpulseSolver* const solver = grains.system().impulses.get();
+  if (!solver) return meshes_->computeContacts(grains, meshMotions(step), slotsChanged);
+  std::vector<terrain::SurfacePose> poses;
+  for (std::size_t i = shapes_; i < surfaces_.size(); ++i) poses.push_back(placement(i, step));
+  movedMeshes_.begin(std::move(poses));
+  solver->meet(meshes_->parts(grains, meshMotions(step), slotsChanged, movedMeshes_));
 }
 
 contact::PartMomentsView Surfaces::measure(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {
@@ -98,6 +122,7 @@ void Surfaces::checkPlace(std::size_t i, std::int64_t step) const {
 
 void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
   const double time = static_cast<double>(step) * timeStep_;
+  if (meshes_ && grains.system().impulses) meshes_->collect();
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const terrain::SurfaceLoad& load =
         i < shapes_ ? grains.system().boundaries.surfaceLoads()[i] : meshes_->loads()[i - shapes_];

@@ -14,6 +14,21 @@
 
 namespace grouser::coupling {
 
+/// The meshes of a scene as complementarity contacts see them: prescribed motions, or one free axis.
+class MovedMeshes : public contact::BodyResponse {
+public:
+  void begin(std::vector<terrain::SurfacePose> poses);
+  const std::vector<std::uint32_t>& bodyOfPart() const override { return bodyOfPart_; }
+  const std::vector<Inverse>& inverses() const override { return inverses_; }
+  void respond(const std::vector<contact::BodyImpulse>& impulses,
+               std::vector<contact::BodyVelocity>& velocities) override;
+
+private:
+  std::vector<terrain::SurfacePose> poses_; ///< at the start of the step
+  std::vector<std::uint32_t> bodyOfPart_;
+  std::vector<Inverse> inverses_;
+};
+
 /// The moving surfaces of a scene: where they are at each step, what they take to be moved, and how those that forces
 /// move give way. The same on all ranks.
 class Surfaces {
@@ -26,7 +41,7 @@ public:
   /// The meshes' contacts; after grains have been restored, before the first computeContacts().
   void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
 
-  /// Contacts of grains with meshes in step `step`.
+  /// Contacts of grains with meshes in step `step`; complementarity contacts are computed in the grains' step.
   void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
   /// Contact moments of grains with meshes in step `step`, without change of state; nothing without meshes.
   contact::PartMomentsView measure(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
@@ -89,6 +104,7 @@ private:
   SurfaceStates states_;
   std::size_t shapes_{0}; ///< surfaces that are no meshes
   std::unique_ptr<MeshContacts> meshes_;
+  MovedMeshes movedMeshes_;
 };
 
 } // namespace grouser::coupling

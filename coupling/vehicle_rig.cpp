@@ -135,8 +135,6 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
 
-void VehicleRig::collectLoads() { collectInto({&rowMeans_, &alarmMeans_, watch_ ? &watch_->forces : nullptr}); }
-
 /// What the driver asks for in this step; without a course and without engines a function of time alone.
 vehicle::Controls VehicleRig::controls() {
   vehicle::Controls controls = driver_.course()
@@ -147,12 +145,17 @@ vehicle::Controls VehicleRig::controls() {
   return controls;
 }
 
-void VehicleRig::advance() {
+void VehicleRig::actuate() {
   asked_ = controls();
   vehicle::applyControls(assembly_, asked_, gravity_, loads_);
   replicated_.run([this] {
     if (towing_) towing_->pull(assembly_, state_, driver_, timeStep_, gravity_, loads_);
     applied_.add(state_, loads_);
+  });
+}
+
+void VehicleRig::advance() {
+  replicated_.run([this] {
     solver_->step(state_, loads_, timeStep_);
     applied_.book(state_, timeStep_);
     if (towing_) towing_->book(assembly_, state_, timeStep_);

@@ -36,7 +36,7 @@ public:
              std::optional<double> lift = {});
   ~VehicleRig() override { contacts_.reset(); } // before the parts that it refers to
 
-  void collectLoads() override;
+  void actuate() override;
   void advance() override;
   /// Sets the force of a fluid on all bodies in this step [N]: it counts as support when the rig judges whether the
   /// vehicle is at rest.
@@ -44,6 +44,7 @@ public:
 
   const multibody::Model& model() const override { return assembly_.model; }
   const multibody::Solver& solver() const override { return *solver_; }
+  multibody::Solver& stepSolver() override { return *solver_; }
   const vehicle::Assembly& assembly() const { return assembly_; }
   const VehicleParts& parts() const { return *parts_; }
 
@@ -87,6 +88,8 @@ private:
     vehicle::Observer observer;
     ForceMeans forces{};
   };
+  std::vector<ForceMeans*> means() override { return {&rowMeans_, &alarmMeans_, watch_ ? &watch_->forces : nullptr}; }
+  double timeStep() const override { return timeStep_; }
   vehicle::ObserverOptions observerOptions() const;
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
   base::Vec3d groundForce(const ForceMeans& means) const; ///< sum over all parts [N]

@@ -255,6 +255,15 @@ void Solver::step(State& state, const Loads& loads, double dt) {
   s.stepper->step(state, loads, dt);
 }
 
+void Solver::startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists) {
+  impl_->checkFits(state, loads);
+  impl_->stepper->startResponse(state, loads, dt, twists);
+}
+
+void Solver::respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change) {
+  impl_->stepper->respond(impulses, change);
+}
+
 double Solver::projectVelocities(State& state, const Loads& loads) {
   Impl& s = *impl_;
   s.checkFits(state, loads);

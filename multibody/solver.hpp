@@ -37,6 +37,14 @@ public:
   /// (as a shock would). Returns the kinetic energy taken out [J].
   double projectVelocities(State& state, const Loads& loads);
 
+  /// Begins to answer impulses within a step of kSymplecticEuler: `twists`, one a body, become those at its end under
+  /// `loads`, to first order in the gaps that the step opens in curved joints. Does not change what step() does. Throws
+  /// std::logic_error with kRattle.
+  void startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists);
+  /// Change of these twists by further impulses [N s, N m s], one a body, through all joints, drives and implicit
+  /// springs: linear, symmetric, and at most that of bodies without joints.
+  void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change);
+
   /// Largest step for which explicit springs are stable at a state's poses [s]: 2 / omega, omega the highest frequency
   /// of all springs against the constrained masses (the factor 2 is another for orders above 2, see kExplicit);
   /// infinite without springs. `spring`, if given, receives the name of the spring with the greatest part in it.

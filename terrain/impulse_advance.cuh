@@ -43,6 +43,7 @@ template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Re
     Total total;
     endGrainRows(i, total);
     endBoundaryRows(i, p, size, total);
+    endPartRows(i, p, size, total);
     if (has(kLedger) && (total.heldForce.x != 0 || total.heldForce.y != 0 || total.heldForce.z != 0)) {
       const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
       books.addForce(total.heldForce, cross(x, total.heldForce) + total.heldTorque, d.bookScale);
@@ -116,6 +117,39 @@ private:
       if (deep > d.maxSurfaceShare * static_cast<float>(size.radius)) Step::raise(Fault::through, i);
     }
     if (total.touching != d.boundaryContactMask[i]) d.boundaryContactMask[i] = total.touching;
+  }
+
+  /// The parts receive exactly the opposite of the forces on the grain.
+  GROUSER_HD void endPartRows(int i, const base::Position& p, const GrainSize<Real>& size, Total& total) const {
+    const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
+    forPartRowsOf(s, i, [&](int e, std::int64_t at) {
+      const contact::PartPatches& patches = s.patches;
+      const contact::PartMotion& part = patches.motion[patches.part(e)];
+      const ImpulseRowRecord<Real> row = s.parts.row[at];
+      const PartRowRecord<Real> on = s.parts.part[at];
+      const base::Vec3d point = x - row.push.template as<double>() * static_cast<double>(row.armOwn);
+      const BodyMotion<Real> body = s.bodyMotion[on.body];
+      Relative start = between(motionAtStart<Real>(d, i), {}, row), end = between(s.motion[i], {}, row);
+      start.velocity -= part.velocityAt(point).template as<Real>(), start.spin -= part.spin.template as<Real>();
+      end.velocity -= body.at(on.arm), end.spin -= body.spin;
+      float history[6];
+      storeVector(history, patches.memory[at].shear);
+      storeVector(history + 3, patches.angle ? patches.angle[at] : base::Vec3f{});
+      const bool touches = endRow(s.parts, at, row, start, end, history, &part.rotation, 1, total);
+      if (touches) patches.memory[at].shear = loadVector(history), patches.count(contact::kPatchesNow, 1);
+      else patches.memory[at] = {};
+      if (patches.angle) patches.angle[at] = loadVector(history + 3);
+      const base::Vec3l quanta = patches.model.force.quantise(forceOf(s.parts.impulse[s.now][at] -
+                                                                      row.push * s.parts.end[at].pull));
+      const base::Vec3d force = patches.model.force.value(quanta);
+      base::Vec3d torque = cross(point - part.centre, -force);
+      if (s.parts.rolling) torque -= forceOf(s.parts.turning[s.now][at]);
+      patches.loadPart(e, quanta, torque);
+      add(row, force, s.parts, at, false, total);
+      const auto overlap = static_cast<float>(s.parts.end[at].overlap), radius = static_cast<float>(size.radius);
+      if (overlap > patches.load[e].deepest) patches.press(e, overlap, radius);
+      if (overlap > radius) Step::raise(Fault::through, i);
+    });
   }
 
   GROUSER_HD base::Vec3d forceOf(const Vec& impulse) const {

@@ -16,7 +16,7 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   using typename Base::Kernel, typename Base::Vec;
 
   GROUSER_HD void operator()(int i) const {
-    if (s.ghost && s.ghost[i] != 0) return; // the halo exchange sets it
+    if (s.control->done || (s.ghost && s.ghost[i] != 0)) return; // the halo exchange sets ghosts
     if (hasNoRows(d, s, i)) {
       s.motion[i] = {}; // fixed
       return;
@@ -28,10 +28,10 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
       contact::Impulse<Real> x;
       if constexpr (kTry) {
         x = stepped(rows, at, row);
-        rows.impulse[s.tried][at] = x.linear;
-        if (rows.rolling) rows.turning[s.tried][at] = x.rolling;
+        rows.impulse[s.control->tried][at] = x.linear;
+        if (rows.rolling) rows.turning[s.control->tried][at] = x.rolling;
       } else {
-        x = impulseAt(rows, s.now, at);
+        x = impulseAt(rows, s.control->now, at);
       }
       pushed += x.linear;
       int surface = 0;
@@ -39,6 +39,7 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
         base::atomicAdd64(
             s.surfacePushes + surface,
             -s.push.quantise(dot((x.linear - row.push * rows.end[at].pull).template as<double>(), pose->axis)));
+      if (rows.part && s.bodyPushes) pushBody(rows.part[at], x.linear - row.push * rows.end[at].pull, x.rolling);
       turned += x.rolling - cross(row.push, x.linear) * row.armOwn;
     });
     const ImpulseMotion<Real>& free = s.free[i];
@@ -47,19 +48,27 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   }
 
 private:
+  /// Adds the opposite of an impulse on a grain to that on a body.
+  GROUSER_HD void pushBody(const PartRowRecord<Real>& on, const Vec& impulse, const Vec& rolling) const {
+    const base::Vec3l linear = s.bodyPush.quantise(-impulse.template as<double>()),
+                      angular = s.bodyTurn.quantise(-(cross(on.arm, impulse) + rolling).template as<double>());
+    std::int64_t* const pushes = s.bodyPushes + std::int64_t{6} * on.body;
+    for (int a = 0; a < 3; ++a) base::atomicAdd64(pushes + a, linear[a]), base::atomicAdd64(pushes + 3 + a, angular[a]);
+  }
+
   GROUSER_HD contact::Impulse<Real> stepped(const ImpulseRowsView<Real>& rows, std::int64_t at,
                                             const ImpulseRowRecord<Real>& row) const {
     auto [y, gy] = Base::ahead(rows, at);
-    const Real shearWeight = WeighRows<Real>::shearWeight(rows), step = Real(1) / (s.tau * row.weight);
+    const Real shearWeight = WeighRows<Real>::shearWeight(s), step = Real(1) / (s.control->tau * row.weight);
     const Real along = dot(gy.linear, row.push);
     y.linear -= (gy.linear - row.push * along) * (step / shearWeight) + row.push * (along * step);
     contact::ImpulseMetric<Real> metric{shearWeight, Real(0)};
     if (rows.rolling) {
       const Real weight = rows.rolling[at].weight;
-      y.rolling -= gy.rolling * (Real(1) / (s.tau * weight));
+      y.rolling -= gy.rolling * (Real(1) / (s.control->tau * weight));
       metric.rolling = weight / row.weight;
     }
-    return contact::allowed(y, row.push, coneAt(rows, at), metric, s.rules.associated);
+    return contact::allowed(y, row.push, coneAt(rows, at), metric, s.control->associated);
   }
 };
 
@@ -89,6 +98,7 @@ template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
   };
 
   GROUSER_HD void operator()(int item) const {
+    if (s.control->done) return;
     Sums sums;
 #if defined(__CUDA_ARCH__)
     run(item, sums);
@@ -115,7 +125,7 @@ private:
     const ImpulseRowRecord<Real> row = rows.row[at];
     const bool alone = row.other == kFixedPartner;
     const ImpulseMotion<Real> other = alone ? ImpulseMotion<Real>{} : s.motion[row.other];
-    const int made = kTry ? s.tried : s.now;
+    const int made = kTry ? s.control->tried : s.control->now;
     const contact::Impulse<Real> x = impulseAt(rows, made, at);
     contact::Impulse<Real> a;
     a.linear = relativeVelocity(own, other, row.push, row.armOwn, row.armOther) + x.linear * row.shearSoftness +
@@ -123,10 +133,15 @@ private:
     int surface = 0;
     if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
       a.linear -= pose->axis.template as<Real>() * s.surfaceChange[surface];
+    Vec turns = other.spin;
+    if (rows.part) {
+      const BodyMotion<Real> body = s.bodyMotion[rows.part[at].body];
+      a.linear -= body.at(rows.part[at].arm), turns = body.spin;
+    }
     rows.gradient[made][at] = a.linear;
     if (rows.rolling) {
       const RollingRowRecord<Real>& roll = rows.rolling[at];
-      a.rolling = contact::detail::tangentOf(own.spin - other.spin, row.push) + x.rolling * roll.softness + roll.offset;
+      a.rolling = contact::detail::tangentOf(own.spin - turns, row.push) + x.rolling * roll.softness + roll.offset;
       rows.turnGradient[made][at] = a.rolling;
     }
     const double share = alone ? 1 : 0.5;
@@ -145,7 +160,7 @@ private:
       metric.rolling = Real(2.5) / (arm * arm); // of a solid sphere: mass over moment of inertia
       z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * metric.rolling));
     }
-    const contact::Impulse<Real> off = x - contact::allowed(z, row.push, coneAt(rows, at), metric, s.rules.associated);
+    const contact::Impulse<Real> off = x - contact::allowed(z, row.push, coneAt(rows, at), metric, s.control->associated);
     const double mobility = static_cast<double>(row.mobility);
     const double square = mobility * mobility *
                           (norm2(off.linear.template as<double>()) +
@@ -163,12 +178,12 @@ private:
                               const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
                               Sums& sums) const {
     const auto [y, gy] = Base::ahead(rows, at);
-    const contact::Impulse<Real> step = x - y, way = x - impulseAt(rows, s.now, at);
+    const contact::Impulse<Real> step = x - y, way = x - impulseAt(rows, s.control->now, at);
     const auto product = [](const Vec& p, const Vec& q) {
       return dot(p.template as<double>(), q.template as<double>());
     };
     const double along = static_cast<double>(dot(step.linear, row.push)),
-                 shearWeight = WeighRows<Real>::shearWeight(rows);
+                 shearWeight = WeighRows<Real>::shearWeight(s);
     double length = static_cast<double>(row.weight) *
                     (along * along * (1 - shearWeight) + shearWeight * product(step.linear, step.linear));
     if (rows.rolling) length += static_cast<double>(rows.rolling[at].weight) * product(step.rolling, step.rolling);
@@ -178,6 +193,52 @@ private:
     sums.add(kCurvature, share * curvature, s.perEnergy);
     sums.add(kLength, share * length, s.perEnergy);
     sums.add(kAgainst, share * against, s.perEnergy);
+  }
+};
+
+/// Adds up the banks of an iteration and clears them.
+template <class Real> struct SumBanks {
+  static constexpr int kCount = kImpulseSums * kSumSizes;
+  ImpulseData<Real> s;
+  base::WideSum* totals;
+  GROUSER_HD void operator()(int k) const {
+    base::WideSum total;
+    for (int bank = 0; bank < kSumBanks; ++bank) {
+      base::WideSum& share = s.sums[bank * kCount + k];
+      total += share, share = {};
+    }
+    totals[k] = total;
+  }
+};
+
+/// Sums of an iteration. `worst`: as ImpulseData has it.
+template <class Real>
+GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::WideSum* totals, std::uint32_t worst) {
+  const auto sum = [&](int which, double perUnit) {
+    const base::WideSum* const of = totals + which * kSumSizes;
+    return of[0].nearly() / perUnit + of[1].nearly() / (perUnit * kFinerSums);
+  };
+  return {sum(kCurvature, s.perEnergy),
+          sum(kLength, s.perEnergy),
+          sum(kAgainst, s.perEnergy),
+          sum(kSquares, s.perSquare),
+          sum(kContacts, kPerContact),
+          static_cast<double>(base::bitsAs<float>(worst))};
+}
+
+/// Decides on the next iteration, where the device does so by itself.
+template <class Real> struct Decide {
+  ImpulseData<Real> s;
+  const base::WideSum* totals;
+  bool first;
+  GROUSER_HD void operator()(int) const {
+    if (s.control->done) return;
+    const IterationSums sums = iterationSums(s, totals, *s.worst);
+    *s.worst = 0;
+    if (first)
+      s.control->begin(sums);
+    else
+      s.control->take(sums);
   }
 };
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/body_response.hpp"
 #include "contact/impulse_law.hpp"
+#include "contact/part_patches.cuh"
 #include "terrain/grain_kernel_data.cuh"
+#include "terrain/impulse_control.hpp"
 
 /// Rows of the complementarity problem of a step, as its kernels see them. Each grain of a pair has a row of its own,
 /// and both have opposite impulses with the same bits: a grain adds up its rows in the order of its neighbours' ids,
@@ -41,6 +44,18 @@ template <class Real> struct ImpulseRowEnd {
 /// Velocities of a grain in an iteration; element of the halo exchange.
 template <class Real> struct ImpulseMotion { base::Vec3<Real> velocity, spin; };
 
+/// The body of a row with a part.
+template <class Real> struct PartRowRecord {
+  base::Vec3<Real> arm; ///< from its centre of mass to the contact point [m]
+  std::uint32_t body;
+};
+
+/// Velocity of a body in an iteration.
+template <class Real> struct BodyMotion {
+  base::Vec3<Real> velocity, spin;
+  GROUSER_HD base::Vec3<Real> at(const base::Vec3<Real>& arm) const { return velocity + cross(spin, arm); }
+};
+
 /// Rows of one kind, device arrays by place. Impulses and gradients are triple-buffered: current iteration, previous
 /// one and trial.
 template <class Real> struct ImpulseRowsView {
@@ -51,6 +66,7 @@ template <class Real> struct ImpulseRowsView {
   base::Vec3<Real>* turning[3];    ///< rolling impulse [N m s]; null without
   base::Vec3<Real>* turnGradient[3];
   ImpulseRowEnd<Real>* end;
+  PartRowRecord<Real>* part; ///< null: no rows with parts
 };
 
 /// Sums of an iteration over all rows, as integers with quanta of two sizes, so that their order does not matter. Each
@@ -67,8 +83,10 @@ template <class Real> struct ImpulseData {
   contact::ImpulseRules<Real> rules;
   ImpulseRowsView<Real> grains; ///< by place of the neighbour list; a grain's rows fill the first places of its list
   ImpulseRowsView<Real> bounds; ///< [row of the grain][place in the list of grains near boundaries]
+  ImpulseRowsView<Real> parts;  ///< [listed pair of grain and part][kPatches]
   std::uint32_t* grainRows;     ///< [slot] number of rows with other grains
   std::uint32_t* boundRows;     ///< [place in the list near boundaries] number of rows
+  std::uint32_t* partRows;      ///< [listed pair of grain and part] number of rows
   std::uint32_t* degree;        ///< [slot] number of all rows, ghosts included
   std::int64_t near;            ///< grains listed near boundaries
   ImpulseMotion<Real>* free;    ///< [slot] at the end of the step without contacts
@@ -76,22 +94,43 @@ template <class Real> struct ImpulseData {
   const std::uint32_t* ghost;   ///< [slot] not 0 for ghosts; null: none
   std::int64_t margin;          ///< largest gap of a row [units]
   std::int64_t leastMargin;     ///< gap within which a pair at rest has a row [units]
-  int now, before, tried;       ///< buffers
-  Real ahead, tau;              ///< extrapolation; inverse step size over that of the metric
+  ImpulseControl<Real>* control; ///< of the iterations
+  int now;                       ///< buffer of the rows before and after the iterations
   // Force-driven surfaces.
   std::uint32_t* surfaceRows;  ///< [surface] number of rows on all ranks
   std::int64_t* surfacePushes; ///< [surface] impulses of this rank's rows along its axis
   base::FixedPoint push;       ///< their quantum [N s]
   const Real* surfaceChange;   ///< [surface] speed along its axis gained by contacts [m/s]
+  // Parts of bodies.
+  contact::PartPatches patches;               ///< no pairs without parts
+  const contact::BasicLaw<Real>* partLaws;    ///< as PartPatches counts them
+  const std::uint32_t* bodyOfPart;            ///< [part]
+  const contact::BodyResponse::Inverse* body; ///< [body]
+  std::uint32_t* bodyRows;                    ///< [body] number of rows on all ranks
+  std::int64_t* bodyPushes;                   ///< [body][6] impulses and their moments of this rank's rows; null:
+                                              ///< they move none
+  base::FixedPoint bodyPush, bodyTurn;        ///< their quanta [N s], [N m s]
+  const BodyMotion<Real>* bodyMotion;         ///< [body] with the impulses of this iteration
+  bool rolls;                                 ///< rolling resistance in any row
   base::WideSum* sums;         ///< [kSumBanks][kImpulseSums][kSumSizes]
   double perEnergy, perSquare; ///< large quanta per unit
   std::uint32_t* worst;        ///< largest residual [m/s], bits of a float
 };
 
+/// Calls each(pair, place) for the rows of a grain with parts.
+template <class Real, class Each>
+GROUSER_HD void forPartRowsOf(const ImpulseData<Real>& s, int i, const Each& each) {
+  const std::uint32_t range = s.patches.pairs > 0 ? s.patches.range[i] : 0, first = range >> 8;
+  for (std::uint32_t e = first; e < first + (range & 255u); ++e)
+    for (std::uint32_t k = 0; k < s.partRows[e]; ++k)
+      each(static_cast<int>(e), contact::PartPatches::first(static_cast<int>(e)) + k);
+}
+
 /// Calls each(rows, place) for the rows of a grain, in the order of their summation.
 template <class Real, class Each>
 GROUSER_HD void forRowsOf(const GrainKernelData& d, const ImpulseData<Real>& s, int i, const Each& each) {
   for (std::uint32_t k = 0; k < s.grainRows[i]; ++k) each(s.grains, d.neighbours.at(i, k));
+  forPartRowsOf(s, i, [&](int, std::int64_t at) { each(s.parts, at); });
   const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0;
   if (at == 0) return;
   for (std::uint32_t k = 0; k < s.boundRows[at - 1]; ++k) each(s.bounds, std::int64_t{at} - 1 + k * s.near);

@@ -34,8 +34,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
 
   /// Loads the springs of the last step and turns them into the present tangent plane; a new contact has none. Stores
   /// them in `history` again for the end of the step.
-  GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, Touch& touch) const {
-    const bool rolls = has(contact::kRollingFriction);
+  GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, bool rolls, Touch& touch) const {
     if (touch.held) {
       touch.shear = turnedSpring<Real>(history, turned);
       if (!s.rules.rigid) touch.shear = contact::detail::tangentOf(touch.shear, touch.push);
@@ -50,8 +49,10 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     contact::Impulse<Real> impulse, gradient;
   };
   GROUSER_HD Ahead ahead(const ImpulseRowsView<Real>& rows, std::int64_t at) const {
-    const contact::Impulse<Real> x = impulseAt(rows, s.now, at), g = gradientAt(rows, s.now, at);
-    return {x + (x - impulseAt(rows, s.before, at)) * s.ahead, g + (g - gradientAt(rows, s.before, at)) * s.ahead};
+    const int now = s.control->now, before = s.control->before;
+    const Real more = s.control->ahead;
+    const contact::Impulse<Real> x = impulseAt(rows, now, at), g = gradientAt(rows, now, at);
+    return {x + (x - impulseAt(rows, before, at)) * more, g + (g - gradientAt(rows, before, at)) * more};
   }
 
   /// Stores a row and its first impulse.
@@ -133,7 +134,9 @@ private:
                                   : contact::rollingInertia(size.mass, size.radius, other.mass, other.radius);
     touch.dampingShare = ground ? law.fixedShare : Real(1);
     touch.held = held;
-    if (Kernel::hasHistory()) Base::takeSprings(d.neighbours.history + listed * Kernel::historyWidth(), nullptr, touch);
+    if (Kernel::hasHistory())
+      Base::takeSprings(d.neighbours.history + listed * Kernel::historyWidth(), nullptr,
+                        has(contact::kRollingFriction), touch);
     const contact::ImpulseRow<Real> row = contact::impulseRow(law, touch, s.rules);
     pulled -= row.push * row.pull;
     Base::put(s.grains, at, row, arms, pair.overlap, ground ? kFixedPartner : j, k);
@@ -255,7 +258,7 @@ private:
     touch.held = grain.before >> boundary & 1;
     if (Kernel::hasHistory())
       Base::takeSprings(d.historyOf(grain.place, boundary, Kernel::historyWidth()), pose ? &pose->turned : nullptr,
-                        touch);
+                        has(contact::kRollingFriction), touch);
     contact::ImpulseRow<Real> row =
         contact::impulseRow(Kernel::boundaryLaw(boundary, grain.size.material), touch, s.rules);
     grain.pulled -= row.push * row.pull;
@@ -265,15 +268,22 @@ private:
   }
 };
 
-/// Adds up the rows of each grain.
-template <class Real> struct CountRows {
-  GrainKernelData d;
-  ImpulseData<Real> s;
+/// Adds up the rows of each grain, and the cohesion of parts.
+template <class Real> struct CountRows : ImpulseKernel<Real> {
+  using Base = ImpulseKernel<Real>;
+  using Base::d, Base::s;
+  using typename Base::Kernel, typename Base::Vec;
   GROUSER_HD void operator()(int i) const {
     if (s.ghost && s.ghost[i] != 0) return; // the halo exchange sets it
     std::uint32_t rows = s.grainRows[i];
     if (const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0) rows += s.boundRows[at - 1];
+    Vec pulled{};
+    forPartRowsOf(s, i, [&](int, std::int64_t at) {
+      pulled -= s.parts.row[at].push * s.parts.end[at].pull;
+      ++rows;
+    });
     s.degree[i] = rows;
+    if (s.patches.pairs > 0) s.free[i].velocity += pulled * (Real(1) / Kernel::sizeOf(i).mass);
   }
 };
 
@@ -284,7 +294,7 @@ template <class Real> struct WeighRows : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 60;
   using Base = ImpulseKernel<Real>;
   using Base::d, Base::s;
-  using typename Base::Kernel;
+  using typename Base::Kernel, typename Base::Vec;
 
   GROUSER_HD void operator()(int i) const {
     if (hasNoRows(d, s, i)) return;
@@ -305,21 +315,39 @@ private:
     int surface = 0;
     const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface);
     const Real given = pose ? static_cast<Real>(pose->inverseMass) : Real(0);
-    const Real masses = many / own.mass + more / other.mass + (pose ? s.surfaceRows[surface] * given : Real(0));
-    const Real shear = (shearWeight(rows) * masses * arm2 + row.shearSoftness) / shearWeight(rows);
+    Real masses = many / own.mass + more / other.mass + (pose ? s.surfaceRows[surface] * given : Real(0));
+    Real yields = alone ? given : Real(1) / other.mass, turns = 0;
+    if (rows.part) {
+      const PartRowRecord<Real>& on = rows.part[at];
+      const Real rowsOfBody = static_cast<Real>(s.bodyRows[on.body]);
+      yields = mobilityOf(s.body[on.body], on.arm);
+      masses += rowsOfBody * yields;
+      const base::Mat3d& turn = s.body[on.body].inertia;
+      turns = rowsOfBody * static_cast<Real>(turn.m[0][0] + turn.m[1][1] + turn.m[2][2]);
+    }
+    const Real shear = (shearWeight(s) * masses * arm2 + row.shearSoftness) / shearWeight(s);
     const Real normal = masses + row.softness;
     row.weight = normal > shear ? normal : shear;
-    row.mobility = Real(1) / own.mass + (alone ? given : Real(1) / other.mass) + row.softness;
+    row.mobility = Real(1) / own.mass + yields + row.softness;
     if (!rows.rolling) return;
     RollingRowRecord<Real>& roll = rows.rolling[at];
     // Rolling and shear both turn the grain, so each counts twice.
-    roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other)) + roll.softness;
+    roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other) + turns) + roll.softness;
+  }
+
+  /// Bound on the velocity that an impulse gives a body at the end of an arm [1/kg]: the trace of its turning part.
+  GROUSER_HD Real mobilityOf(const contact::BodyResponse::Inverse& body, const Vec& arm) const {
+    const base::Vec3d r = arm.template as<double>();
+    const base::Vec3d lever[] = {{0, r.z, -r.y}, {-r.z, 0, r.x}, {r.y, -r.x, 0}}; // r x e of the three axes
+    double turning = 0;
+    for (int a = 0; a < 3; ++a) turning += dot(lever[a], body.inertia * lever[a]);
+    return static_cast<Real>(body.mass + (s.rolls ? 2 : 1) * turning);
   }
 
 public:
   /// Weight of shear over that of the normal direction [-]: 1 + m R^2 / I of a solid sphere; where rolling rows turn
   /// the grain too, 1 + 2 m R^2 / I.
-  GROUSER_HD static Real shearWeight(const ImpulseRowsView<Real>& rows) { return rows.rolling ? Real(6) : Real(3.5); }
+  GROUSER_HD static Real shearWeight(const ImpulseData<Real>& s) { return s.rolls ? Real(6) : Real(3.5); }
 };
 
 } // namespace grouser::terrain

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "base/exec.hpp"
+#include "contact/body_response.hpp"
+#include "contact/grain_part_contacts.hpp"
 #include "contact/impulse_law.hpp"
 #include "terrain/grain_constants.hpp"
 
@@ -13,6 +15,14 @@ namespace grouser::terrain {
 
 struct GrainKernelData;
 struct GrainSystem;
+
+/// Parts of bodies among the grains, which outlive the step.
+struct ImpulseParts {
+  contact::GrainPartContacts* contacts{nullptr};                ///< pairs, history and laws; null: no parts
+  const base::Array<contact::PartMotion>* motion{nullptr};      ///< at the start of the step
+  contact::PartLoad* loads{nullptr};                            ///< [part] receives them, on the device
+  contact::BodyResponse* bodies{nullptr};
+};
 
 /// Outcome of solving the complementarity problem of a step, the same on all ranks.
 struct ImpulseReport {
@@ -37,6 +47,13 @@ struct ImpulseTotals {
   void setWords(const std::int64_t* words);
 };
 
+/// Cost of the iterations of this process; not part of the state.
+struct ImpulseCost {
+  double seconds{};          ///< wall time
+  std::int64_t iterations{}; ///< and evaluations of the impulses that steps began with
+  std::int64_t bytes{};      ///< sent to other ranks
+};
+
 /// Throws SimulationError for velocities that are not finite, and in strict runs for steps that exceed run.residual or
 /// needed the relaxation.
 void checkReport(const ImpulseReport& report, const contact::ComplementarityOptions& options, std::int64_t step);
@@ -52,16 +69,21 @@ public:
   static std::unique_ptr<ImpulseSolver> make(const base::Exec& exec, const GrainConstants& constants);
   virtual ~ImpulseSolver() = default;
 
+  /// For the coming steps; null members: none.
+  void meet(const ImpulseParts& parts) { parts_ = parts; }
   /// One step: writes the grains' next state, springs, books and flags. All ranks call it; ghosts must be up to date.
   virtual void step(GrainSystem& system, const GrainKernelData& d) = 0;
   const ImpulseReport& report() const { return report_; }
   const ImpulseTotals& totals() const { return totals_; }
+  const ImpulseCost& cost() const { return cost_; }
   void setTotals(const std::int64_t* words) { totals_.setWords(words); }
   virtual std::size_t bytes() const = 0;
 
 protected:
   ImpulseReport report_;
   ImpulseTotals totals_;
+  ImpulseCost cost_;
+  ImpulseParts parts_;
 };
 
 } // namespace grouser::terrain

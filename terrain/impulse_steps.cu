@@ -6,9 +6,12 @@
 #include "base/summed_banks.hpp"
 #include "terrain/grain_system.hpp"
 #include "terrain/impulse_advance.cuh"
+#include "terrain/impulse_bodies.cuh"
+#include "terrain/impulse_parts.cuh"
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -22,8 +25,7 @@ using contact::ComplementarityOptions;
 template <class Real> struct RowMemory {
   using Vectors = base::Array<base::Vec3<Real>>;
   explicit RowMemory(const base::Exec& exec)
-      : row(exec), rolling(exec),
-        end(exec), impulse{Vectors(exec), Vectors(exec), Vectors(exec)}, gradient{Vectors(exec), Vectors(exec),
+      : row(exec), rolling(exec), end(exec), part(exec), impulse{Vectors(exec), Vectors(exec), Vectors(exec)}, gradient{Vectors(exec), Vectors(exec),
                                                                                   Vectors(exec)},
         turning{Vectors(exec), Vectors(exec), Vectors(exec)}, turnGradient{Vectors(exec), Vectors(exec),
                                                                            Vectors(exec)} {}
@@ -31,6 +33,7 @@ template <class Real> struct RowMemory {
   base::Array<ImpulseRowRecord<Real>> row;
   base::Array<RollingRowRecord<Real>> rolling;
   base::Array<ImpulseRowEnd<Real>> end;
+  base::Array<PartRowRecord<Real>> part; ///< empty where no rows are with parts
   std::array<Vectors, 3> impulse, gradient, turning, turnGradient;
 
   void resize(std::size_t places, bool rolls) {
@@ -44,7 +47,7 @@ template <class Real> struct RowMemory {
   }
   ImpulseRowsView<Real> view() {
     ImpulseRowsView<Real> v{};
-    v.row = row.data(), v.rolling = rolling.data(), v.end = end.data();
+    v.row = row.data(), v.rolling = rolling.data(), v.end = end.data(), v.part = part.data();
     for (std::size_t k = 0; k < 3; ++k) {
       v.impulse[k] = impulse[k].data(), v.gradient[k] = gradient[k].data();
       v.turning[k] = turning[k].data(), v.turnGradient[k] = turnGradient[k].data();
@@ -52,24 +55,20 @@ template <class Real> struct RowMemory {
     return v;
   }
   std::size_t bytes() const {
-    std::size_t sum = row.bytes() + rolling.bytes() + end.bytes();
+    std::size_t sum = row.bytes() + rolling.bytes() + end.bytes() + part.bytes();
     for (const auto* three : {&impulse, &gradient, &turning, &turnGradient})
       for (const Vectors& v : *three) sum += v.bytes();
     return sum;
   }
 };
 
-/// Sums of an iteration over all ranks.
-struct IterationSums {
-  double curvature, length, against, squares, contacts, worst;
-};
-
 template <class Real> class ImpulseSolverOf : public ImpulseSolver {
 public:
   ImpulseSolverOf(const base::Exec& exec, const GrainConstants& c)
-      : exec_(exec), options_(*c.model.complementarity), grains_(exec), bounds_(exec), grainRows_(exec),
-        boundRows_(exec), degree_(exec), free_(exec), motion_(exec),
-        sums_(exec, std::size_t{kSumBanks} * kImpulseSums * kSumSizes), worst_(exec, 1), surfaceRows_(exec),
+      : exec_(exec), options_(*c.model.complementarity), grains_(exec), bounds_(exec), onParts_(exec),
+        bodies_(exec), grainRows_(exec), boundRows_(exec), degree_(exec), free_(exec), motion_(exec),
+        sums_(exec, std::size_t{kSumBanks} * SumBanks<Real>::kCount), totalSums_(exec, SumBanks<Real>::kCount),
+        worst_(exec, 1), control_(exec, 1), surfaceRows_(exec),
         surfacePushes_(exec), surfaceChange_(exec) {
     const auto real = [](double value) { return static_cast<Real>(value); };
     const ContactLaw& law = c.model.materials.count() > 0 ? c.model.materials.grains.front() : c.model.law;
@@ -77,8 +76,7 @@ public:
                    real(options_.recovery),
                    real(options_.impact),
                    real(law.stiffness),
-                   options_.compliance == contact::Compliance::rigid,
-                   false};
+                   options_.compliance == contact::Compliance::rigid};
     data_.margin = c.marginUnits;
     data_.leastMargin = c.scale.inUnits(GrainConstants::kLeastMargin * c.smallestRadius);
     // Range of the sums: velocity changes that would move a grain by 16 radii in a step.
@@ -94,7 +92,7 @@ public:
   }
 
   std::size_t bytes() const override {
-    return grains_.bytes() + bounds_.bytes() + grainRows_.bytes() + boundRows_.bytes() + degree_.bytes() +
+    return grains_.bytes() + bounds_.bytes() + onParts_.bytes() + grainRows_.bytes() + boundRows_.bytes() + degree_.bytes() +
            free_.bytes() + motion_.bytes();
   }
 
@@ -113,6 +111,7 @@ private:
   void setUp(GrainSystem& system, const GrainKernelData& d) {
     const auto slots = static_cast<std::size_t>(d.count);
     const bool rolls = (d.features & contact::kRollingFriction) != 0;
+    data_.rolls = rolls;
     const std::size_t near = system.boundaries.grainsListed();
     grains_.resize(system.neighbours.places(), rolls);
     bounds_.resize(near * static_cast<std::size_t>(d.boundaryCount), rolls);
@@ -122,15 +121,17 @@ private:
     data_.grainRows = grainRows_.data(), data_.boundRows = boundRows_.data(), data_.degree = degree_.data();
     data_.near = static_cast<std::int64_t>(near), data_.free = free_.data(), data_.motion = motion_.data();
     data_.ghost = system.ghosts(), data_.sums = sums_.data(), data_.worst = worst_.data();
-    data_.now = data_.before = 0, data_.tried = 2;
-    data_.rules.associated = options_.friction == contact::ImpulseFriction::associated;
+    data_.now = 0, data_.control = control_.data();
     force_ = system.forceData<Real>();
     setUpSurfaces(system);
+    setUpParts(system, d);
     forSlots("rows of grains", d, kernel<MakeGrainRows<Real>>(d));
     base::forEach(exec_, "rows at boundaries", data_.near, kernel<MakeBoundaryRows<Real>>(d));
-    forSlots("count rows", d, CountRows<Real>{d, data_});
+    base::forEach(exec_, "rows at parts", data_.patches.pairs, kernel<MakePartRows<Real>>(d));
+    forSlots("count rows", d, kernel<CountRows<Real>>(d));
     exchange(system, contact::fieldOf(degree_));
     countOnSurfaces(system.comm);
+    if (parts_.contacts) bodies_.sumRows(system.comm);
     forSlots("weigh rows", d, kernel<WeighRows<Real>>(d));
   }
 
@@ -167,80 +168,110 @@ private:
     surfaceChange_.assign(change);
   }
 
+  bool bodiesYield() const { return parts_.contacts && bodies_.yield(); }
+
+  /// Bodies have one velocity, the same on all ranks, which follows from the impulses of all rows.
+  void setUpParts(const GrainSystem& system, const GrainKernelData& d) {
+    data_.patches = {}, data_.parts = {};
+    if (!parts_.contacts) return;
+    contact::GrainPartContacts& contacts = *parts_.contacts;
+    for (const base::Parcel& cleared : {contacts.clearedSums()}) base::setZero(exec_, cleared.to, cleared.bytes);
+    data_.patches = contacts.patches({d.position, d.motion, d.id, static_cast<std::size_t>(d.count), system.ghosts()},
+                                     *parts_.motion, parts_.loads);
+    onParts_.resize(contacts.pairs() * contact::kPatches, contacts.rolls());
+    onParts_.part.resize(contacts.pairs() * contact::kPatches);
+    partRows_.resize(contacts.pairs());
+    data_.parts = onParts_.view(), data_.partRows = partRows_.data();
+    data_.rolls = data_.rolls || contacts.rolls();
+    bodies_.begin(*parts_.bodies, contacts, system.constants.model.timeStep);
+    bodies_.into(data_);
+  }
+
   /// Sends the values of masters to their ghosts on other ranks.
   static void exchange(GrainSystem& system, const contact::ExchangeField& field) {
     if (system.distribution) system.distribution->subdomain().haloExchange().run({&field, 1});
   }
 
-  template <bool kTry> IterationSums evaluate(GrainSystem& system, const GrainKernelData& d) {
+  static std::int64_t bytesSent(const GrainSystem& system) {
+    return system.distribution ? system.distribution->subdomain().haloExchange().bytesSent() : 0;
+  }
+
+  template <bool kTry> void evaluate(GrainSystem& system, const GrainKernelData& d) {
     using Gradient = FindGradient<Real, kTry>;
     if (!inverseMass_.empty()) surfacePushes_.zero();
+    if (bodiesYield()) bodies_.clearPushes();
     forSlots("move by impulses", d, kernel<MoveByImpulses<Real, kTry>>(d));
     exchange(system, contact::fieldOf(motion_));
     moveSurfaces(system.comm);
-    sums_.zero(), worst_.zero();
+    if (bodiesYield()) bodies_.move(system.comm);
     Gradient gradient = kernel<Gradient>(d);
     gradient.count = d.count;
     base::forEach(exec_, "gradient of rows",
                   exec_.onCpu() ? (d.count + Gradient::kOnCpu - 1) / Gradient::kOnCpu : d.count, gradient);
-    return summed(system.comm);
+    base::forEach(exec_, "sum rows", SumBanks<Real>::kCount, SumBanks<Real>{data_, totalSums_.data()});
   }
 
-  IterationSums summed(const base::Comm& comm) const {
-    const std::vector<base::WideSum> sums =
-        base::summedBanks(sums_.toHost(), std::size_t{kImpulseSums} * kSumSizes, comm);
-    const auto sum = [&](int which, double perUnit) {
-      const std::size_t k = static_cast<std::size_t>(which) * kSumSizes;
-      return sums[k].value() / perUnit + sums[k + 1].value() / (perUnit * kFinerSums);
-    };
+  /// Of all ranks, on the host.
+  IterationSums summed(const base::Comm& comm) {
+    std::vector<base::WideSum> totals = totalSums_.toHost();
     std::uint64_t least = ~std::uint64_t{worst_.toHost().front()};
-    comm.minimum(&least, 1);
-    const auto worst = base::bitsAs<float>(static_cast<std::uint32_t>(~least));
-    return {sum(kCurvature, data_.perEnergy), sum(kLength, data_.perEnergy), sum(kAgainst, data_.perEnergy),
-            sum(kSquares, data_.perSquare),   sum(kContacts, kPerContact),   static_cast<double>(worst)};
+    worst_.zero();
+    if (!comm.alone()) totals = base::summedBanks(totals, totals.size(), comm), comm.minimum(&least, 1);
+    return iterationSums(data_, totals.data(), static_cast<std::uint32_t>(~least));
   }
 
   void solve(GrainSystem& system, const GrainKernelData& d) {
-    report_ = {};
-    IterationSums last = evaluate<false>(system, d);
-    data_.tau = Real(kSafeTau), data_.ahead = 0;
-    double theta = 1, halved = last.worst;
-    int halvedAt = 0;
-    while (last.worst > options_.residual && report_.iterations < options_.iterations) {
-      const IterationSums tried = evaluate<true>(system, d);
-      if (data_.tau < kSafeTau && tried.curvature > static_cast<double>(data_.tau) * tried.length) {
-        data_.tau = std::min(2 * data_.tau, Real(kSafeTau)); // the step was too long: repeat it
-        continue;
-      }
-      const double next = tried.against > 0 ? 1 : 0.5 * theta * (std::sqrt(theta * theta + 4) - theta);
-      data_.ahead = tried.against > 0 ? Real(0) : static_cast<Real>(theta * (1 - theta) / (theta * theta + next));
-      theta = next;
-      data_.tau *= Real(kLongerStep);
-      accept();
-      last = tried;
-      ++report_.iterations;
-      if (last.worst < 0.5 * halved) halved = last.worst, halvedAt = report_.iterations;
-      if (report_.iterations - halvedAt > kPatience && !data_.rules.associated) relax(system, d, last, theta);
-    }
-    report_.residual = last.worst, report_.met = last.worst <= options_.residual;
-    report_.rows = last.contacts;
-    report_.rms = report_.rows > 0 ? std::sqrt(last.squares / report_.rows) : 0;
-    totals_.add(report_);
+    ImpulseControl<Real> control;
+    control.residual = options_.residual, control.most = options_.iterations;
+    control.associated = options_.friction == contact::ImpulseFriction::associated;
+    control_.assign({control});
+    sums_.zero(), worst_.zero();
+    const auto start = std::chrono::steady_clock::now();
+    const std::int64_t sent = bytesSent(system);
+    evaluate<false>(system, d);
+    // Ranks, bodies and force-driven surfaces need the host in each iteration.
+    if (!system.comm.alone() || bodiesYield() || !inverseMass_.empty())
+      control = iterateFromHost(system, d, control);
+    else
+      control = iterateOnDevice(system, d);
+    data_.now = control.now;
+    cost_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    cost_.iterations += 1 + control.iterations, cost_.bytes += bytesSent(system) - sent;
+    note(control);
     checkReport(report_, options_, system.steps);
   }
 
-  /// Coulomb's own law has no potential: where it does not converge, the step ends with the relaxation, which does.
-  void relax(GrainSystem& system, const GrainKernelData& d, IterationSums& last, double& theta) {
-    report_.relaxed = true, data_.rules.associated = true;
-    data_.before = data_.now, data_.ahead = 0, theta = 1;
-    last = evaluate<false>(system, d);
+  ImpulseControl<Real> iterateFromHost(GrainSystem& system, const GrainKernelData& d, ImpulseControl<Real> control) {
+    control.begin(summed(system.comm));
+    while (!control.done) {
+      control_.assign({control});
+      evaluate<true>(system, d);
+      control.take(summed(system.comm));
+    }
+    return control;
   }
 
-  /// Makes the trial the current iteration, and that the previous one.
-  void accept() {
-    const int old = std::exchange(data_.now, data_.tried);
-    data_.before = old;
-    data_.tried = 3 - data_.now - data_.before;
+  /// Launches several iterations at once, which do nothing after the last one: about as many as the step before took,
+  /// then a few.
+  ImpulseControl<Real> iterateOnDevice(GrainSystem& system, const GrainKernelData& d) {
+    const auto decide = [&](bool first) {
+      base::forEach(exec_, "decide", 1, Decide<Real>{data_, totalSums_.data(), first});
+    };
+    decide(true);
+    int ahead = exec_.onCpu() ? 0 : report_.iterations;
+    for (;;) {
+      for (int k = 0; k < ahead; ++k) evaluate<true>(system, d), decide(false);
+      const ImpulseControl<Real> control = control_.toHost().front();
+      if (control.done) return control;
+      ahead = exec_.onCpu() ? 1 : kAhead;
+    }
+  }
+
+  void note(const ImpulseControl<Real>& control) {
+    const IterationSums& last = control.last;
+    report_ = {control.iterations, last.worst, 0, last.contacts, control.relaxed, last.worst <= options_.residual};
+    report_.rms = report_.rows > 0 ? std::sqrt(last.squares / report_.rows) : 0;
+    totals_.add(report_);
   }
 
   void advance(const GrainKernelData& d) {
@@ -252,18 +283,21 @@ private:
       forSlots("advance by impulses", d, body);
   }
 
-  static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< the metric bounds the curvature at tau = 1
-  static constexpr int kPatience = 50;                      ///< iterations within which the residual must halve
+  static constexpr int kAhead = 4; ///< iterations
 
   base::Exec exec_;
   ComplementarityOptions options_;
   ImpulseData<Real> data_{};
   ForceData<Real> force_{};
-  RowMemory<Real> grains_, bounds_;
+  RowMemory<Real> grains_, bounds_, onParts_;
+  ImpulseBodies<Real> bodies_;
+  base::Array<std::uint32_t> partRows_;
   base::Array<std::uint32_t> grainRows_, boundRows_, degree_;
   base::Array<ImpulseMotion<Real>> free_, motion_;
   base::Array<base::WideSum> sums_;
+  base::Array<base::WideSum> totalSums_;
   base::Array<std::uint32_t> worst_;
+  base::Array<ImpulseControl<Real>> control_; ///< one
   std::vector<double> inverseMass_; ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;
   base::Array<std::int64_t> surfacePushes_;

@@ -16,6 +16,8 @@ class EulerStep : public Stepper {
 public:
   explicit EulerStep(const Problem& problem);
   void step(State& state, const Loads& loads, double dt) override;
+  void startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists) override;
+  void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change) override;
 
 private:
   /// What the position solve works with: see RATTLE's scheme (rattle_step.cpp).
@@ -112,6 +114,7 @@ private:
                LinkWork& work) const;
   void readAxis(const LinkLanes& b, const LinkStep& s, int a, const Lanes& total, const Lanes& newRate, State& state,
                 double dt) const;
+  void addSolution(const ConstraintSystem::Part& part, std::vector<Twist>& twists);
   int rowNode(int k) const { return system_.movableBodies() + k; }
 
   const Model& model_;

@@ -5,8 +5,16 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 namespace grouser::multibody::detail {
+
+void Stepper::startResponse(const State&, const Loads&, double, std::vector<Twist>&) {
+  throw std::logic_error("RATTLE does not answer impulses within a step");
+}
+void Stepper::respond(const std::vector<Wrench>&, std::vector<Twist>&) {
+  throw std::logic_error("RATTLE does not answer impulses within a step");
+}
 
 void checkTwist(const Body& body, const Twist& twist, double time, double dt) {
   const double turn = std::fabs(dt) * norm(twist.w);

@@ -33,6 +33,9 @@ class Stepper {
 public:
   virtual ~Stepper() = default;
   virtual void step(State& state, const Loads& loads, double dt) = 0;
+  /// As Solver has them; throw std::logic_error where a scheme has none.
+  virtual void startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists);
+  virtual void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change);
 };
 
 } // namespace grouser::multibody::detail

@@ -14,21 +14,20 @@ void checkComplementarity(const scene::Scene& scene) {
   if (!hasComplementarity(scene)) return;
   const auto fail = [&](const std::string& message) { scene.fail("run", "contact", message); };
   if (!ContactPairs(scene).kinds.any()) fail("has no effect without grains; remove it, or give the scene grains");
-  if (scene.vehicle) fail("does not support vehicles; use contact = \"penalty\", or remove [vehicle]");
-  if (scene.mechanism.touches())
-    fail(
-        "does not support bodies among grains; use contact = \"penalty\", or surfaces in place of the bodies ([[box]], "
-        "[[cylinder]], [[plane]])");
-  if (!scene.meshes.empty())
-    scene.fail("mesh", 0, "file",
-               "is not supported with complementarity contacts; use [[box]], [[cylinder]] or [[plane]], or "
-               "run.contact = \"penalty\"");
+  if (scene.mechanism.touches() && !scene.vehicle && scene.run.integrator == multibody::Integrator::kRattle)
+    scene.fail("run", "integrator",
+               "is \"rattle\", under which bodies do not answer the impulses of grains within a step; with "
+               "complementarity contacts, set it to \"symplectic_euler\"");
   for (const scene::Material& m : scene.materials)
     if (m.yields())
       scene.failMaterial(
           m.name, "law",
           "is elastic-plastic, which complementarity contacts do not support; use \"linear\", \"hertz\", or "
           "run.contact = \"penalty\"");
+  for (const scene::Material& m : scene.materials)
+    if (m.crushingStrength.value_or(0) > 0)
+      scene.failMaterial(m.name, "crushing_strength",
+                         "[Pa] limits forces of penalty contacts; remove it, or use run.contact = \"penalty\"");
   const bool rigid = scene.complementarity && scene.complementarity->compliance == contact::Compliance::rigid;
   for (const scene::Material& m : scene.materials)
     if (rigid && m.cohesion > 0)

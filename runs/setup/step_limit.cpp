@@ -214,17 +214,20 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
   }
 }
 
+/// With complementarity contacts, only those without grains have springs.
 StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const std::vector<GrainContact>& contacts) {
   StepLimit limit;
-  const bool alone = !scene.terrain && plannedGrains(scene) == 1;
+  const bool alone = !scene.terrain && plannedGrains(scene) == 1, springs = !hasComplementarity(scene);
   for (const GrainContact& c : contacts) {
+    if (!springs) break;
     if (!alone || !c.amongGrains) considerEnergy(limit, c);
     considerModes(limit, c);
   }
-  considerFreeSurfaces(limit, scene, pairs);
+  if (springs) considerFreeSurfaces(limit, scene, pairs);
   if (scene.mechanism.touches()) {
     const coupling::MechanismSetup mechanism = mechanismSetup(scene);
-    considerBodies(limit, scene, pairs, mechanism), considerFoundations(limit, scene, mechanism);
+    if (springs) considerBodies(limit, scene, pairs, mechanism);
+    considerFoundations(limit, scene, mechanism);
   }
   limit.vehicle.clear();
   if (!scene.vehicle) return limit;
@@ -295,12 +298,36 @@ void checkFluidStep(const scene::Scene& scene) {
                          base::roundedDown(2 * limits.least(), 3), cause, base::roundedDown(limits.least(), 3)));
 }
 
-/// Contacts that are solved for set no limit.
+/// Throws InputError for a given step above what the contacts bear. `automatic` [s]: what "auto" would be.
+void checkGivenStep(const scene::Scene& scene, const StepLimit& limit, double automatic) {
+  checkTimeScales(scene, *scene.run.timeStep);
+  const bool hertz = !hasComplementarity(scene) && std::any_of(scene.materials.begin(), scene.materials.end(),
+                                                               [](const scene::Material& m) { return m.hertzian(); });
+  if (*scene.run.timeStep > limit.step) {
+    const std::string most = base::roundedDown(limit.step, 3);
+    scene.fail("run", "time_step",
+               fmt::format("[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
+                           "{} s or less (\"auto\": {} s), or {}{}",
+                           most, limit.what, most, base::roundedDown(automatic, 3), limit.remedy,
+                           hertz ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s",
+                                               scene.run.impactSpeed)
+                                 : ""));
+  }
+  if (scene.fluid) checkFluidStep(scene);
+}
+
+/// Contacts that are solved for set no limit, but the vehicle's own contacts do.
 double implicitTimeStep(const scene::Scene& scene, const ContactPairs& pairs) {
-  if (scene.run.timeStep) checkTimeScales(scene, *scene.run.timeStep);
-  return scene.run.timeStep.value_or(
+  const StepLimit limit = stepLimit(scene, pairs, {});
+  double automatic =
       std::min({complementarityTimeStep(scene, pairs), resolvingStep(timeScales(scene), scene.run.stepsPerPeriod),
-                kLongestOfAll, scene.run.duration}));
+                kCalmShare * limit.calm, limit.step, limit.bounce / scene.run.stepsPerContact, kLongestOfAll,
+                scene.run.duration});
+  if (scene.vehicle) automatic = std::min(automatic, kVehicleTimeStep);
+  if (scene.mechanism.touches() && !scene.vehicle) automatic = std::min(automatic, mechanismTimeStep(scene));
+  if (!scene.run.timeStep) return automatic;
+  checkGivenStep(scene, limit, automatic);
+  return *scene.run.timeStep;
 }
 
 } // namespace
@@ -335,20 +362,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   // What may be given is what is chosen: soft contacts ask for no more.
   automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
-  checkTimeScales(scene, *scene.run.timeStep);
-  const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                 [](const scene::Material& m) { return m.hertzian(); });
-  if (*scene.run.timeStep > limit.step) {
-    const std::string most = base::roundedDown(limit.step, 3);
-    scene.fail("run", "time_step",
-               fmt::format("[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
-                           "{} s or less (\"auto\": {} s), or {}{}",
-                           most, limit.what, most, base::roundedDown(automatic, 3), limit.remedy,
-                           hertz ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s",
-                                               scene.run.impactSpeed)
-                                 : ""));
-  }
-  if (scene.fluid) checkFluidStep(scene);
+  checkGivenStep(scene, limit, automatic);
   return *scene.run.timeStep;
 }
 

@@ -62,6 +62,63 @@ TEST(ComplementarityScene, ResumesToTheSameBits) {
   EXPECT_EQ(a.words(), b.words());
 }
 
+/// The same balls under a body.
+std::string underBody(double mass, const std::string& body, const std::string& joint = "") {
+  std::string text = underPlate(1, "complementarity");
+  text.replace(text.find("[[box]]"), std::string::npos, "[[body]]\nname = \"plate\"\nmaterial = \"glass\"\nmass = " +
+                                                            std::to_string(mass) + "\n" + body + joint);
+  text.replace(text.find("duration = 1"), 12, "duration = 1\nintegrator = \"symplectic_euler\"");
+  return text;
+}
+const char* const kFreeBox = "box = [0.1, 0.1, 0.01]\nposition = [0, 0, 0.03]\n[[body.shape]]\nkind = \"box\"\n"
+                             "size = [0.1, 0.1, 0.01]\n";
+
+TEST(ComplementarityScene, ABodyLiesOnGrainsWithItsWeightHoweverLight) {
+  for (const double mass : {0.005, 1.0}) { // of a ball: 0.01 kg
+    coupling::Simulation s = made(underBody(mass, kFreeBox));
+    while (s.time() < 0.4) s.step();
+    s.restartMeans();
+    for (int k = 0; k < 20; ++k) s.step();
+    EXPECT_NEAR(s.mechanism()->contactForces()[0].z, 9.81 * mass, 0.002 * 9.81 * mass) << mass;
+    EXPECT_NEAR(s.mechanism()->state().pose[0].position.z, 0.025, 2e-4) << mass;
+    EXPECT_EQ(s.ground().grains->system().impulses->totals().missed, 0);
+    const coupling::Ledger l = s.ledger();
+    EXPECT_NEAR(l.residual, 0, 1e-6 * l.turnover);
+    EXPECT_LT(norm(l.momentumResidual), 1e-5 * mass * 9.81 * s.time());
+    EXPECT_LT(norm(l.angularResidual), 1e-6 * mass * 9.81 * s.time());
+    EXPECT_LT(norm(l.impulseResidual), 1e-12 * mass * 9.81 * s.time());
+  }
+}
+
+TEST(ComplementarityScene, AHingedLeverPressesWithItsMoment) {
+  // A bar of 0.2 m, hinged at x = -0.1 m, on the three balls in the middle column (x = 0) and those beside: its moment
+  // about the hinge is m g 0.1 m.
+  coupling::Simulation s = made(underBody(2, "box = [0.2, 0.06, 0.01]\nposition = [0, 0, 0.025]\n[[body.shape]]\nkind = "
+                                             "\"box\"\nsize = [0.2, 0.06, 0.01]\n",
+                                          "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"world\", "
+                                          "\"plate\"]\npoint = [-0.1, 0, 0.025]\naxis = [0, 1, 0]\n"));
+  while (s.time() < 0.4) s.step();
+  s.restartMeans();
+  for (int k = 0; k < 20; ++k) s.step();
+  const base::Vec3d force = s.mechanism()->contactForces()[0], hinge = s.mechanism()->state().joint[0].force;
+  EXPECT_NEAR(force.z + hinge.z, 9.81 * 2, 0.01);
+  // Balls at x = -0.022, 0 and 0.022 m share it: between all at the far and all at the near column.
+  EXPECT_GT(force.z, 9.81 * 2 * 0.1 / 0.123);
+  EXPECT_LT(force.z, 9.81 * 2 * 0.1 / 0.077);
+  const coupling::Ledger l = s.ledger();
+  EXPECT_NEAR(l.residual, 0, 1e-5 * l.turnover);
+}
+
+TEST(ComplementarityScene, ABodyThatFallsOnGrainsResumesToTheSameBits) {
+  const std::string text = underBody(0.05, kFreeBox);
+  coupling::Simulation whole = made(text), first = made(text, 1);
+  while (first.steps() < 60) first.step();
+  coupling::Simulation resumed(first.setup(), testExec(2), first.save());
+  while (whole.steps() < 130) whole.step();
+  while (resumed.steps() < 130) resumed.step();
+  EXPECT_EQ(resumed.stateHash(), whole.stateHash());
+}
+
 TEST(ComplementarityScene, ABedSettlesAsWithPenaltyContacts) {
   const auto bed = [](const std::string& method) {
     return "version = 1\n[run]\nduration = 0.2\ncontact = \"" + method +

@@ -35,6 +35,19 @@ TEST(ComplementarityScene, StepsFollowGravityAndImpactsNotStiffness) {
   EXPECT_EQ(chooseTimeStep(parsed(run("time_step = 2e-3\n") + kSand + kGrains)), 2e-3);
 }
 
+TEST(ComplementarityScene, AVehicleKeepsItsOwnStepBesideStiffGrains) {
+  const std::string text = "[material.sand]\nstiffness = 1e8\nrestitution = 0.5\nfriction = 0.5\n[terrain]\nheightmap = \""
+                           GROUSER_SOURCE_DIR "/assets/heightmaps/flat.png\"\nsize = [4, 2.5]\nheight_range = [0, 0]\n"
+                           "material = \"sand\"\ngrain_radius = 0.04\ndepth = 0.2\n[vehicle]\nspec = \""
+                           GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml\"\nsphere_radius = 0.02\n[driver]\n"
+                           "sprocket_speed = 2\n";
+  EXPECT_EQ(chooseTimeStep(parsed(run() + text)), kVehicleTimeStep);
+  EXPECT_EQ(chooseTimeStep(parsed(run("time_step = 5e-5\n") + text)), 5e-5);
+  const double springs = chooseTimeStep(parsed("version = 1\n[run]\nduration = 1\n" + text));
+  EXPECT_LT(springs, 0.2 * kVehicleTimeStep);
+  EXPECT_THROW(chooseTimeStep(parsed(run("time_step = 2e-3\n") + text)), base::InputError);
+}
+
 TEST(ComplementarityScene, KeysReachTheModel) {
   const std::string section = "[complementarity]\nfriction = \"associated\"\ncompliance = \"rigid\"\niterations = 7\n"
                               "recovery = 0.3\nstrict = true\n";
@@ -58,7 +71,8 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
   const std::vector<std::pair<std::string, std::string>> all = {
       {run() + kSand + "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"sand\"\n" + body,
        "has no effect without grains"},
-      {run() + kSand + kGrains + body, "does not support bodies among grains"},
+      {run() + kSand + kGrains + body, "set it to \"symplectic_euler\""},
+      {run() + kSand + "crushing_strength = 1e6\n" + kGrains, "limits forces of penalty contacts"},
       {run() + "[material.sand]\nlaw = \"luding\"\nstiffness = 1e6\n" + kGrains, "is elastic-plastic, which"},
       {run() + "[material.sand]\nlaw = \"eepa\"\nyoung = 1e8\n" + kGrains, "is elastic-plastic, which"},
       {run() + kSand + kGrains + "[output]\nfields_cell = 0.1\nfields_low = [-1, -1, 0]\nfields_high = [1, 1, 1]\n",

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/array.hpp"
+#include "base/comm.hpp"
+#include "contact/grain_part_contacts.hpp"
+#include "terrain/impulse_rows.cuh"
+
+#include <algorithm>
+#include <vector>
+
+namespace grouser::terrain {
+
+/// Bodies with parts among the grains, in the iterations of a step. The host computes their velocities from the
+/// impulses of all rows: integer sums, so that every rank has the same bits.
+template <class Real> class ImpulseBodies {
+public:
+  explicit ImpulseBodies(const base::Exec& exec)
+      : laws_(exec), bodyOfPart_(exec), inverses_(exec), rows_(exec), pushes_(exec), motion_(exec) {}
+
+  /// Begins a step: velocities without grains, no rows.
+  void begin(contact::BodyResponse& bodies, const contact::GrainPartContacts& contacts, double timeStep) {
+    bodies_ = &bodies;
+    const std::size_t count = bodies.inverses().size();
+    if (laws_.empty()) {
+      std::vector<contact::BasicLaw<Real>> laws;
+      for (const contact::ContactLaw& law : contacts.laws()) laws.push_back(law.as<Real>());
+      laws_.assign(laws), bodyOfPart_.assign(bodies.bodyOfPart());
+      // As fine as the forces of penalty contacts.
+      const contact::GrainPartModel& model = contacts.model();
+      push_ = base::fixedPointFor(model.force.quantum * timeStep * 0x1p40, 40);
+      turn_ = base::fixedPointFor(model.torque.quantum * timeStep * 0x1p40, 40);
+    }
+    inverses_.assign(bodies.inverses());
+    yields_ = std::any_of(bodies.inverses().begin(), bodies.inverses().end(), [](const auto& b) { return b.mass > 0; });
+    rows_.assign(std::vector<std::uint32_t>(count));
+    pushes_.resize(6 * count);
+    impulses_.assign(count, {});
+    respond();
+  }
+
+  void into(ImpulseData<Real>& data) {
+    data.partLaws = laws_.data(), data.bodyOfPart = bodyOfPart_.data(), data.body = inverses_.data();
+    data.bodyRows = rows_.data(), data.bodyPushes = yields_ ? pushes_.data() : nullptr, data.bodyMotion = motion_.data();
+    data.bodyPush = push_, data.bodyTurn = turn_;
+  }
+
+  /// Counts the rows of all ranks, which all call it.
+  void sumRows(const base::Comm& comm) {
+    if (comm.alone()) return;
+    const std::vector<std::uint32_t> mine = rows_.toHost();
+    std::vector<std::int64_t> all(mine.begin(), mine.end());
+    comm.sum(all.data(), all.size());
+    rows_.assign(std::vector<std::uint32_t>(all.begin(), all.end()));
+  }
+
+  /// True where impulses move a body.
+  bool yield() const { return yields_; }
+  void clearPushes() { pushes_.zero(); }
+  /// Moves the bodies by the impulses of all ranks, which all call it.
+  void move(const base::Comm& comm) {
+    std::vector<std::int64_t> pushes = pushes_.toHost();
+    comm.sum(pushes.data(), pushes.size());
+    for (std::size_t b = 0; b < impulses_.size(); ++b) {
+      const std::int64_t* const q = pushes.data() + 6 * b;
+      impulses_[b] = {push_.checked({q[0], q[1], q[2]}, "impulses on a body"),
+                      turn_.checked({q[3], q[4], q[5]}, "impulses on a body")};
+    }
+    respond();
+  }
+
+private:
+  void respond() {
+    bodies_->respond(impulses_, velocities_);
+    std::vector<BodyMotion<Real>> motion;
+    for (const contact::BodyVelocity& v : velocities_)
+      motion.push_back({v.linear.template as<Real>(), v.angular.template as<Real>()});
+    motion_.assign(motion);
+  }
+
+  contact::BodyResponse* bodies_{nullptr};
+  bool yields_{false};
+  base::Array<contact::BasicLaw<Real>> laws_;
+  base::Array<std::uint32_t> bodyOfPart_;
+  base::Array<contact::BodyResponse::Inverse> inverses_;
+  base::Array<std::uint32_t> rows_;
+  base::Array<std::int64_t> pushes_;
+  base::Array<BodyMotion<Real>> motion_;
+  base::FixedPoint push_, turn_;
+  std::vector<contact::BodyImpulse> impulses_;
+  std::vector<contact::BodyVelocity> velocities_;
+};
+
+} // namespace grouser::terrain

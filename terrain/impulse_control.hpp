@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/host_device.hpp"
+
+#include <cmath>
+
+/// Decisions between the iterations of a step, on the host or in a kernel: the same bits.
+namespace grouser::terrain {
+
+/// Sums of an iteration over all rows and ranks.
+struct IterationSums {
+  double curvature, length, against, squares, contacts, worst;
+};
+
+/// State of the iterations of a step.
+template <class Real> struct ImpulseControl {
+  static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< the metric bounds the curvature at tau = 1
+  static constexpr int kPatience = 50;                      ///< iterations within which the residual must halve
+
+  double residual{};     ///< tolerance [m/s]
+  int most{};            ///< iterations
+  bool associated{false};
+  bool relaxed{false};   ///< the step began with Coulomb's own law
+  bool done{false};
+  int now = 0, before = 0, tried = 2; ///< buffers of rows
+  int iterations = 0, halvedAt = 0;
+  Real ahead = 0, tau = 1; ///< extrapolation; inverse step size over that of the metric
+  double theta = 1, halved = 0;
+  IterationSums last{};
+
+  /// Of the impulses that the step begins with.
+  GROUSER_HD void begin(const IterationSums& sums) {
+    last = sums, halved = sums.worst;
+    done = !(last.worst > residual) || most == 0;
+  }
+
+  /// Accepts a trial, or repeats it with a shorter step where that was too long. Where Coulomb's own law, which has no
+  /// potential, does not converge, the relaxation finishes the step.
+  GROUSER_HD void take(const IterationSums& sums) {
+    if (tau < kSafeTau && sums.curvature > static_cast<double>(tau) * sums.length) {
+      tau = 2 * tau < Real(kSafeTau) ? 2 * tau : Real(kSafeTau);
+      return;
+    }
+    const bool restarts = sums.against > 0;
+    const double next = restarts ? 1 : 0.5 * theta * (sqrt(theta * theta + 4) - theta);
+    ahead = restarts ? Real(0) : static_cast<Real>(theta * (1 - theta) / (theta * theta + next));
+    theta = next, tau *= Real(kLongerStep);
+    before = now, now = tried, tried = 3 - now - before;
+    last = sums, ++iterations;
+    done = !(last.worst > residual) || iterations >= most;
+    if (last.worst < 0.5 * halved) halved = last.worst, halvedAt = iterations;
+    if (iterations - halvedAt <= kPatience || associated || done) return;
+    associated = relaxed = true;
+    before = now, ahead = 0, theta = 1;
+  }
+};
+
+} // namespace grouser::terrain
