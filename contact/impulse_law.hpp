@@ -5,6 +5,8 @@
 #include "contact/impulse_cone.hpp"
 #include "contact/rolling_resistance.hpp"
 
+#include <limits>
+
 /// A contact as one row of the complementarity problem of a step (Moreau 1988; Tasora and Anitescu 2011, Comput.
 /// Methods Appl. Mech. Eng. 200:439): with u the relative velocity at its end and x the impulse,
 ///
@@ -25,6 +27,8 @@ struct ComplementarityOptions {
   int iterations{200}; ///< maximum per step, > 0
   double recovery{};   ///< greatest speed at which rigid contacts that overlap part [m/s], >= 0
   double impact{};     ///< approach [m/s] above which a new contact has Newton's restitution; slower ones have none
+  /// Gap up to which pairs at rest are in the problem, a share of the smallest radius at most [m].
+  double reach = std::numeric_limits<double>::infinity();
   bool strict{false};  ///< steps that exceed the residual end the run
   bool operator==(const ComplementarityOptions&) const = default;
 };

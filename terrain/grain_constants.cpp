@@ -110,7 +110,7 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
                                const std::vector<GrainSpec>& start)
     : model(withFixedGrains(grainModel, start)), scale(base::positionScale(2 * model.radius)),
       smallestRadius(smallestOf(model, start)), diameterUnits(scale.inUnits(2 * model.radius)),
-      marginUnits(model.complementarity ? scale.inUnits(kMargin * smallestRadius) : 0),
+      marginUnits(model.complementarity ? scale.inUnits(margin()) : 0),
       skinUnits(scale.inUnits(model.skin * smallestRadius) + marginUnits),
       features(featuresOf(model, boundaries, smallestRadius != model.radius || model.materials.count() > 0)),
       historyWidth(contact::historyWidth(features)), wallCount(static_cast<int>(boundaries.walls.size())),

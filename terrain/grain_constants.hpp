@@ -5,6 +5,8 @@
 #include "terrain/grain_setup.hpp"
 #include "terrain/grain_state.hpp"
 
+#include <algorithm>
+
 namespace grouser::terrain {
 
 /// Features of the grains' step: of the laws, of `boundaries` and, as `manyRadii` says, of grains that are not all
@@ -47,9 +49,15 @@ struct GrainConstants {
     const std::int64_t half = (skinUnits - marginUnits) / 2;
     return half * half;
   }
-  /// Shares of the smallest radius [-]: the gap within which pairs at rest are in the problem of a step, and the
-  /// margin, which adds the largest displacements of both grains in a step.
-  static constexpr double kLeastMargin = 0.2, kMargin = kLeastMargin + 2 * GrainModel::kMostWaySolved;
+  /// Gap within which pairs at rest are in the problem of a step [m].
+  double leastMargin() const { return std::min(kLeastMargin * smallestRadius, model.complementarity->reach); }
+  /// The largest gap of a pair in it [m]: adds what both grains move in a step, fast impacts included.
+  double margin() const {
+    return leastMargin() +
+           std::min(2 * GrainModel::kMostWaySolved * smallestRadius, kFastImpacts * model.complementarity->reach);
+  }
+  static constexpr double kLeastMargin = 0.2; ///< [smallest radius]
+  static constexpr double kFastImpacts = 4;
   /// What the state holds in velocity.w: the grain's radius [m], 0 where all grains are of one; of a fixed grain the
   /// opposite of its radius, or -1.
   float storedRadius(const GrainSpec& grain) const;

@@ -34,12 +34,13 @@ void ImpulseTotals::add(const ImpulseReport& report) {
 }
 
 std::vector<std::int64_t> ImpulseTotals::words() const {
-  return {steps, iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst)};
+  return {steps,   iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst),
+          base::bitsAs<std::int64_t>(tau)};
 }
 
 void ImpulseTotals::setWords(const std::int64_t* words) {
   steps = words[0], iterations = words[1], missed = words[2], relaxed = words[3];
-  worst = base::bitsAs<double>(words[4]);
+  worst = base::bitsAs<double>(words[4]), tau = base::bitsAs<double>(words[5]);
 }
 
 } // namespace grouser::terrain

@@ -40,9 +40,10 @@ struct ImpulseTotals {
   std::int64_t missed{};  ///< steps that exceeded run.residual
   std::int64_t relaxed{}; ///< see ImpulseReport
   double worst{};         ///< largest residual [m/s]
+  double tau{1};          ///< of the last iteration, with which the next step begins; see ImpulseControl
 
   void add(const ImpulseReport& report);
-  static constexpr std::size_t kWords = 5;
+  static constexpr std::size_t kWords = 6;
   std::vector<std::int64_t> words() const; ///< for checkpoints
   void setWords(const std::int64_t* words);
 };

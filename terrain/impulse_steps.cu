@@ -66,7 +66,7 @@ template <class Real> class ImpulseSolverOf : public ImpulseSolver {
 public:
   ImpulseSolverOf(const base::Exec& exec, const GrainConstants& c)
       : exec_(exec), options_(*c.model.complementarity), grains_(exec), bounds_(exec), onParts_(exec),
-        bodies_(exec), grainRows_(exec), boundRows_(exec), degree_(exec), free_(exec), motion_(exec),
+        bodies_(exec), partRows_(exec), grainRows_(exec), boundRows_(exec), degree_(exec), free_(exec), motion_(exec),
         sums_(exec, std::size_t{kSumBanks} * SumBanks<Real>::kCount), totalSums_(exec, SumBanks<Real>::kCount),
         worst_(exec, 1), control_(exec, 1), surfaceRows_(exec),
         surfacePushes_(exec), surfaceChange_(exec) {
@@ -78,7 +78,7 @@ public:
                    real(law.stiffness),
                    options_.compliance == contact::Compliance::rigid};
     data_.margin = c.marginUnits;
-    data_.leastMargin = c.scale.inUnits(GrainConstants::kLeastMargin * c.smallestRadius);
+    data_.leastMargin = c.scale.inUnits(c.leastMargin());
     // Range of the sums: velocity changes that would move a grain by 16 radii in a step.
     const double fastest = 16 * c.model.radius / c.model.timeStep;
     data_.perEnergy = base::fixedPointFor(c.model.mass * fastest * fastest, 50).perUnit;
@@ -223,6 +223,7 @@ private:
   void solve(GrainSystem& system, const GrainKernelData& d) {
     ImpulseControl<Real> control;
     control.residual = options_.residual, control.most = options_.iterations;
+    control.tau = static_cast<Real>(totals_.tau);
     control.associated = options_.friction == contact::ImpulseFriction::associated;
     control_.assign({control});
     sums_.zero(), worst_.zero();
@@ -271,7 +272,7 @@ private:
     const IterationSums& last = control.last;
     report_ = {control.iterations, last.worst, 0, last.contacts, control.relaxed, last.worst <= options_.residual};
     report_.rms = report_.rows > 0 ? std::sqrt(last.squares / report_.rows) : 0;
-    totals_.add(report_);
+    totals_.add(report_), totals_.tau = static_cast<double>(control.tau);
   }
 
   void advance(const GrainKernelData& d) {

@@ -14,10 +14,6 @@ void checkComplementarity(const scene::Scene& scene) {
   if (!hasComplementarity(scene)) return;
   const auto fail = [&](const std::string& message) { scene.fail("run", "contact", message); };
   if (!ContactPairs(scene).kinds.any()) fail("has no effect without grains; remove it, or give the scene grains");
-  if (scene.mechanism.touches() && !scene.vehicle && scene.run.integrator == multibody::Integrator::kRattle)
-    scene.fail("run", "integrator",
-               "is \"rattle\", under which bodies do not answer the impulses of grains within a step; with "
-               "complementarity contacts, set it to \"symplectic_euler\"");
   for (const scene::Material& m : scene.materials)
     if (m.yields())
       scene.failMaterial(
@@ -63,7 +59,7 @@ std::optional<contact::ComplementarityOptions> complementarityOptions(const scen
   options.iterations = static_cast<int>(c.iterations);
   options.recovery = c.recovery, options.strict = c.strict;
   options.residual = scene.run.residual.value_or(0.01 * fall);
-  options.impact = 5 * fall;
+  options.impact = 5 * fall, options.reach = 2 * scene.run.impactSpeed * timeStep;
   return options;
 }
 

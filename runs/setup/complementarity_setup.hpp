@@ -11,8 +11,8 @@ namespace grouser::setup {
 /// True for run.contact = "complementarity".
 bool hasComplementarity(const scene::Scene& scene);
 
-/// Throws InputError for scenes that complementarity contacts do not support: bodies among grains by RATTLE,
-/// elastic-plastic laws, grains that crush, rigid contacts with cohesion, measured stresses, no grains.
+/// Throws InputError for scenes that complementarity contacts do not support: elastic-plastic laws, grains that crush,
+/// rigid contacts with cohesion, measured stresses, no grains.
 void checkComplementarity(const scene::Scene& scene);
 
 /// Solver options of the scene; empty for penalty contacts.

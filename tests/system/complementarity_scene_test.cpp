@@ -4,6 +4,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/device_under_test.hpp"
+#include "tests/system/cube_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +68,6 @@ std::string underBody(double mass, const std::string& body, const std::string& j
   std::string text = underPlate(1, "complementarity");
   text.replace(text.find("[[box]]"), std::string::npos, "[[body]]\nname = \"plate\"\nmaterial = \"glass\"\nmass = " +
                                                             std::to_string(mass) + "\n" + body + joint);
-  text.replace(text.find("duration = 1"), 12, "duration = 1\nintegrator = \"symplectic_euler\"");
   return text;
 }
 const char* const kFreeBox = "box = [0.1, 0.1, 0.01]\nposition = [0, 0, 0.03]\n[[body.shape]]\nkind = \"box\"\n"
@@ -107,6 +107,26 @@ TEST(ComplementarityScene, AHingedLeverPressesWithItsMoment) {
   EXPECT_LT(force.z, 9.81 * 2 * 0.1 / 0.077);
   const coupling::Ledger l = s.ledger();
   EXPECT_NEAR(l.residual, 0, 1e-5 * l.turnover);
+}
+
+TEST(ComplementarityScene, ALoadedMeshSinksAsABoxDoes) {
+  const auto cube = [](const std::string& kind) {
+    std::string text = underPlate(0.4, "complementarity");
+    const std::size_t box = text.find("[[box]]\nname = \"plate\"\nposition = [0, 0, 0.03]\nsize = [0.1, 0.1, 0.01]");
+    return text.substr(0, box) + kind + "position = [0, 0, 0.072]\n" + text.substr(text.find("material", box));
+  };
+  coupling::Simulation box = made(cube("[[box]]\nsize = [0.1, 0.1, 0.1]\n")),
+                       mesh = made(cube("[[mesh]]\nfile = \"" + cubeFile() + "\"\nscale = 0.05\nsphere_radius = 0.004\n"));
+  for (coupling::Simulation* s : {&box, &mesh}) {
+    while (s->time() < 0.4) s->step();
+    s->restartMeans();
+    for (int k = 0; k < 20; ++k) s->step();
+    EXPECT_NEAR(s->surfaces()->observe(0, s->steps()).force.z, 9.81 * 0.4, 0.01);
+    EXPECT_EQ(s->ground().grains->system().impulses->totals().missed, 0);
+    const coupling::Ledger l = s->ledger();
+    EXPECT_NEAR(l.residual, 0, 1e-6 * l.turnover);
+  }
+  EXPECT_NEAR(mesh.surfaces()->pose(0, mesh.steps()).position.z, box.surfaces()->pose(0, box.steps()).position.z, 1e-4);
 }
 
 TEST(ComplementarityScene, ABodyThatFallsOnGrainsResumesToTheSameBits) {

@@ -7,12 +7,10 @@
 #include "coupling/surfaces.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "tests/system/cube_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace grouser::coupling {
 namespace {
@@ -59,18 +57,6 @@ std::string loaded(const std::string& shape, const std::string& motion) {
 
 const std::string kPlate = "[[box]]\nposition = [0, 0, 0.03]\nsize = [0.3, 0.2, 0.02]\n";
 const std::string kWheel = "[[cylinder]]\nposition = [0, 0, 0.12]\naxis = [0, 1, 0]\nradius = 0.1\nlength = 0.05\n";
-
-std::string cubeFile() {
-  static const std::string path = [] {
-    const auto file = std::filesystem::temp_directory_path() / fmt::format("grouser_cube_{}.obj", ::getpid());
-    std::ofstream out(file);
-    for (const int k : {0, 1, 2, 3, 4, 5, 6, 7})
-      out << "v " << (k & 1 ? 1 : -1) << " " << (k & 2 ? 1 : -1) << " " << (k & 4 ? 1 : -1) << "\n";
-    out << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-    return file.string();
-  }();
-  return path;
-}
 
 std::unique_ptr<Simulation> made(const std::string& text, const std::vector<std::string>& overrides = {},
                                  int threads = 1) {

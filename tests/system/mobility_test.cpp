@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
 
 namespace grouser::coupling {
 namespace {
@@ -79,6 +80,33 @@ TEST(OneAnswer, OfSoilThatSticksToTheVehicle) {
     EXPECT_EQ(hash(base::cudaExec(), "0.5"), one);
   }
   EXPECT_NE(hash(base::cpuExec(1), "0"), one) << "the hash must see what sticks";
+}
+
+/// With complementarity contacts; stopped on the way where `resumes`.
+std::string solvedHash(const base::Exec& exec, const std::string& skin = "0.3", bool resumes = false) {
+  const SimulationSetup setup = setup::simulationSetup(setup::loadScene(
+      testScene("coupled.toml"), {"run.contact=complementarity", "terrain.layers=2", "terrain.grain_radius=0.06",
+                                  "vehicle.sphere_radius=0.03", "vehicle.clearance=0", "driver.tension_ramp=0.005",
+                                  "driver.weight_ramp=0.005", "run.residual=1e-3", "run.skin=" + skin}));
+  auto simulation = std::make_unique<Simulation>(setup, exec, quiet, base::Comm{}, sharedBeds(), sharedSpheres());
+  while (simulation->steps() < 200) simulation->step();
+  if (resumes) simulation = std::make_unique<Simulation>(setup, exec, simulation->save(), base::Comm{}, sharedSpheres());
+  while (simulation->steps() < 400) simulation->step();
+  const Ledger l = simulation->ledger();
+  EXPECT_EQ(l.impulseResidual, base::Vec3d{});
+  EXPECT_GT(l.partContacts, 5);
+  EXPECT_LT(std::fabs(l.residual), 1e-6 * l.turnover);
+  EXPECT_LT(std::fabs(l.integrationError), 0.02 * l.turnover);
+  EXPECT_EQ(simulation->ground().grains->system().impulses->totals().missed, 0);
+  return simulation->stateHash();
+}
+
+TEST(OneAnswer, VehicleOnGrainsWhoseContactsAreSolvedFor) {
+  const std::string one = solvedHash(base::cpuExec(1));
+  EXPECT_EQ(solvedHash(base::cpuExec(2), "0.6", true), one) << "threads, lists, and a stop on the way";
+  if (base::cudaAvailable()) {
+    EXPECT_EQ(solvedHash(base::cudaExec()), one);
+  }
 }
 
 TEST(OneAnswer, AnotherSeedIsAnotherState) {

@@ -15,12 +15,10 @@
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "tests/system/cube_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace grouser::coupling {
 namespace {
@@ -342,15 +340,6 @@ TEST(Surfaces, OfThePairsMaterialFollowOverrides) {
   EXPECT_EQ(
       made(sceneOf(belt + "[contact.\"belt|glass\"]\nfriction = 0\n"), 2000)->ground().grains->snapshot().velocity[0].x,
       0);
-}
-
-/// A cube with edges of 2, of the file's units, about its origin.
-std::string cubeFile() {
-  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "grouser_surfaces_cube.obj";
-  std::ofstream(path) << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-                         "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\n"
-                         "f 4 1 5\nf 4 5 8\n";
-  return path.string();
 }
 
 /// A block of 0.1 m with edges turned about z, that moves and turns below two balls that slide and bounce on it.

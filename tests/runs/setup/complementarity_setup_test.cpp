@@ -41,7 +41,9 @@ TEST(ComplementarityScene, AVehicleKeepsItsOwnStepBesideStiffGrains) {
                            "material = \"sand\"\ngrain_radius = 0.04\ndepth = 0.2\n[vehicle]\nspec = \""
                            GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml\"\nsphere_radius = 0.02\n[driver]\n"
                            "sprocket_speed = 2\n";
-  EXPECT_EQ(chooseTimeStep(parsed(run() + text)), kVehicleTimeStep);
+  const double chosen = chooseTimeStep(parsed(run() + text));
+  EXPECT_LE(chosen, kVehicleTimeStep);
+  EXPECT_GT(chosen, 0.5 * kVehicleTimeStep);
   EXPECT_EQ(chooseTimeStep(parsed(run("time_step = 5e-5\n") + text)), 5e-5);
   const double springs = chooseTimeStep(parsed("version = 1\n[run]\nduration = 1\n" + text));
   EXPECT_LT(springs, 0.2 * kVehicleTimeStep);
@@ -56,7 +58,7 @@ TEST(ComplementarityScene, KeysReachTheModel) {
   contact::ComplementarityOptions expected;
   expected.friction = contact::ImpulseFriction::associated, expected.compliance = contact::Compliance::rigid;
   expected.iterations = 7, expected.recovery = 0.3, expected.strict = true, expected.residual = 1e-5;
-  expected.impact = 5 * 9.81 * 1e-3;
+  expected.impact = 5 * 9.81 * 1e-3, expected.reach = 2e-3;
   EXPECT_EQ(*options, expected);
   const auto usual =
       simulationSetup(parsed(run("time_step = 1e-3\n") + kSand + kGrains)).ground.grains->model.complementarity;
@@ -71,7 +73,6 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
   const std::vector<std::pair<std::string, std::string>> all = {
       {run() + kSand + "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"sand\"\n" + body,
        "has no effect without grains"},
-      {run() + kSand + kGrains + body, "set it to \"symplectic_euler\""},
       {run() + kSand + "crushing_strength = 1e6\n" + kGrains, "limits forces of penalty contacts"},
       {run() + "[material.sand]\nlaw = \"luding\"\nstiffness = 1e6\n" + kGrains, "is elastic-plastic, which"},
       {run() + "[material.sand]\nlaw = \"eepa\"\nyoung = 1e8\n" + kGrains, "is elastic-plastic, which"},
