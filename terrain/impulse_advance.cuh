@@ -70,7 +70,7 @@ private:
     for (std::uint32_t k = 0; k < s.grainRows[i]; ++k) {
       const std::int64_t at = d.neighbours.at(i, k);
       const ImpulseRowRecord<Real> row = s.grains.row[at];
-      const std::uint32_t listed = row.place & ~kImpactBit;
+      const std::uint32_t listed = row.place & kPlaceBits;
       const std::int64_t home = d.neighbours.at(i, listed);
       const bool ground = row.other == kFixedPartner;
       ImpulseMotion<Real> otherBefore{}, otherAfter{};
@@ -94,7 +94,7 @@ private:
     for (std::uint32_t k = 0; k < s.boundRows[place - 1]; ++k) {
       const std::int64_t at = std::int64_t{place} - 1 + k * s.near;
       const ImpulseRowRecord<Real> row = s.bounds.row[at];
-      const int boundary = static_cast<int>(row.place & ~kImpactBit);
+      const int boundary = static_cast<int>(row.place & kPlaceBits);
       const SurfacePose* const pose = boundary >= first ? d.placements + (boundary - first) : nullptr;
       const base::Vec3d point = x - row.push.template as<double>() * static_cast<double>(row.armOwn);
       Relative start = between(motionAtStart<Real>(d, i), {}, row), end = between(s.motion[i], {}, row);

@@ -75,6 +75,11 @@ private:
 /// Residual of a row with a NaN or an infinite gradient [m/s].
 inline constexpr float kNoResidual = 3e38f;
 
+/// Large quanta per unit of a sum.
+template <class Real> GROUSER_HD double perUnitOf(const ImpulseData<Real>& s, int sum) {
+  return sum == kContacts ? 1.0 : sum == kSquares ? s.perSquare : s.perEnergy;
+}
+
 /// Computes the gradient of each row from the velocities, and the sums that control the next iteration. `kTry` as
 /// above.
 template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
@@ -87,10 +92,17 @@ template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
   std::int64_t count;
   double nanoseconds() const { return kOnCpu * kNanoseconds; }
 
+  /// Sums over the rows of a grain.
+  struct RowSums {
+    double of[kImpulseSums] = {};
+    float worst = 0;
+  };
+  /// The same over grains.
   struct Sums {
     std::int64_t of[kImpulseSums * kSumSizes] = {};
     float worst = 0;
     GROUSER_HD void add(int sum, double value, double perUnit) {
+      if (value == 0) return;
       const double large = value * perUnit, small = large * kFinerSums;
       const bool fits = fabs(small) < 0x1p50;
       of[sum * kSumSizes + fits] += wholeQuanta(fits ? small : large);
@@ -117,11 +129,14 @@ private:
   GROUSER_HD void run(int i, Sums& sums) const {
     if (hasNoRows(d, s, i)) return;
     const ImpulseMotion<Real> own = s.motion[i];
-    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) { find(rows, at, own, sums); });
+    RowSums mine;
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) { find(rows, at, own, mine); });
+    for (int k = 0; k < kImpulseSums; ++k) sums.add(k, mine.of[k], perUnitOf(s, k));
+    if (mine.worst > sums.worst) sums.worst = mine.worst;
   }
 
   GROUSER_HD void find(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseMotion<Real>& own,
-                       Sums& sums) const {
+                       RowSums& sums) const {
     const ImpulseRowRecord<Real> row = rows.row[at];
     const bool alone = row.other == kFixedPartner;
     const ImpulseMotion<Real> other = alone ? ImpulseMotion<Real>{} : s.motion[row.other];
@@ -144,15 +159,15 @@ private:
       a.rolling = contact::detail::tangentOf(own.spin - turns, row.push) + x.rolling * roll.softness + roll.offset;
       rows.turnGradient[made][at] = a.rolling;
     }
-    const double share = alone ? 1 : 0.5;
-    addResidual(rows, at, row, x, a, share, sums);
-    if constexpr (kTry) addProducts(rows, at, row, x, a, share, sums);
+    if (!(row.place & kCountsBit)) return;
+    addResidual(rows, at, row, x, a, sums);
+    if constexpr (kTry) addProducts(rows, at, row, x, a, sums);
   }
 
   /// Natural map: the change of the impulse by a projected step along the gradient, in units of velocity.
   GROUSER_HD void addResidual(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
-                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
-                              Sums& sums) const {
+                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a,
+                              RowSums& sums) const {
     contact::Impulse<Real> z{x.linear - a.linear * (Real(1) / row.mobility), {}};
     contact::ImpulseMetric<Real> metric{Real(1), Real(0)};
     if (rows.rolling) {
@@ -165,34 +180,34 @@ private:
     const double square = mobility * mobility *
                           (norm2(off.linear.template as<double>()) +
                            static_cast<double>(metric.rolling) * norm2(off.rolling.template as<double>()));
-    sums.add(kSquares, share * square, s.perSquare);
-    sums.add(kContacts, share, kPerContact);
+    sums.of[kSquares] += square, sums.of[kContacts] += 1;
     const bool sound = square + 0 * norm2(a.linear.template as<double>()) == square; // a NaN would be cut to zero
     const float residual = sound ? static_cast<float>(sqrt(square)) : kNoResidual;
     if (residual > sums.worst) sums.worst = residual;
   }
 
-  /// Curvature d N d and squared length of the step d from y to x, and the product of the gradient with the change
-  /// since the last iteration, which decides on a restart.
+  /// Curvature d N d and squared length of the step d from y to x, and its product with the change since the last
+  /// iteration, in the metric: the extrapolation restarts where they point apart (O'Donoghue and Candes 2015, Found.
+  /// Comput. Math. 15:715, with the step in the place of the gradient, which Coulomb's own law does not follow).
   GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
-                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, double share,
-                              Sums& sums) const {
+                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a,
+                              RowSums& sums) const {
     const auto [y, gy] = Base::ahead(rows, at);
     const contact::Impulse<Real> step = x - y, way = x - impulseAt(rows, s.control->now, at);
     const auto product = [](const Vec& p, const Vec& q) {
       return dot(p.template as<double>(), q.template as<double>());
     };
-    const double along = static_cast<double>(dot(step.linear, row.push)),
+    const double along = static_cast<double>(dot(step.linear, row.push)), weight = static_cast<double>(row.weight),
                  shearWeight = WeighRows<Real>::shearWeight(s);
-    double length = static_cast<double>(row.weight) *
-                    (along * along * (1 - shearWeight) + shearWeight * product(step.linear, step.linear));
-    if (rows.rolling) length += static_cast<double>(rows.rolling[at].weight) * product(step.rolling, step.rolling);
+    const auto inMetric = [&](const contact::Impulse<Real>& other) {
+      double sum = weight * (along * static_cast<double>(dot(other.linear, row.push)) * (1 - shearWeight) +
+                             shearWeight * product(step.linear, other.linear));
+      if (rows.rolling) sum += static_cast<double>(rows.rolling[at].weight) * product(step.rolling, other.rolling);
+      return sum;
+    };
     const contact::Impulse<Real> change = a - gy;
-    const double curvature = product(step.linear, change.linear) + product(step.rolling, change.rolling);
-    const double against = product(gy.linear, way.linear) + product(gy.rolling, way.rolling);
-    sums.add(kCurvature, share * curvature, s.perEnergy);
-    sums.add(kLength, share * length, s.perEnergy);
-    sums.add(kAgainst, share * against, s.perEnergy);
+    sums.of[kCurvature] += product(step.linear, change.linear) + product(step.rolling, change.rolling);
+    sums.of[kLength] += inMetric(step), sums.of[kAgainst] -= inMetric(way);
   }
 };
 
@@ -214,16 +229,13 @@ template <class Real> struct SumBanks {
 /// Sums of an iteration. `worst`: as ImpulseData has it.
 template <class Real>
 GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::WideSum* totals, std::uint32_t worst) {
-  const auto sum = [&](int which, double perUnit) {
+  const auto sum = [&](int which) {
     const base::WideSum* const of = totals + which * kSumSizes;
+    const double perUnit = perUnitOf(s, which);
     return of[0].nearly() / perUnit + of[1].nearly() / (perUnit * kFinerSums);
   };
-  return {sum(kCurvature, s.perEnergy),
-          sum(kLength, s.perEnergy),
-          sum(kAgainst, s.perEnergy),
-          sum(kSquares, s.perSquare),
-          sum(kContacts, kPerContact),
-          static_cast<double>(base::bitsAs<float>(worst))};
+  return {sum(kCurvature), sum(kLength),   sum(kAgainst),
+          sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(worst))};
 }
 
 /// Decides on the next iteration, where the device does so by itself.

@@ -24,9 +24,11 @@ template <class Real> struct ImpulseRowRecord {
   Real weight;           ///< weight in the metric, the inverse of the step size [1/kg]
   Real mobility;         ///< sum of the inverse masses and the softness [1/kg]: scales residuals to velocities
   std::uint32_t other;   ///< slot, or kFixedPartner
-  std::uint32_t place;   ///< place in the neighbour list, or boundary; highest bit: impact
+  std::uint32_t place;   ///< place in the neighbour list, boundary, or patch; and two flags
 };
-inline constexpr std::uint32_t kImpactBit = 1u << 31;
+/// Flags of ImpulseRowRecord::place. `kCountsBit`: the sums of an iteration include this side of a pair, that of the
+/// smaller id.
+inline constexpr std::uint32_t kImpactBit = 1u << 31, kCountsBit = 1u << 30, kPlaceBits = kCountsBit - 1;
 
 /// Constants of the rolling resistance of a row.
 template <class Real> struct RollingRowRecord {
@@ -69,12 +71,10 @@ template <class Real> struct ImpulseRowsView {
   PartRowRecord<Real>* part; ///< null: no rows with parts
 };
 
-/// Sums of an iteration over all rows, as integers with quanta of two sizes, so that their order does not matter. Each
-/// side of a pair adds half.
+/// Sums of an iteration over all rows, as integers with quanta of two sizes, so that the order of grains does not
+/// matter. A grain adds up its own rows in their order.
 enum ImpulseSum : int { kCurvature, kLength, kAgainst, kSquares, kContacts, kImpulseSums };
 inline constexpr int kSumSizes = 2, kSumBanks = 64;
-/// Quanta of a contact.
-inline constexpr double kPerContact = 2;
 /// Ratio of the two quanta.
 inline constexpr double kFinerSums = 0x1p40;
 
@@ -156,7 +156,7 @@ template <class Real> GROUSER_HD contact::ImpulseCone<Real> coneAt(const Impulse
 /// The force-driven surface of a row, or null.
 template <class Real> GROUSER_HD const SurfacePose*
 freeSurface(const GrainKernelData& d, const ImpulseRowRecord<Real>& row, bool atBoundary, int& surface) {
-  surface = static_cast<int>(row.place & ~kImpactBit) - (d.boundaryCount - d.surfaceCount);
+  surface = static_cast<int>(row.place & kPlaceBits) - (d.boundaryCount - d.surfaceCount);
   if (!atBoundary || surface < 0 || !(d.placements[surface].inverseMass > 0)) return nullptr;
   return d.placements + surface;
 }

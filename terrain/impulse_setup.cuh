@@ -57,7 +57,8 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
 
   /// Stores a row and its first impulse.
   GROUSER_HD void put(const ImpulseRowsView<Real>& rows, std::int64_t at, const contact::ImpulseRow<Real>& row,
-                      const Arms& arms, Real overlap, std::uint32_t other, std::uint32_t place) const {
+                      const Arms& arms, Real overlap, std::uint32_t other, std::uint32_t place,
+                      bool counts = true) const {
     rows.row[at] = {row.push,
                     row.offset,
                     row.softness,
@@ -68,7 +69,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
                     Real(0),
                     Real(0),
                     other,
-                    place | (row.impact ? kImpactBit : 0u)};
+                    place | (row.impact ? kImpactBit : 0u) | (counts ? kCountsBit : 0u)};
     rows.end[at] = {overlap, row.pull, row.damping, row.shearDamping};
     const contact::Impulse<Real> start = contact::cutToCoulomb(row.start, row.push, row.cone);
     rows.impulse[s.now][at] = start.linear;
@@ -139,7 +140,7 @@ private:
                         has(contact::kRollingFriction), touch);
     const contact::ImpulseRow<Real> row = contact::impulseRow(law, touch, s.rules);
     pulled -= row.push * row.pull;
-    Base::put(s.grains, at, row, arms, pair.overlap, ground ? kFixedPartner : j, k);
+    Base::put(s.grains, at, row, arms, pair.overlap, ground ? kFixedPartner : j, k, ground || d.id[i] < d.id[j]);
   }
 
   /// Velocities at the end of the step without contacts: gravity and cohesion alone.
