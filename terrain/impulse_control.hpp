@@ -16,7 +16,7 @@ struct IterationSums {
 /// State of the iterations of a step.
 template <class Real> struct ImpulseControl {
   static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< the metric bounds the curvature at tau = 1
-  static constexpr int kPatience = 50;                      ///< iterations within which the residual must halve
+  static constexpr int kPatience = 100;                     ///< iterations within which the residual must halve
 
   double residual{};     ///< tolerance [m/s]
   int most{};            ///< iterations
