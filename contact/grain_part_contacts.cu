@@ -141,8 +141,8 @@ Box boxOf(const base::SphereSet& set) {
 GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartModel& model,
                                      const std::vector<const base::SphereSet*>& sets, std::vector<GrainPart> parts,
                                      const base::Comm& comm, const GrainPartMaterials& materials)
-    : exec_(exec), comm_(comm), model_(model), scaledLaws_(scaled(materials, model)), partCount_(parts.size()), rolling_(false), crushes_(materials.crush()),
-      features_(0) {
+    : exec_(exec), comm_(comm), model_(model), scaledLaws_(scaled(materials, model)), partCount_(parts.size()),
+      rolling_(false), crushes_(materials.crush()), features_(0) {
   std::vector<BasicLaw<float>> laws;
   for (const ContactLaw& law : scaledLaws_) laws.push_back(law.as<float>());
   for (const BasicLaw<float>& law : laws) features_ |= law.features(), allHertz_ = allHertz_ && law.hertz;

@@ -61,9 +61,7 @@ public:
   PartPatches patches(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads);
   /// Laws by grain material and part material, with unscaled masses.
   const std::vector<ContactLaw>& laws() const { return scaledLaws_; }
-  bool rolls() const { return rolling_; }
   const GrainPartModel& model() const { return model_; }
-  std::size_t parts() const { return partCount_; }
   /// Device memory to clear before each step.
   base::Parcel clearedSums();
   base::Parcel clearedCount();

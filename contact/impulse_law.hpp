@@ -29,7 +29,7 @@ struct ComplementarityOptions {
   double impact{};     ///< approach [m/s] above which a new contact has Newton's restitution; slower ones have none
   /// Gap up to which pairs at rest are in the problem, a share of the smallest radius at most [m].
   double reach = std::numeric_limits<double>::infinity();
-  bool strict{false};  ///< steps that exceed the residual end the run
+  bool strict{false}; ///< steps that exceed the residual end the run
   bool operator==(const ComplementarityOptions&) const = default;
 };
 

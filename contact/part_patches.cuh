@@ -24,7 +24,8 @@ struct PartPatches : GrainPartForces<kGeneral> {
     found.count = touch(parts[partOf(e)], motion[partOf(e)].toPart(ball.x), ball.radius + gap, base::ThreadGroup<1>{0},
                         found.patch);
     for (int k = 0; k < found.count; ++k) found.patch[k].overlap -= static_cast<float>(gap);
-    found.through = recallAll(memory + first(e), found.patch, found.count, static_cast<float>(ball.radius), found.former);
+    found.through =
+        recallAll(memory + first(e), found.patch, found.count, static_cast<float>(ball.radius), found.former);
     return found;
   }
   GROUSER_HD int part(int e) const { return partOf(e); }

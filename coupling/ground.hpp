@@ -40,7 +40,7 @@ struct GroundTraits {
   const terrain::HeightField* hullMeets = nullptr; ///< an elastic foundation for the hull, computed with the obstacles
   bool onHost = false;                             ///< contacts are computed by computeOnHost() instead of compute()
   bool deforms = false;                            ///< has fieldsNow(), and energies of its own in the ledger
-  bool solves = false;                             ///< contacts follow from the motion of the parts in the step: solve()
+  bool solves = false;      ///< contacts follow from the motion of the parts in the step: solve()
   bool hasMomentum = false; ///< whether the ledger includes the momentum of the ground; true only for grains
 };
 
@@ -121,8 +121,9 @@ public:
   virtual void computeOnHost(const contact::PartMotion*, contact::PartLoad* /*loads*/) {
     throw std::logic_error("a ground with onHost overrides computeOnHost()");
   }
-  /// Computes the contacts and the motion of the ground in this step, together with that of the bodies: where the traits
-  /// have `solves`, compute() is called as otherwise but adds no loads; this function adds them to the same memory.
+  /// Computes the contacts and the motion of the ground in this step, together with that of the bodies: where the
+  /// traits have `solves`, compute() is called as otherwise but adds no loads; this function adds them to the same
+  /// memory.
   virtual void solve(contact::BodyResponse&) { throw std::logic_error("a ground with solves overrides solve()"); }
   /// Gives the ground its own sum of compute(), over all ranks of traits().comm.
   virtual void collect(const contact::PartLoad&) {}

@@ -12,7 +12,8 @@ namespace {
 
 /// Inverse of a symmetric, positive definite matrix.
 Mat3d inverseOf(const Mat3d& m) {
-  const Vec3d a{m.m[0][0], m.m[1][0], m.m[2][0]}, b{m.m[0][1], m.m[1][1], m.m[2][1]}, c{m.m[0][2], m.m[1][2], m.m[2][2]};
+  const Vec3d a{m.m[0][0], m.m[1][0], m.m[2][0]}, b{m.m[0][1], m.m[1][1], m.m[2][1]},
+      c{m.m[0][2], m.m[1][2], m.m[2][2]};
   const double scale = 1 / dot(a, cross(b, c));
   const Vec3d row[] = {cross(b, c) * scale, cross(c, a) * scale, cross(a, b) * scale};
   Mat3d inverse;

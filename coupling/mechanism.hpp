@@ -36,8 +36,8 @@ public:
   void command(const Inputs& inputs, const base::Vec3d& gravity);
 
   void actuate() override;
-  /// One step, after actuate(). Throws base::SimulationError, also where the motion has become too quick for the step: at every
-  /// kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.
+  /// One step, after actuate(). Throws base::SimulationError, also where the motion has become too quick for the step:
+  /// at every kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.
   void advance() override;
   static constexpr std::int64_t kJudgeInterval = 50;
 

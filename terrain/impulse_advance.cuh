@@ -136,11 +136,13 @@ private:
       storeVector(history, patches.memory[at].shear);
       storeVector(history + 3, patches.angle ? patches.angle[at] : base::Vec3f{});
       const bool touches = endRow(s.parts, at, row, start, end, history, &part.rotation, 1, total);
-      if (touches) patches.memory[at].shear = loadVector(history), patches.count(contact::kPatchesNow, 1);
-      else patches.memory[at] = {};
+      if (touches)
+        patches.memory[at].shear = loadVector(history), patches.count(contact::kPatchesNow, 1);
+      else
+        patches.memory[at] = {};
       if (patches.angle) patches.angle[at] = loadVector(history + 3);
-      const base::Vec3l quanta = patches.model.force.quantise(forceOf(s.parts.impulse[s.now][at] -
-                                                                      row.push * s.parts.end[at].pull));
+      const base::Vec3l quanta =
+          patches.model.force.quantise(forceOf(s.parts.impulse[s.now][at] - row.push * s.parts.end[at].pull));
       const base::Vec3d force = patches.model.force.value(quanta);
       base::Vec3d torque = cross(point - part.centre, -force);
       if (s.parts.rolling) torque -= forceOf(s.parts.turning[s.now][at]);

@@ -41,7 +41,8 @@ public:
 
   void into(ImpulseData<Real>& data) {
     data.partLaws = laws_.data(), data.bodyOfPart = bodyOfPart_.data(), data.body = inverses_.data();
-    data.bodyRows = rows_.data(), data.bodyPushes = yields_ ? pushes_.data() : nullptr, data.bodyMotion = motion_.data();
+    data.bodyRows = rows_.data(), data.bodyPushes = yields_ ? pushes_.data() : nullptr,
+    data.bodyMotion = motion_.data();
     data.bodyPush = push_, data.bodyTurn = turn_;
   }
 

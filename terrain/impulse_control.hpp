@@ -18,10 +18,10 @@ template <class Real> struct ImpulseControl {
   static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< the metric bounds the curvature at tau = 1
   static constexpr int kPatience = 100;                     ///< iterations within which the residual must halve
 
-  double residual{};     ///< tolerance [m/s]
-  int most{};            ///< iterations
+  double residual{}; ///< tolerance [m/s]
+  int most{};        ///< iterations
   bool associated{false};
-  bool relaxed{false};   ///< the step began with Coulomb's own law
+  bool relaxed{false}; ///< the step began with Coulomb's own law
   bool done{false};
   int now = 0, before = 0, tried = 2; ///< buffers of rows
   int iterations = 0, halvedAt = 0;

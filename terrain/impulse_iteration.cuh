@@ -166,8 +166,7 @@ private:
 
   /// Natural map: the change of the impulse by a projected step along the gradient, in units of velocity.
   GROUSER_HD void addResidual(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
-                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a,
-                              RowSums& sums) const {
+                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, RowSums& sums) const {
     contact::Impulse<Real> z{x.linear - a.linear * (Real(1) / row.mobility), {}};
     contact::ImpulseMetric<Real> metric{Real(1), Real(0)};
     if (rows.rolling) {
@@ -175,7 +174,8 @@ private:
       metric.rolling = Real(2.5) / (arm * arm); // of a solid sphere: mass over moment of inertia
       z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * metric.rolling));
     }
-    const contact::Impulse<Real> off = x - contact::allowed(z, row.push, coneAt(rows, at), metric, s.control->associated);
+    const contact::Impulse<Real> off =
+        x - contact::allowed(z, row.push, coneAt(rows, at), metric, s.control->associated);
     const double mobility = static_cast<double>(row.mobility);
     const double square = mobility * mobility *
                           (norm2(off.linear.template as<double>()) +
@@ -190,8 +190,7 @@ private:
   /// iteration, in the metric: the extrapolation restarts where they point apart (O'Donoghue and Candes 2015, Found.
   /// Comput. Math. 15:715, with the step in the place of the gradient, which Coulomb's own law does not follow).
   GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
-                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a,
-                              RowSums& sums) const {
+                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, RowSums& sums) const {
     const auto [y, gy] = Base::ahead(rows, at);
     const contact::Impulse<Real> step = x - y, way = x - impulseAt(rows, s.control->now, at);
     const auto product = [](const Vec& p, const Vec& q) {

@@ -19,7 +19,8 @@ template <class Real> struct MakePartRows : ImpulseKernel<Real> {
     const contact::PartMotion& part = patches.motion[patches.part(e)];
     const base::Vec3d x = patches.centre(e);
     const double speed = Base::speedOf(i) + 2 * norm(d.gravityStep) + norm(part.velocityAt(x));
-    const contact::PartPatches::Found found = patches.find(e, static_cast<double>(Base::marginFor(speed)) * d.unitLength);
+    const contact::PartPatches::Found found =
+        patches.find(e, static_cast<double>(Base::marginFor(speed)) * d.unitLength);
     s.partRows[e] = 0;
     patches.load[e] = {};
     if (found.through > 0) Base::raise(Fault::through, i);
@@ -80,7 +81,8 @@ private:
     Base::put(s.parts, at, contact::impulseRow(law, touch, s.rules), arms, static_cast<Real>(patch.overlap),
               kFixedPartner, static_cast<std::uint32_t>(k));
     s.parts.part[at] = on;
-    return s.rules.rigid || !(patch.overlap > 0) ? 0 : springEnergy(law, touch, patch.overlap, patches.angle != nullptr);
+    return s.rules.rigid || !(patch.overlap > 0) ? 0
+                                                 : springEnergy(law, touch, patch.overlap, patches.angle != nullptr);
   }
 
   GROUSER_HD static double springEnergy(const Law& law, const Touch& touch, float overlap, bool rolls) {

@@ -81,19 +81,19 @@ inline constexpr double kFinerSums = 0x1p40;
 /// Arguments of the kernels of a step.
 template <class Real> struct ImpulseData {
   contact::ImpulseRules<Real> rules;
-  ImpulseRowsView<Real> grains; ///< by place of the neighbour list; a grain's rows fill the first places of its list
-  ImpulseRowsView<Real> bounds; ///< [row of the grain][place in the list of grains near boundaries]
-  ImpulseRowsView<Real> parts;  ///< [listed pair of grain and part][kPatches]
-  std::uint32_t* grainRows;     ///< [slot] number of rows with other grains
-  std::uint32_t* boundRows;     ///< [place in the list near boundaries] number of rows
-  std::uint32_t* partRows;      ///< [listed pair of grain and part] number of rows
-  std::uint32_t* degree;        ///< [slot] number of all rows, ghosts included
-  std::int64_t near;            ///< grains listed near boundaries
-  ImpulseMotion<Real>* free;    ///< [slot] at the end of the step without contacts
-  ImpulseMotion<Real>* motion;  ///< [slot] with the impulses of this iteration, ghosts included
-  const std::uint32_t* ghost;   ///< [slot] not 0 for ghosts; null: none
-  std::int64_t margin;          ///< largest gap of a row [units]
-  std::int64_t leastMargin;     ///< gap within which a pair at rest has a row [units]
+  ImpulseRowsView<Real> grains;  ///< by place of the neighbour list; a grain's rows fill the first places of its list
+  ImpulseRowsView<Real> bounds;  ///< [row of the grain][place in the list of grains near boundaries]
+  ImpulseRowsView<Real> parts;   ///< [listed pair of grain and part][kPatches]
+  std::uint32_t* grainRows;      ///< [slot] number of rows with other grains
+  std::uint32_t* boundRows;      ///< [place in the list near boundaries] number of rows
+  std::uint32_t* partRows;       ///< [listed pair of grain and part] number of rows
+  std::uint32_t* degree;         ///< [slot] number of all rows, ghosts included
+  std::int64_t near;             ///< grains listed near boundaries
+  ImpulseMotion<Real>* free;     ///< [slot] at the end of the step without contacts
+  ImpulseMotion<Real>* motion;   ///< [slot] with the impulses of this iteration, ghosts included
+  const std::uint32_t* ghost;    ///< [slot] not 0 for ghosts; null: none
+  std::int64_t margin;           ///< largest gap of a row [units]
+  std::int64_t leastMargin;      ///< gap within which a pair at rest has a row [units]
   ImpulseControl<Real>* control; ///< of the iterations
   int now;                       ///< buffer of the rows before and after the iterations
   // Force-driven surfaces.
@@ -112,14 +112,13 @@ template <class Real> struct ImpulseData {
   base::FixedPoint bodyPush, bodyTurn;        ///< their quanta [N s], [N m s]
   const BodyMotion<Real>* bodyMotion;         ///< [body] with the impulses of this iteration
   bool rolls;                                 ///< rolling resistance in any row
-  base::WideSum* sums;         ///< [kSumBanks][kImpulseSums][kSumSizes]
-  double perEnergy, perSquare; ///< large quanta per unit
-  std::uint32_t* worst;        ///< largest residual [m/s], bits of a float
+  base::WideSum* sums;                        ///< [kSumBanks][kImpulseSums][kSumSizes]
+  double perEnergy, perSquare;                ///< large quanta per unit
+  std::uint32_t* worst;                       ///< largest residual [m/s], bits of a float
 };
 
 /// Calls each(pair, place) for the rows of a grain with parts.
-template <class Real, class Each>
-GROUSER_HD void forPartRowsOf(const ImpulseData<Real>& s, int i, const Each& each) {
+template <class Real, class Each> GROUSER_HD void forPartRowsOf(const ImpulseData<Real>& s, int i, const Each& each) {
   const std::uint32_t range = s.patches.pairs > 0 ? s.patches.range[i] : 0, first = range >> 8;
   for (std::uint32_t e = first; e < first + (range & 255u); ++e)
     for (std::uint32_t k = 0; k < s.partRows[e]; ++k)

@@ -136,8 +136,8 @@ private:
     touch.dampingShare = ground ? law.fixedShare : Real(1);
     touch.held = held;
     if (Kernel::hasHistory())
-      Base::takeSprings(d.neighbours.history + listed * Kernel::historyWidth(), nullptr,
-                        has(contact::kRollingFriction), touch);
+      Base::takeSprings(d.neighbours.history + listed * Kernel::historyWidth(), nullptr, has(contact::kRollingFriction),
+                        touch);
     const contact::ImpulseRow<Real> row = contact::impulseRow(law, touch, s.rules);
     pulled -= row.push * row.pull;
     Base::put(s.grains, at, row, arms, pair.overlap, ground ? kFixedPartner : j, k, ground || d.id[i] < d.id[j]);

@@ -34,8 +34,7 @@ void ImpulseTotals::add(const ImpulseReport& report) {
 }
 
 std::vector<std::int64_t> ImpulseTotals::words() const {
-  return {steps,   iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst),
-          base::bitsAs<std::int64_t>(tau)};
+  return {steps, iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst), base::bitsAs<std::int64_t>(tau)};
 }
 
 void ImpulseTotals::setWords(const std::int64_t* words) {

@@ -18,9 +18,9 @@ struct GrainSystem;
 
 /// Parts of bodies among the grains, which outlive the step.
 struct ImpulseParts {
-  contact::GrainPartContacts* contacts{nullptr};                ///< pairs, history and laws; null: no parts
-  const base::Array<contact::PartMotion>* motion{nullptr};      ///< at the start of the step
-  contact::PartLoad* loads{nullptr};                            ///< [part] receives them, on the device
+  contact::GrainPartContacts* contacts{nullptr};           ///< pairs, history and laws; null: no parts
+  const base::Array<contact::PartMotion>* motion{nullptr}; ///< at the start of the step
+  contact::PartLoad* loads{nullptr};                       ///< [part] receives them, on the device
   contact::BodyResponse* bodies{nullptr};
 };
 

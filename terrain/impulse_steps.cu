@@ -25,8 +25,9 @@ using contact::ComplementarityOptions;
 template <class Real> struct RowMemory {
   using Vectors = base::Array<base::Vec3<Real>>;
   explicit RowMemory(const base::Exec& exec)
-      : row(exec), rolling(exec), end(exec), part(exec), impulse{Vectors(exec), Vectors(exec), Vectors(exec)}, gradient{Vectors(exec), Vectors(exec),
-                                                                                  Vectors(exec)},
+      : row(exec), rolling(exec), end(exec),
+        part(exec), impulse{Vectors(exec), Vectors(exec), Vectors(exec)}, gradient{Vectors(exec), Vectors(exec),
+                                                                                   Vectors(exec)},
         turning{Vectors(exec), Vectors(exec), Vectors(exec)}, turnGradient{Vectors(exec), Vectors(exec),
                                                                            Vectors(exec)} {}
 
@@ -65,17 +66,13 @@ template <class Real> struct RowMemory {
 template <class Real> class ImpulseSolverOf : public ImpulseSolver {
 public:
   ImpulseSolverOf(const base::Exec& exec, const GrainConstants& c)
-      : exec_(exec), options_(*c.model.complementarity), grains_(exec), bounds_(exec), onParts_(exec),
-        bodies_(exec), partRows_(exec), grainRows_(exec), boundRows_(exec), degree_(exec), free_(exec), motion_(exec),
+      : exec_(exec), options_(*c.model.complementarity), grains_(exec), bounds_(exec), onParts_(exec), bodies_(exec),
+        partRows_(exec), grainRows_(exec), boundRows_(exec), degree_(exec), free_(exec), motion_(exec),
         sums_(exec, std::size_t{kSumBanks} * SumBanks<Real>::kCount), totalSums_(exec, SumBanks<Real>::kCount),
-        worst_(exec, 1), control_(exec, 1), surfaceRows_(exec),
-        surfacePushes_(exec), surfaceChange_(exec) {
+        worst_(exec, 1), control_(exec, 1), surfaceRows_(exec), surfacePushes_(exec), surfaceChange_(exec) {
     const auto real = [](double value) { return static_cast<Real>(value); };
     const ContactLaw& law = c.model.materials.count() > 0 ? c.model.materials.grains.front() : c.model.law;
-    data_.rules = {real(c.model.timeStep),
-                   real(options_.recovery),
-                   real(options_.impact),
-                   real(law.stiffness),
+    data_.rules = {real(c.model.timeStep), real(options_.recovery), real(options_.impact), real(law.stiffness),
                    options_.compliance == contact::Compliance::rigid};
     data_.margin = c.marginUnits;
     data_.leastMargin = c.scale.inUnits(c.leastMargin());
@@ -92,8 +89,8 @@ public:
   }
 
   std::size_t bytes() const override {
-    return grains_.bytes() + bounds_.bytes() + onParts_.bytes() + grainRows_.bytes() + boundRows_.bytes() + degree_.bytes() +
-           free_.bytes() + motion_.bytes();
+    return grains_.bytes() + bounds_.bytes() + onParts_.bytes() + grainRows_.bytes() + boundRows_.bytes() +
+           degree_.bytes() + free_.bytes() + motion_.bytes();
   }
 
 private:
@@ -178,11 +175,14 @@ private:
     for (const base::Parcel& cleared : {contacts.clearedSums()}) base::setZero(exec_, cleared.to, cleared.bytes);
     data_.patches = contacts.patches({d.position, d.motion, d.id, static_cast<std::size_t>(d.count), system.ghosts()},
                                      *parts_.motion, parts_.loads);
-    onParts_.resize(contacts.pairs() * contact::kPatches, contacts.rolls());
+    // The same on all ranks, whether or not they have pairs.
+    const bool rolls = std::any_of(contacts.laws().begin(), contacts.laws().end(),
+                                   [](const ContactLaw& law) { return law.rollingFriction > 0; });
+    onParts_.resize(contacts.pairs() * contact::kPatches, rolls);
     onParts_.part.resize(contacts.pairs() * contact::kPatches);
     partRows_.resize(contacts.pairs());
     data_.parts = onParts_.view(), data_.partRows = partRows_.data();
-    data_.rolls = data_.rolls || contacts.rolls();
+    data_.rolls = data_.rolls || rolls;
     bodies_.begin(*parts_.bodies, contacts, system.constants.model.timeStep);
     bodies_.into(data_);
   }
@@ -299,7 +299,7 @@ private:
   base::Array<base::WideSum> totalSums_;
   base::Array<std::uint32_t> worst_;
   base::Array<ImpulseControl<Real>> control_; ///< one
-  std::vector<double> inverseMass_; ///< [surface] [1/kg]; empty without force-driven surfaces
+  std::vector<double> inverseMass_;           ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;
   base::Array<std::int64_t> surfacePushes_;
   base::Array<Real> surfaceChange_; ///< [m/s]

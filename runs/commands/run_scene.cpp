@@ -148,13 +148,14 @@ void describeSolver(const coupling::Simulation& simulation) {
   const auto iterations = static_cast<double>(std::max<std::int64_t>(1, cost.iterations));
   const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, all.steps));
-  fmt::print("solver    {:.1f} iterations a step of {:.3g} us each{}, residual {:.2g} m/s at most (limit {:.2g} m/s){}\n",
-             static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / iterations,
-             cost.bytes > 0 ? fmt::format(", rank 0 sends {:.3g} kB in each", 1e-3 * static_cast<double>(cost.bytes) / iterations)
-                            : "",
-             all.worst, asked.residual,
-             all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step"))
-                             : "");
+  fmt::print(
+      "solver    {:.1f} iterations a step of {:.3g} us each{}, residual {:.2g} m/s at most (limit {:.2g} m/s){}\n",
+      static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / iterations,
+      cost.bytes > 0
+          ? fmt::format(", rank 0 sends {:.3g} kB in each", 1e-3 * static_cast<double>(cost.bytes) / iterations)
+          : "",
+      all.worst, asked.residual,
+      all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step")) : "");
   if (all.missed > 0)
     fmt::print("WARNING: {} of {} exceed run.residual; raise complementarity.iterations or run.residual, or use a "
                "smaller time_step\n",

@@ -38,8 +38,7 @@ std::vector<Wrench> impulsesOn(const Model& model, double scale = 1) {
 
 double difference(const std::vector<Twist>& a, const std::vector<Twist>& b) {
   double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    most = std::max({most, length(a[i].v - b[i].v), length(a[i].w - b[i].w)});
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max({most, length(a[i].v - b[i].v), length(a[i].w - b[i].w)});
   return most;
 }
 
@@ -53,15 +52,14 @@ double errorOfPrediction(double dt) {
   solver.startResponse(m.state, m.loads, dt, predicted);
   solver.respond(p, change);
   for (std::size_t b = 0; b < change.size(); ++b) predicted[b].v += change[b].v, predicted[b].w += change[b].w;
-  for (std::size_t b = 0; b < p.size(); ++b)
-    m.loads.external[b] = {p[b].force * (1 / dt), p[b].torque * (1 / dt)};
+  for (std::size_t b = 0; b < p.size(); ++b) m.loads.external[b] = {p[b].force * (1 / dt), p[b].torque * (1 / dt)};
   solver.step(m.state, m.loads, dt);
   return difference(predicted, m.state.twist);
 }
 
 TEST(MultibodyResponse, PredictsTheStepToFirstOrder) {
   const double coarse = errorOfPrediction(2e-4), fine = errorOfPrediction(2.5e-5);
-  EXPECT_LT(coarse, 0.1); // of up to 5 rad/s
+  EXPECT_LT(coarse, 0.1);  // of up to 5 rad/s
   EXPECT_GT(coarse, 1e-7); // Newton's method corrects it
   EXPECT_LT(fine, coarse / 8);
 }

@@ -66,8 +66,9 @@ TEST(ComplementarityScene, ResumesToTheSameBits) {
 /// The same balls under a body.
 std::string underBody(double mass, const std::string& body, const std::string& joint = "") {
   std::string text = underPlate(1, "complementarity");
-  text.replace(text.find("[[box]]"), std::string::npos, "[[body]]\nname = \"plate\"\nmaterial = \"glass\"\nmass = " +
-                                                            std::to_string(mass) + "\n" + body + joint);
+  text.replace(text.find("[[box]]"), std::string::npos,
+               "[[body]]\nname = \"plate\"\nmaterial = \"glass\"\nmass = " + std::to_string(mass) + "\n" + body +
+                   joint);
   return text;
 }
 const char* const kFreeBox = "box = [0.1, 0.1, 0.01]\nposition = [0, 0, 0.03]\n[[body.shape]]\nkind = \"box\"\n"
@@ -93,8 +94,9 @@ TEST(ComplementarityScene, ABodyLiesOnGrainsWithItsWeightHoweverLight) {
 TEST(ComplementarityScene, AHingedLeverPressesWithItsMoment) {
   // A bar of 0.2 m, hinged at x = -0.1 m, on the three balls in the middle column (x = 0) and those beside: its moment
   // about the hinge is m g 0.1 m.
-  coupling::Simulation s = made(underBody(2, "box = [0.2, 0.06, 0.01]\nposition = [0, 0, 0.025]\n[[body.shape]]\nkind = "
-                                             "\"box\"\nsize = [0.2, 0.06, 0.01]\n",
+  coupling::Simulation s = made(underBody(2,
+                                          "box = [0.2, 0.06, 0.01]\nposition = [0, 0, 0.025]\n[[body.shape]]\nkind = "
+                                          "\"box\"\nsize = [0.2, 0.06, 0.01]\n",
                                           "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"world\", "
                                           "\"plate\"]\npoint = [-0.1, 0, 0.025]\naxis = [0, 1, 0]\n"));
   while (s.time() < 0.4) s.step();
@@ -116,7 +118,8 @@ TEST(ComplementarityScene, ALoadedMeshSinksAsABoxDoes) {
     return text.substr(0, box) + kind + "position = [0, 0, 0.072]\n" + text.substr(text.find("material", box));
   };
   coupling::Simulation box = made(cube("[[box]]\nsize = [0.1, 0.1, 0.1]\n")),
-                       mesh = made(cube("[[mesh]]\nfile = \"" + cubeFile() + "\"\nscale = 0.05\nsphere_radius = 0.004\n"));
+                       mesh =
+                           made(cube("[[mesh]]\nfile = \"" + cubeFile() + "\"\nscale = 0.05\nsphere_radius = 0.004\n"));
   for (coupling::Simulation* s : {&box, &mesh}) {
     while (s->time() < 0.4) s->step();
     s->restartMeans();

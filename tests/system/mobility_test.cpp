@@ -90,7 +90,8 @@ std::string solvedHash(const base::Exec& exec, const std::string& skin = "0.3", 
                                   "driver.weight_ramp=0.005", "run.residual=1e-3", "run.skin=" + skin}));
   auto simulation = std::make_unique<Simulation>(setup, exec, quiet, base::Comm{}, sharedBeds(), sharedSpheres());
   while (simulation->steps() < 200) simulation->step();
-  if (resumes) simulation = std::make_unique<Simulation>(setup, exec, simulation->save(), base::Comm{}, sharedSpheres());
+  if (resumes)
+    simulation = std::make_unique<Simulation>(setup, exec, simulation->save(), base::Comm{}, sharedSpheres());
   while (simulation->steps() < 400) simulation->step();
   const Ledger l = simulation->ledger();
   EXPECT_EQ(l.impulseResidual, base::Vec3d{});

@@ -36,11 +36,12 @@ TEST(ComplementarityScene, StepsFollowGravityAndImpactsNotStiffness) {
 }
 
 TEST(ComplementarityScene, AVehicleKeepsItsOwnStepBesideStiffGrains) {
-  const std::string text = "[material.sand]\nstiffness = 1e8\nrestitution = 0.5\nfriction = 0.5\n[terrain]\nheightmap = \""
-                           GROUSER_SOURCE_DIR "/assets/heightmaps/flat.png\"\nsize = [4, 2.5]\nheight_range = [0, 0]\n"
-                           "material = \"sand\"\ngrain_radius = 0.04\ndepth = 0.2\n[vehicle]\nspec = \""
-                           GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml\"\nsphere_radius = 0.02\n[driver]\n"
-                           "sprocket_speed = 2\n";
+  const std::string text =
+      "[material.sand]\nstiffness = 1e8\nrestitution = 0.5\nfriction = 0.5\n[terrain]\nheightmap = "
+      "\"" GROUSER_SOURCE_DIR "/assets/heightmaps/flat.png\"\nsize = [4, 2.5]\nheight_range = [0, 0]\n"
+      "material = \"sand\"\ngrain_radius = 0.04\ndepth = 0.2\n[vehicle]\nspec = \"" GROUSER_SOURCE_DIR
+      "/assets/vehicles/light_tracked.toml\"\nsphere_radius = 0.02\n[driver]\n"
+      "sprocket_speed = 2\n";
   const double chosen = chooseTimeStep(parsed(run() + text));
   EXPECT_LE(chosen, kVehicleTimeStep);
   EXPECT_GT(chosen, 0.5 * kVehicleTimeStep);
