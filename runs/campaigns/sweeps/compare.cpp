@@ -57,9 +57,7 @@ std::vector<Variant> variantsOf(const fs::path& scene, const CompareOptions& opt
   }
   for (const ContactMethod contact : options.contacts) {
     const std::string word(base::wordOf(contact));
-    std::vector<std::string> overrides = options.fixed;
-    putOverride(overrides, "run.contact=" + word);
-    variants.push_back({"--contact", word, true, overrides});
+    variants.push_back({"--contact", word, true, contactOverrides(scene, options.fixed, contact)});
   }
   return variants;
 }

@@ -71,7 +71,45 @@ std::vector<std::string> foreignKeys(const Node& root, TerrainKind ground) {
   return found;
 }
 
+/// Overrides that remove the keys `inFile` and set all of `sets` but these and those below `foreign`.
+std::vector<std::string> without(const std::vector<std::string>& sets, const std::vector<std::string>& inFile,
+                                 std::vector<std::string> foreign) {
+  std::vector<std::string> all;
+  foreign.insert(foreign.end(), inFile.begin(), inFile.end());
+  for (const std::string& path : inFile) all.push_back("~" + path);
+  for (const std::string& set : sets) {
+    const std::string word = keyOf(set), key = word.substr(word.starts_with('~'));
+    if (std::none_of(foreign.begin(), foreign.end(),
+                     [&](const std::string& path) { return key == path || key.starts_with(path + "."); }))
+      all.push_back(set);
+  }
+  return all;
+}
+
 } // namespace
+
+std::vector<std::string> contactOverrides(const std::filesystem::path& scene, const std::vector<std::string>& sets,
+                                          scene::ContactMethod method) {
+  const base::Document file = base::Document::load(scene);
+  const Node& root = file.root().node();
+  const Node* const run = root.find("run");
+  const std::string* const named = wordOf(run, "contact");
+  const std::string word(base::wordOf(method));
+  std::vector<std::string> foreign, inFile;
+  if (method == scene::ContactMethod::penalty) {
+    foreign = {"run.residual", "complementarity"};
+    if (run && run->find("residual")) inFile.emplace_back("run.residual");
+    if (root.find("complementarity")) inFile.emplace_back("complementarity");
+  }
+  std::vector<std::string> all = without(sets, inFile, foreign);
+  const bool stepSet =
+      std::any_of(sets.begin(), sets.end(), [](const std::string& set) { return keyOf(set) == "run.time_step"; });
+  if (word != (named ? *named : base::wordOf(scene::ContactMethod::penalty)) && run && run->find("time_step") &&
+      !stepSet)
+    all.emplace_back("~run.time_step");
+  putOverride(all, "run.contact=" + word);
+  return all;
+}
 
 std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const std::vector<std::string>& sets,
                                          TerrainKind ground) {
@@ -81,15 +119,7 @@ std::vector<std::string> groundOverrides(const std::filesystem::path& scene, con
     throw InputError(fmt::format("{}: has no [terrain], and so no ground to change", scene.string()));
   requireKeys(root, scene, ground);
   const std::vector<std::string> inFile = foreignKeys(file.root().node(), ground);
-  std::vector<std::string> foreign = foreignKeys(root, ground), all;
-  foreign.insert(foreign.end(), inFile.begin(), inFile.end());
-  for (const std::string& path : inFile) all.push_back("~" + path);
-  for (const std::string& set : sets) {
-    const std::string word = keyOf(set), key = word.substr(word.starts_with('~'));
-    if (std::none_of(foreign.begin(), foreign.end(),
-                     [&](const std::string& path) { return key == path || key.starts_with(path + "."); }))
-      all.push_back(set);
-  }
+  std::vector<std::string> all = without(sets, inFile, foreignKeys(root, ground));
   putOverride(all, fmt::format("terrain.kind=\"{}\"", base::wordOf(ground)));
   return all;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// One scene on several kinds of ground.
+/// One scene on several kinds of ground, or with several contact methods.
 namespace grouser::sweeps {
 
 /// Overrides that put a scene on this kind of ground: `sets` and terrain.kind, without the keys that only other kinds
@@ -20,5 +20,10 @@ std::vector<std::string> groundOverrides(const std::filesystem::path& scene, con
 /// The same for a sweep, whose lists may hold what the ground needs; they stay apart.
 std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const SweepLists& lists,
                                          const std::vector<std::string>& fixed, scene::TerrainKind ground);
+
+/// Overrides under which a scene has this contact method: `sets` and run.contact, without the keys that only the other
+/// method has. A method other than the scene's takes its automatic step, unless `sets` give one.
+std::vector<std::string> contactOverrides(const std::filesystem::path& scene, const std::vector<std::string>& sets,
+                                          scene::ContactMethod method);
 
 } // namespace grouser::sweeps

@@ -180,6 +180,16 @@ TEST(Compare, ContactMethodsAreTwoDifferentOnes) {
     EXPECT_THROW(contactsOf(words), base::InputError) << words.back();
 }
 
+TEST(Compare, EachContactMethodHasItsOwnKeys) {
+  const Words sets = {"run.residual=1e-3", "complementarity.friction=associated", "run.seed=4"};
+  EXPECT_EQ(contactOverrides(shipped("container.toml"), sets, scene::ContactMethod::penalty),
+            (Words{"run.seed=4", "run.contact=penalty"}));
+  EXPECT_EQ(contactOverrides(shipped("container.toml"), sets, scene::ContactMethod::complementarity),
+            (Words{sets[0], sets[1], sets[2], "~run.time_step", "run.contact=complementarity"}));
+  EXPECT_EQ(contactOverrides(shipped("container.toml"), {"run.time_step=1e-3"}, scene::ContactMethod::complementarity),
+            (Words{"run.time_step=1e-3", "run.contact=complementarity"}));
+}
+
 class CompareRuns : public ProgramTest {};
 
 TEST_F(CompareRuns, HaveOneFolderAGroundAndAreNotRepeated) {
