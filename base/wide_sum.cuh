@@ -23,7 +23,7 @@ struct alignas(16) WideSum {
     return static_cast<double>(static_cast<Wide>(high) * (static_cast<Wide>(1) << 64) + static_cast<Wide>(low));
   }
   /// Rounded once where it fits into 64 bits, the same on every device.
-  GROUSER_HD double nearly() const {
+  GROUSER_HD double toDouble() const {
     const auto small = static_cast<std::int64_t>(low);
     if (high == (small < 0 ? -1 : 0)) return static_cast<double>(small);
     return static_cast<double>(high) * 0x1p64 + static_cast<double>(low);

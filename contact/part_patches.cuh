@@ -43,7 +43,7 @@ struct PartPatches : GrainPartForces<kGeneral> {
   }
   GROUSER_HD void count(PartSum which, std::int64_t value) const { base::atomicAdd64(sums + which, value); }
   /// Notes how deep a part presses a grain [m].
-  GROUSER_HD void press(int e, float overlap, float radius) const {
+  GROUSER_HD void noteOverlap(int e, float overlap, float radius) const {
     load[e].deepest = overlap;
     if (overlap > static_cast<float>(kSqueezed) * radius) count(kSqueezedNow, 1);
     if (overlap > 0) base::atomicMin64(pressed + partOf(e), pressKey(overlap / radius, grain(e)));

@@ -30,9 +30,9 @@ public:
   void setSurfacePoses() { contacts_->setPoses(state_); }
   void refreshLists(bool groundListsEnded) { contacts_->refreshLists(groundListsEnded); }
   void computeContacts(StepObserver* observer) { contacts_->compute(observer); }
-  /// Once the device has them. Those of grains that solve for their contacts follow by solveContacts().
+  /// Once the device has them. solveContacts() adds the loads of complementarity contacts.
   void collectLoads();
-  /// Adds what drives and pulls the bodies in this step.
+  /// Adds drive, towing, and applied loads of this step.
   virtual void actuate() = 0;
   /// Solves for the contacts with the grains, where these do so, by the response of the bodies to all other loads.
   void solveContacts();
@@ -78,7 +78,7 @@ protected:
     void restart() { sums.assign(sums.size(), {}), steps = 0; }
   };
 
-  /// Of the present step, to add to; null where nobody asks.
+  /// Sums to which the loads of each step are added; null if unused.
   virtual std::vector<ForceMeans*> means() = 0;
   /// [body] mean force on its parts [N].
   std::vector<base::Vec3d> meanForces(const ForceMeans& means, std::size_t bodies) const;

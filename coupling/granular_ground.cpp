@@ -5,6 +5,8 @@
 #include "coupling/ledger_entries.hpp"
 #include "coupling/simulation_state.hpp"
 
+#include <utility>
+
 namespace grouser::coupling {
 
 double GranularGround::clearance(const vehicle::Assembly& assembly) const { return liftOffGrains(assembly, grains()); }
@@ -41,11 +43,12 @@ void GranularGround::solve(contact::BodyResponse& bodies) {
   solved_.bodies = &bodies;
   grains().system().impulses->meet(solved_);
   grains().beginStep(nullptr);
+  begun_ = true;
 }
 
-/// Has begun where contacts were solved for.
+/// With complementarity contacts and bodies, solve() has already begun the step.
 void GranularGround::beginStep() {
-  if (!solved_.bodies) grains().beginStep(onParts_ ? &onParts_->loads() : onMeshes_);
+  if (!std::exchange(begun_, false)) grains().beginStep(onParts_ ? &onParts_->loads() : onMeshes_);
 }
 
 void GranularGround::setGravity(const base::Vec3d& gravity) {

@@ -53,6 +53,7 @@ private:
   std::unique_ptr<GrainsOnParts> onParts_;
   const contact::GrainLoadsView* onMeshes_{nullptr};
   terrain::ImpulseParts solved_; ///< with complementarity contacts
+  bool begun_{false};            ///< the step, by solve()
 };
 
 } // namespace grouser::coupling

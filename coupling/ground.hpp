@@ -40,7 +40,7 @@ struct GroundTraits {
   const terrain::HeightField* hullMeets = nullptr; ///< an elastic foundation for the hull, computed with the obstacles
   bool onHost = false;                             ///< contacts are computed by computeOnHost() instead of compute()
   bool deforms = false;                            ///< has fieldsNow(), and energies of its own in the ledger
-  bool solves = false;      ///< contacts follow from the motion of the parts in the step: solve()
+  bool solves = false;                             ///< complementarity contacts: solve() computes them
   bool hasMomentum = false; ///< whether the ledger includes the momentum of the ground; true only for grains
 };
 

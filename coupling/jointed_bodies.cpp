@@ -39,17 +39,18 @@ JointedBodies::JointedBodies(const ContactParts& parts, const multibody::Model& 
   for (const ContactPart& part : parts.parts) {
     const auto known = std::find(bodies_.begin(), bodies_.end(), part.body);
     bodyOfPart_.push_back(static_cast<std::uint32_t>(known - bodies_.begin()));
-    if (known == bodies_.end()) bodies_.push_back(part.body);
+    if (known != bodies_.end()) continue;
+    bodies_.push_back(part.body), inverseInertia_.push_back(inverseOf(model.bodies()[part.body].inertia_B));
   }
   inverses_.resize(bodies_.size());
 }
 
 void JointedBodies::begin(const multibody::State& state, const multibody::Loads& loads, double timeStep) {
-  solver_.startResponse(state, loads, timeStep, without_);
+  solver_.startResponse(state, loads, timeStep, freeTwists_);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const multibody::Body& body = model_.bodies()[bodies_[b]];
     if (body.fixed) continue;
-    inverses_[b] = {1 / body.mass, inWorld(state.pose[bodies_[b]].orientation.matrix(), inverseOf(body.inertia_B))};
+    inverses_[b] = {1 / body.mass, inWorld(state.pose[bodies_[b]].orientation.matrix(), inverseInertia_[b])};
   }
 }
 
@@ -59,7 +60,7 @@ void JointedBodies::respond(const std::vector<contact::BodyImpulse>& impulses,
   solver_.respond(impulses_, change_);
   velocities.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const multibody::Twist &V = without_[bodies_[b]], &more = change_[bodies_[b]];
+    const multibody::Twist &V = freeTwists_[bodies_[b]], &more = change_[bodies_[b]];
     velocities[b] = {V.v + more.v, V.w + more.w};
   }
 }

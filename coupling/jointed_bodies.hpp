@@ -30,8 +30,9 @@ private:
   std::vector<std::uint32_t> bodyOfPart_;
   std::vector<std::size_t> bodies_; ///< index of each in the model
   std::vector<Inverse> inverses_;
-  std::vector<multibody::Twist> without_, change_; ///< one a body of the model: without the grains, and by them
-  std::vector<multibody::Wrench> impulses_;        ///< the same
+  std::vector<base::Mat3d> inverseInertia_;           ///< body axes [1/(kg m2)]
+  std::vector<multibody::Twist> freeTwists_, change_; ///< one a body of the model: without the grains, and by them
+  std::vector<multibody::Wrench> impulses_;           ///< the same
 };
 
 } // namespace grouser::coupling

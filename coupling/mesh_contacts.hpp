@@ -31,7 +31,7 @@ public:
   /// The same for complementarity contacts, which the grains' step computes: collect() follows it.
   terrain::ImpulseParts parts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                               bool slotsChanged, contact::BodyResponse& response);
-  /// Takes the loads over from the device; all ranks call it.
+  /// Downloads the loads and sums them over the ranks, which all call it.
   void collect();
   /// Contact moments of the grains in the coming step; see GrainPartContacts::measure().
   contact::PartMomentsView measure(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,

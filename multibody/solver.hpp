@@ -37,7 +37,7 @@ public:
   /// (as a shock would). Returns the kinetic energy taken out [J].
   double projectVelocities(State& state, const Loads& loads);
 
-  /// Begins to answer impulses within a step of kSymplecticEuler: `twists`, one a body, become those at its end under
+  /// Prepares impulse responses for a step of kSymplecticEuler: `twists`, one a body, become those at its end under
   /// `loads`, to first order in the gaps that the step opens in curved joints. Does not change what step() does. Throws
   /// std::logic_error with kRattle.
   void startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists);

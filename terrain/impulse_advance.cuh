@@ -149,7 +149,7 @@ private:
       patches.loadPart(e, quanta, torque);
       add(row, force, s.parts, at, false, total);
       const auto overlap = static_cast<float>(s.parts.end[at].overlap), radius = static_cast<float>(size.radius);
-      if (overlap > patches.load[e].deepest) patches.press(e, overlap, radius);
+      if (overlap > patches.load[e].deepest) patches.noteOverlap(e, overlap, radius);
       if (overlap > radius) Step::raise(Fault::through, i);
     });
   }

@@ -22,7 +22,8 @@ public:
   void begin(contact::BodyResponse& bodies, const contact::GrainPartContacts& contacts, double timeStep) {
     bodies_ = &bodies;
     const std::size_t count = bodies.inverses().size();
-    if (laws_.empty()) {
+    if (&contacts != contacts_) {
+      contacts_ = &contacts;
       std::vector<contact::BasicLaw<Real>> laws;
       for (const contact::ContactLaw& law : contacts.laws()) laws.push_back(law.as<Real>());
       laws_.assign(laws), bodyOfPart_.assign(bodies.bodyOfPart());
@@ -32,7 +33,8 @@ public:
       turn_ = base::fixedPointFor(model.torque.quantum * timeStep * 0x1p40, 40);
     }
     inverses_.assign(bodies.inverses());
-    yields_ = std::any_of(bodies.inverses().begin(), bodies.inverses().end(), [](const auto& b) { return b.mass > 0; });
+    anyMovable_ =
+        std::any_of(bodies.inverses().begin(), bodies.inverses().end(), [](const auto& b) { return b.mass > 0; });
     rows_.assign(std::vector<std::uint32_t>(count));
     pushes_.resize(6 * count);
     impulses_.assign(count, {});
@@ -41,7 +43,7 @@ public:
 
   void into(ImpulseData<Real>& data) {
     data.partLaws = laws_.data(), data.bodyOfPart = bodyOfPart_.data(), data.body = inverses_.data();
-    data.bodyRows = rows_.data(), data.bodyPushes = yields_ ? pushes_.data() : nullptr,
+    data.bodyRows = rows_.data(), data.bodyPushes = anyMovable_ ? pushes_.data() : nullptr,
     data.bodyMotion = motion_.data();
     data.bodyPush = push_, data.bodyTurn = turn_;
   }
@@ -56,7 +58,7 @@ public:
   }
 
   /// True where impulses move a body.
-  bool yield() const { return yields_; }
+  bool anyMovable() const { return anyMovable_; }
   void clearPushes() { pushes_.zero(); }
   /// Moves the bodies by the impulses of all ranks, which all call it.
   void move(const base::Comm& comm) {
@@ -80,7 +82,8 @@ private:
   }
 
   contact::BodyResponse* bodies_{nullptr};
-  bool yields_{false};
+  const contact::GrainPartContacts* contacts_{nullptr}; ///< whose laws and quanta these are
+  bool anyMovable_{false};
   base::Array<contact::BasicLaw<Real>> laws_;
   base::Array<std::uint32_t> bodyOfPart_;
   base::Array<contact::BodyResponse::Inverse> inverses_;

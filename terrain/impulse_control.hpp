@@ -15,8 +15,9 @@ struct IterationSums {
 
 /// State of the iterations of a step.
 template <class Real> struct ImpulseControl {
-  static constexpr double kSafeTau = 1, kLongerStep = 0.97; ///< the metric bounds the curvature at tau = 1
-  static constexpr int kPatience = 100;                     ///< iterations within which the residual must halve
+  /// The metric bounds the curvature at tau = 1; more is for bodies whose response exceeds that of their masses.
+  static constexpr double kMostTau = 16, kLeastTau = 1e-3, kLongerStep = 0.97;
+  static constexpr int kPatience = 100; ///< iterations within which the residual must halve
 
   double residual{}; ///< tolerance [m/s]
   int most{};        ///< iterations
@@ -24,28 +25,29 @@ template <class Real> struct ImpulseControl {
   bool relaxed{false}; ///< the step began with Coulomb's own law
   bool done{false};
   int now = 0, before = 0, tried = 2; ///< buffers of rows
-  int iterations = 0, halvedAt = 0;
+  int iterations = 0, halvedAt = 0, evaluations = 0;
   Real ahead = 0, tau = 1; ///< extrapolation; inverse step size over that of the metric
   double theta = 1, halved = 0;
   IterationSums last{};
 
-  /// Of the impulses that the step begins with.
+  /// Starts from the sums of the first impulses.
   GROUSER_HD void begin(const IterationSums& sums) {
-    last = sums, halved = sums.worst;
+    last = sums, halved = sums.worst, evaluations = 1;
     done = !(last.worst > residual) || most == 0;
   }
 
   /// Accepts a trial, or repeats it with a shorter step where that was too long. Where Coulomb's own law, which has no
   /// potential, does not converge, the relaxation finishes the step.
   GROUSER_HD void take(const IterationSums& sums) {
-    if (tau < kSafeTau && sums.curvature > static_cast<double>(tau) * sums.length) {
-      tau = 2 * tau < Real(kSafeTau) ? 2 * tau : Real(kSafeTau);
+    ++evaluations;
+    if (tau < Real(kMostTau) && sums.curvature > static_cast<double>(tau) * sums.length) {
+      tau *= 2;
       return;
     }
     const bool restarts = sums.against > 0;
     const double next = restarts ? 1 : 0.5 * theta * (sqrt(theta * theta + 4) - theta);
     ahead = restarts ? Real(0) : static_cast<Real>(theta * (1 - theta) / (theta * theta + next));
-    theta = next, tau *= Real(kLongerStep);
+    theta = next, tau = tau * Real(kLongerStep) > Real(kLeastTau) ? tau * Real(kLongerStep) : Real(kLeastTau);
     before = now, now = tried, tried = 3 - now - before;
     last = sums, ++iterations;
     done = !(last.worst > residual) || iterations >= most;

@@ -231,7 +231,7 @@ GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::W
   const auto sum = [&](int which) {
     const base::WideSum* const of = totals + which * kSumSizes;
     const double perUnit = perUnitOf(s, which);
-    return of[0].nearly() / perUnit + of[1].nearly() / (perUnit * kFinerSums);
+    return of[0].toDouble() / perUnit + of[1].toDouble() / (perUnit * kFinerSums);
   };
   return {sum(kCurvature), sum(kLength),   sum(kAgainst),
           sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(worst))};

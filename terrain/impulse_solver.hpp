@@ -50,9 +50,9 @@ struct ImpulseTotals {
 
 /// Cost of the iterations of this process; not part of the state.
 struct ImpulseCost {
-  double seconds{};          ///< wall time
-  std::int64_t iterations{}; ///< and evaluations of the impulses that steps began with
-  std::int64_t bytes{};      ///< sent to other ranks
+  double seconds{};           ///< wall time
+  std::int64_t evaluations{}; ///< iterations, repeated ones and first impulses included
+  std::int64_t bytes{};       ///< sent to other ranks
 };
 
 /// Throws SimulationError for velocities that are not finite, and in strict runs for steps that exceed run.residual or

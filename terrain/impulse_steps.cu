@@ -89,8 +89,8 @@ public:
   }
 
   std::size_t bytes() const override {
-    return grains_.bytes() + bounds_.bytes() + onParts_.bytes() + grainRows_.bytes() + boundRows_.bytes() +
-           degree_.bytes() + free_.bytes() + motion_.bytes();
+    return grains_.bytes() + bounds_.bytes() + onParts_.bytes() + partRows_.bytes() + grainRows_.bytes() +
+           boundRows_.bytes() + degree_.bytes() + free_.bytes() + motion_.bytes();
   }
 
 private:
@@ -165,14 +165,15 @@ private:
     surfaceChange_.assign(change);
   }
 
-  bool bodiesYield() const { return parts_.contacts && bodies_.yield(); }
+  bool bodiesMove() const { return parts_.contacts && bodies_.anyMovable(); }
 
   /// Bodies have one velocity, the same on all ranks, which follows from the impulses of all rows.
   void setUpParts(const GrainSystem& system, const GrainKernelData& d) {
     data_.patches = {}, data_.parts = {};
     if (!parts_.contacts) return;
     contact::GrainPartContacts& contacts = *parts_.contacts;
-    for (const base::Parcel& cleared : {contacts.clearedSums()}) base::setZero(exec_, cleared.to, cleared.bytes);
+    const base::Parcel cleared = contacts.clearedSums();
+    base::setZero(exec_, cleared.to, cleared.bytes);
     data_.patches = contacts.patches({d.position, d.motion, d.id, static_cast<std::size_t>(d.count), system.ghosts()},
                                      *parts_.motion, parts_.loads);
     // The same on all ranks, whether or not they have pairs.
@@ -199,11 +200,11 @@ private:
   template <bool kTry> void evaluate(GrainSystem& system, const GrainKernelData& d) {
     using Gradient = FindGradient<Real, kTry>;
     if (!inverseMass_.empty()) surfacePushes_.zero();
-    if (bodiesYield()) bodies_.clearPushes();
+    if (bodiesMove()) bodies_.clearPushes();
     forSlots("move by impulses", d, kernel<MoveByImpulses<Real, kTry>>(d));
     exchange(system, contact::fieldOf(motion_));
     moveSurfaces(system.comm);
-    if (bodiesYield()) bodies_.move(system.comm);
+    if (bodiesMove()) bodies_.move(system.comm);
     Gradient gradient = kernel<Gradient>(d);
     gradient.count = d.count;
     base::forEach(exec_, "gradient of rows",
@@ -231,13 +232,13 @@ private:
     const std::int64_t sent = bytesSent(system);
     evaluate<false>(system, d);
     // Ranks, bodies and force-driven surfaces need the host in each iteration.
-    if (!system.comm.alone() || bodiesYield() || !inverseMass_.empty())
+    if (!system.comm.alone() || bodiesMove() || !inverseMass_.empty())
       control = iterateFromHost(system, d, control);
     else
       control = iterateOnDevice(system, d);
     data_.now = control.now;
     cost_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    cost_.iterations += 1 + control.iterations, cost_.bytes += bytesSent(system) - sent;
+    cost_.evaluations += control.evaluations, cost_.bytes += bytesSent(system) - sent;
     note(control);
     checkReport(report_, options_, system.steps);
   }

@@ -10,10 +10,10 @@
 namespace grouser::multibody::detail {
 
 void Stepper::startResponse(const State&, const Loads&, double, std::vector<Twist>&) {
-  throw std::logic_error("RATTLE does not answer impulses within a step");
+  throw std::logic_error("RATTLE has no impulse response; use kSymplecticEuler");
 }
 void Stepper::respond(const std::vector<Wrench>&, std::vector<Twist>&) {
-  throw std::logic_error("RATTLE does not answer impulses within a step");
+  throw std::logic_error("RATTLE has no impulse response; use kSymplecticEuler");
 }
 
 void checkTwist(const Body& body, const Twist& twist, double time, double dt) {

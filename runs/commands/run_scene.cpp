@@ -145,14 +145,15 @@ void describeSolver(const coupling::Simulation& simulation) {
   if (!simulation.ground().grains || !simulation.ground().grains->system().impulses) return;
   const terrain::ImpulseTotals& all = simulation.ground().grains->system().impulses->totals();
   const terrain::ImpulseCost& cost = simulation.ground().grains->system().impulses->cost();
-  const auto iterations = static_cast<double>(std::max<std::int64_t>(1, cost.iterations));
+  const auto evaluations = static_cast<double>(std::max<std::int64_t>(1, cost.evaluations));
   const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, all.steps));
   fmt::print(
-      "solver    {:.1f} iterations a step of {:.3g} us each{}, residual {:.2g} m/s at most (limit {:.2g} m/s){}\n",
-      static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / iterations,
+      "solver    {:.1f} iterations per step, {:.3g} us per iteration{}, residual {:.2g} m/s at most (limit {:.2g} "
+      "m/s){}\n",
+      static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / evaluations,
       cost.bytes > 0
-          ? fmt::format(", rank 0 sends {:.3g} kB in each", 1e-3 * static_cast<double>(cost.bytes) / iterations)
+          ? fmt::format(", {:.3g} kB sent per iteration (rank 0)", 1e-3 * static_cast<double>(cost.bytes) / evaluations)
           : "",
       all.worst, asked.residual,
       all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step")) : "");

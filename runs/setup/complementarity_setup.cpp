@@ -22,8 +22,9 @@ void checkComplementarity(const scene::Scene& scene) {
           "run.contact = \"penalty\"");
   for (const scene::Material& m : scene.materials)
     if (m.crushingStrength.value_or(0) > 0)
-      scene.failMaterial(m.name, "crushing_strength",
-                         "[Pa] limits forces of penalty contacts; remove it, or use run.contact = \"penalty\"");
+      scene.failMaterial(
+          m.name, "crushing_strength",
+          "[Pa] is not supported with complementarity contacts; remove it, or use run.contact = \"penalty\"");
   const bool rigid = scene.complementarity && scene.complementarity->compliance == contact::Compliance::rigid;
   for (const scene::Material& m : scene.materials)
     if (rigid && m.cohesion > 0)

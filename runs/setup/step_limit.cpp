@@ -214,7 +214,7 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
   }
 }
 
-/// With complementarity contacts, only those without grains have springs.
+/// With complementarity contacts, only contacts between parts have springs.
 StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const std::vector<GrainContact>& contacts) {
   StepLimit limit;
   const bool alone = !scene.terrain && plannedGrains(scene) == 1, springs = !hasComplementarity(scene);
@@ -298,7 +298,7 @@ void checkFluidStep(const scene::Scene& scene) {
                          base::roundedDown(2 * limits.least(), 3), cause, base::roundedDown(limits.least(), 3)));
 }
 
-/// Throws InputError for a given step above what the contacts bear. `automatic` [s]: what "auto" would be.
+/// Throws InputError for a given step above the stability limit of the contacts. `automatic` [s]: the step of "auto".
 void checkGivenStep(const scene::Scene& scene, const StepLimit& limit, double automatic) {
   checkTimeScales(scene, *scene.run.timeStep);
   const bool hertz = !hasComplementarity(scene) && std::any_of(scene.materials.begin(), scene.materials.end(),

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 14; // checkpoint file layout
+constexpr int kVersion = 15; // checkpoint file layout
 
 /// How a record lies in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };

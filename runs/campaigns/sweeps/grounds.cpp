@@ -71,6 +71,12 @@ std::vector<std::string> foreignKeys(const Node& root, TerrainKind ground) {
   return found;
 }
 
+/// The key that an override sets or removes.
+std::string changedKey(const std::string& set) {
+  const std::string word = keyOf(set);
+  return word.substr(word.starts_with('~'));
+}
+
 /// Overrides that remove the keys `inFile` and set all of `sets` but these and those below `foreign`.
 std::vector<std::string> without(const std::vector<std::string>& sets, const std::vector<std::string>& inFile,
                                  std::vector<std::string> foreign) {
@@ -78,7 +84,7 @@ std::vector<std::string> without(const std::vector<std::string>& sets, const std
   foreign.insert(foreign.end(), inFile.begin(), inFile.end());
   for (const std::string& path : inFile) all.push_back("~" + path);
   for (const std::string& set : sets) {
-    const std::string word = keyOf(set), key = word.substr(word.starts_with('~'));
+    const std::string key = changedKey(set);
     if (std::none_of(foreign.begin(), foreign.end(),
                      [&](const std::string& path) { return key == path || key.starts_with(path + "."); }))
       all.push_back(set);
@@ -103,7 +109,7 @@ std::vector<std::string> contactOverrides(const std::filesystem::path& scene, co
   }
   std::vector<std::string> all = without(sets, inFile, foreign);
   const bool stepSet =
-      std::any_of(sets.begin(), sets.end(), [](const std::string& set) { return keyOf(set) == "run.time_step"; });
+      std::any_of(sets.begin(), sets.end(), [](const std::string& set) { return changedKey(set) == "run.time_step"; });
   if (word != (named ? *named : base::wordOf(scene::ContactMethod::penalty)) && run && run->find("time_step") &&
       !stepSet)
     all.emplace_back("~run.time_step");

@@ -74,7 +74,7 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
   const std::vector<std::pair<std::string, std::string>> all = {
       {run() + kSand + "[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nmaterial = \"sand\"\n" + body,
        "has no effect without grains"},
-      {run() + kSand + "crushing_strength = 1e6\n" + kGrains, "limits forces of penalty contacts"},
+      {run() + kSand + "crushing_strength = 1e6\n" + kGrains, "[Pa] is not supported with complementarity contacts"},
       {run() + "[material.sand]\nlaw = \"luding\"\nstiffness = 1e6\n" + kGrains, "is elastic-plastic, which"},
       {run() + "[material.sand]\nlaw = \"eepa\"\nyoung = 1e8\n" + kGrains, "is elastic-plastic, which"},
       {run() + kSand + kGrains + "[output]\nfields_cell = 0.1\nfields_low = [-1, -1, 0]\nfields_high = [1, 1, 1]\n",

@@ -188,6 +188,8 @@ TEST(Compare, EachContactMethodHasItsOwnKeys) {
             (Words{sets[0], sets[1], sets[2], "~run.time_step", "run.contact=complementarity"}));
   EXPECT_EQ(contactOverrides(shipped("container.toml"), {"run.time_step=1e-3"}, scene::ContactMethod::complementarity),
             (Words{"run.time_step=1e-3", "run.contact=complementarity"}));
+  EXPECT_EQ(contactOverrides(shipped("container.toml"), {"~run.time_step"}, scene::ContactMethod::complementarity),
+            (Words{"~run.time_step", "run.contact=complementarity"}));
 }
 
 class CompareRuns : public ProgramTest {};
