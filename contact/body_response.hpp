@@ -21,10 +21,10 @@ struct BodyVelocity {
 };
 
 /// Rigid bodies with parts among the grains, within one step in which all contacts are solved for simultaneously: their
-/// velocities at its end depend linearly on the impulses of the grains. The same on all ranks.
+/// velocities at its end depend linearly on the impulses of the grains. All ranks have the same values.
 class BodyResponse {
 public:
-  /// Of a body without joints; zero where it never moves.
+  /// Inverse mass properties of a free body; zero for a fixed body.
   struct Inverse {
     double mass{};       ///< [1/kg]
     base::Mat3d inertia; ///< world axes [1/(kg m2)]
@@ -33,9 +33,9 @@ public:
   virtual ~BodyResponse() = default;
   /// [part] index of its body among `inverses()`.
   virtual const std::vector<std::uint32_t>& bodyOfPart() const = 0;
-  /// [body]; they bound the response: joints only make bodies heavier.
+  /// Inverse mass properties by body. They bound the response, since joints only reduce it.
   virtual const std::vector<Inverse>& inverses() const = 0;
-  /// Velocities at the end of the step under these impulses, one of each a body.
+  /// Computes the velocities at the end of the step from the impulses; one entry per body.
   virtual void respond(const std::vector<BodyImpulse>& impulses, std::vector<BodyVelocity>& velocities) = 0;
 };
 

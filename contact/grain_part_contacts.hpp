@@ -56,10 +56,10 @@ public:
   /// base::Gate has it.
   void computeOnCleared(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                         PartLoad* loads, const std::uint32_t* off);
-  /// For complementarity contacts, whose solver computes the loads in the place of compute(): the surfaces near each
-  /// listed grain. `loads` as there; clear clearedSums() before each step. Valid until the next refresh.
+  /// Returns the surfaces near each listed grain, for the solver of complementarity contacts, which replaces compute().
+  /// `loads`: as in compute(). Clear clearedSums() before each step. Valid until the next refresh.
   PartPatches patches(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads);
-  /// Laws by grain material and part material, with unscaled masses.
+  /// Contact laws of all part materials with all grain materials; see GrainPart::firstLaw.
   const std::vector<ContactLaw>& laws() const { return scaledLaws_; }
   const GrainPartModel& model() const { return model_; }
   /// Device memory to clear before each step.

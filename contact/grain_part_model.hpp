@@ -58,7 +58,7 @@ struct GrainPartModel {
   base::PositionScale scale;
   base::FixedPoint force, torque, energy; ///< quanta of the sums
   bool manyRadii{false};                  ///< each grain has its own radius in velocity.w and material in spin.w
-  double gap{0};                          ///< distance up to which PartPatches are found [m]
+  double gap{0};                          ///< largest gap of PartPatches [m]; 0 with penalty contacts
   std::size_t searchFrom{0}; ///< least number of pairs for a search of near pairs; 0: 8192 on a GPU, never on a CPU
 };
 

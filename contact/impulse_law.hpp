@@ -27,7 +27,7 @@ struct ComplementarityOptions {
   int iterations{200}; ///< maximum per step, > 0
   double recovery{};   ///< greatest speed at which rigid contacts that overlap part [m/s], >= 0
   double impact{};     ///< approach [m/s] above which a new contact has Newton's restitution; slower ones have none
-  /// Gap up to which pairs at rest are in the problem, a share of the smallest radius at most [m].
+  /// Largest gap of a pair at rest in the problem [m]; also limited to a share of the smallest radius.
   double reach = std::numeric_limits<double>::infinity();
   bool strict{false}; ///< steps that exceed the residual end the run
   bool operator==(const ComplementarityOptions&) const = default;

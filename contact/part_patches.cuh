@@ -5,19 +5,19 @@
 
 namespace grouser::contact {
 
-/// Surfaces of parts near grains, for a solver of complementarity contacts: it finds the patches of a listed pair with
-/// their gaps, keeps their history and computes the loads.
+/// Interface of listed grain-part pairs for a solver of complementarity contacts: finds the patches of a pair with
+/// their gaps, stores their history, and sums their loads.
 struct PartPatches : GrainPartForces<kGeneral> {
-  const std::uint32_t* range; ///< by slot, as GrainLoadsView has it
+  const std::uint32_t* range; ///< by slot; see GrainLoadsView
   std::int64_t pairs;
 
   struct Found {
     int count = 0;
     TouchedPatch patch[kPatches]; ///< `overlap` < 0: a gap [m]
-    int former[kPatches];         ///< place in the memory of the last step; -1: a new one
+    int former[kPatches];         ///< index in the memory of the last step; -1: new patch
     float through = 0;            ///< see recallAll() [m]
   };
-  /// Patches of a pair with gaps below `gap` [m], which is at most GrainPartModel::gap.
+  /// Finds the patches of a pair with gaps below `gap` [m], at most GrainPartModel::gap.
   GROUSER_HD Found find(int e, double gap) const {
     const Ball ball = ballOf(static_cast<int>(slot[e]));
     Found found;
@@ -32,7 +32,7 @@ struct PartPatches : GrainPartForces<kGeneral> {
   GROUSER_HD std::uint32_t grain(int e) const { return static_cast<std::uint32_t>(key[e] >> 16); }
   GROUSER_HD base::Vec3d centre(int e) const { return ballOf(static_cast<int>(slot[e])).x; }
   GROUSER_HD int law(int e, int material) const { return parts[partOf(e)].firstLaw + material; }
-  /// Place of its first patch in memory and angles.
+  /// Index of the first patch of a pair in memory and angles.
   GROUSER_HD static std::int64_t first(int e) { return static_cast<std::int64_t>(e) * kPatches; }
 
   /// Adds the opposite of `quanta`, the force on a grain, and `torque` [N m] about its centre to a part.
@@ -42,7 +42,7 @@ struct PartPatches : GrainPartForces<kGeneral> {
     for (int a = 0; a < 3; ++a) base::atomicAdd64(sums + kReceivedByGrains + a, quanta[a]);
   }
   GROUSER_HD void count(PartSum which, std::int64_t value) const { base::atomicAdd64(sums + which, value); }
-  /// Notes how deep a part presses a grain [m].
+  /// Records the overlap of a grain with a part [m].
   GROUSER_HD void noteOverlap(int e, float overlap, float radius) const {
     load[e].deepest = overlap;
     if (overlap > static_cast<float>(kSqueezed) * radius) count(kSqueezedNow, 1);

@@ -42,7 +42,7 @@ void BodiesInContact::collectLoads() {
 
 void BodiesInContact::solveContacts() {
   if (!contacts_ || !contacts_->solves()) return;
-  if (!jointed_) jointed_ = std::make_unique<JointedBodies>(contactParts_, model(), stepSolver());
+  if (!jointed_) jointed_ = std::make_unique<JointedBodies>(contactParts_, model(), stepSolver(), replicated_);
   jointed_->begin(state_, loads_, timeStep());
   contacts_->solve(*jointed_, loads_);
   addToMeans();

@@ -10,6 +10,7 @@
 #include "multibody/solver.hpp"
 #include "multibody/state.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -30,17 +31,17 @@ public:
   void setSurfacePoses() { contacts_->setPoses(state_); }
   void refreshLists(bool groundListsEnded) { contacts_->refreshLists(groundListsEnded); }
   void computeContacts(StepObserver* observer) { contacts_->compute(observer); }
-  /// Once the device has them. solveContacts() adds the loads of complementarity contacts.
+  /// Sums the contact loads after the device has computed them. solveContacts() adds those of complementarity contacts.
   void collectLoads();
   /// Adds drive, towing, and applied loads of this step.
   virtual void actuate() = 0;
-  /// Solves for the contacts with the grains, where these do so, by the response of the bodies to all other loads.
+  /// Solves complementarity contacts with the grains, after all other loads are known. No effect with penalty contacts.
   void solveContacts();
   virtual void advance() = 0; ///< multibody step
 
   virtual const multibody::Model& model() const = 0;
   virtual const multibody::Solver& solver() const = 0;
-  virtual multibody::Solver& stepSolver() = 0; ///< for a step
+  virtual multibody::Solver& stepSolver() = 0; ///< for use within a step
   const multibody::State& state() const { return state_; }
   multibody::Balance bodiesBalance() const { return multibody::balance(model(), state_, loads_); }
 
@@ -79,7 +80,7 @@ protected:
   };
 
   /// Sums to which the loads of each step are added; null if unused.
-  virtual std::vector<ForceMeans*> means() = 0;
+  virtual std::array<ForceMeans*, 3> means() = 0;
   /// [body] mean force on its parts [N].
   std::vector<base::Vec3d> meanForces(const ForceMeans& means, std::size_t bodies) const;
   /// Adds the bodies' energies and momenta and those of their contacts. `bodies`: with the work of all else that acts
@@ -90,6 +91,7 @@ protected:
 
   multibody::State state_;
   multibody::Loads loads_;
+  ReplicatedWork replicated_;             ///< for the multibody step and its responses
   ForceMeans rowMeans_;                   ///< since the last row
   std::vector<base::SphereSet> bodySets_; ///< spheres of the distinct body meshes
   std::vector<spheredecomp::CutReport> bodyCuts_;
@@ -99,7 +101,7 @@ protected:
 private:
   void addToMeans();
 
-  std::unique_ptr<JointedBodies> jointed_; ///< null until contacts with the bodies are solved for
+  std::unique_ptr<JointedBodies> jointed_; ///< null with penalty contacts
 };
 
 } // namespace grouser::coupling

@@ -41,7 +41,7 @@ void GranularGround::compute(const base::Exec& exec, const base::Array<contact::
 
 void GranularGround::solve(contact::BodyResponse& bodies) {
   solved_.bodies = &bodies;
-  grains().system().impulses->meet(solved_);
+  grains().system().impulses->setParts(solved_);
   grains().beginStep(nullptr);
   begun_ = true;
 }

@@ -52,8 +52,8 @@ private:
   base::Exec exec_;
   std::unique_ptr<GrainsOnParts> onParts_;
   const contact::GrainLoadsView* onMeshes_{nullptr};
-  terrain::ImpulseParts solved_; ///< with complementarity contacts
-  bool begun_{false};            ///< the step, by solve()
+  terrain::ImpulseParts solved_; ///< arguments of the complementarity solver
+  bool begun_{false};            ///< solve() has begun the step
 };
 
 } // namespace grouser::coupling

@@ -121,9 +121,8 @@ public:
   virtual void computeOnHost(const contact::PartMotion*, contact::PartLoad* /*loads*/) {
     throw std::logic_error("a ground with onHost overrides computeOnHost()");
   }
-  /// Computes the contacts and the motion of the ground in this step, together with that of the bodies: where the
-  /// traits have `solves`, compute() is called as otherwise but adds no loads; this function adds them to the same
-  /// memory.
+  /// Solves contacts and motion of the ground in this step together with the bodies. With `solves`, compute() adds no
+  /// loads; solve() adds them to the same memory.
   virtual void solve(contact::BodyResponse&) { throw std::logic_error("a ground with solves overrides solve()"); }
   /// Gives the ground its own sum of compute(), over all ranks of traits().comm.
   virtual void collect(const contact::PartLoad&) {}

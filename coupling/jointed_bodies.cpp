@@ -22,20 +22,11 @@ Mat3d inverseOf(const Mat3d& m) {
   return inverse;
 }
 
-/// R m R^T.
-Mat3d inWorld(const Mat3d& R, const Mat3d& m) {
-  const Mat3d Rm = R * m;
-  Mat3d world;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      world.m[i][j] = Rm.m[i][0] * R.m[j][0] + Rm.m[i][1] * R.m[j][1] + Rm.m[i][2] * R.m[j][2];
-  return world;
-}
-
 } // namespace
 
-JointedBodies::JointedBodies(const ContactParts& parts, const multibody::Model& model, multibody::Solver& solver)
-    : model_(model), solver_(solver), impulses_(model.bodies().size()) {
+JointedBodies::JointedBodies(const ContactParts& parts, const multibody::Model& model, multibody::Solver& solver,
+                             const ReplicatedWork& replicated)
+    : model_(model), solver_(solver), replicated_(replicated), impulses_(model.bodies().size()) {
   for (const ContactPart& part : parts.parts) {
     const auto known = std::find(bodies_.begin(), bodies_.end(), part.body);
     bodyOfPart_.push_back(static_cast<std::uint32_t>(known - bodies_.begin()));
@@ -46,18 +37,19 @@ JointedBodies::JointedBodies(const ContactParts& parts, const multibody::Model& 
 }
 
 void JointedBodies::begin(const multibody::State& state, const multibody::Loads& loads, double timeStep) {
-  solver_.startResponse(state, loads, timeStep, freeTwists_);
+  replicated_.run([&] { solver_.startResponse(state, loads, timeStep, freeTwists_); });
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const multibody::Body& body = model_.bodies()[bodies_[b]];
     if (body.fixed) continue;
-    inverses_[b] = {1 / body.mass, inWorld(state.pose[bodies_[b]].orientation.matrix(), inverseInertia_[b])};
+    inverses_[b] = {1 / body.mass,
+                    multibody::rotatedInertia(state.pose[bodies_[b]].orientation.matrix(), inverseInertia_[b])};
   }
 }
 
 void JointedBodies::respond(const std::vector<contact::BodyImpulse>& impulses,
                             std::vector<contact::BodyVelocity>& velocities) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) impulses_[bodies_[b]] = {impulses[b].linear, impulses[b].angular};
-  solver_.respond(impulses_, change_);
+  replicated_.run([this] { solver_.respond(impulses_, change_); });
   velocities.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const multibody::Twist &V = freeTwists_[bodies_[b]], &more = change_[bodies_[b]];

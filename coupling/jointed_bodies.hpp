@@ -3,20 +3,21 @@
 
 #include "contact/body_response.hpp"
 #include "coupling/contact_parts.hpp"
+#include "coupling/replicated_work.hpp"
 #include "multibody/solver.hpp"
 
 #include <vector>
 
 namespace grouser::coupling {
 
-/// The bodies of a vehicle or mechanism that meet grains, as complementarity contacts see them: impulses on them act
-/// through all joints within the iterations (Solver::respond()).
+/// Response of the bodies of a vehicle or mechanism to impulses of grains, through all joints (Solver::respond()).
 class JointedBodies : public contact::BodyResponse {
 public:
-  /// All outlive it.
-  JointedBodies(const ContactParts& parts, const multibody::Model& model, multibody::Solver& solver);
+  /// The arguments must outlive it.
+  JointedBodies(const ContactParts& parts, const multibody::Model& model, multibody::Solver& solver,
+                const ReplicatedWork& replicated);
 
-  /// Begins a step with all loads but those of the grains.
+  /// Begins a step. `loads` contains all loads except those of grains.
   void begin(const multibody::State& state, const multibody::Loads& loads, double timeStep);
 
   const std::vector<std::uint32_t>& bodyOfPart() const override { return bodyOfPart_; }
@@ -27,12 +28,14 @@ public:
 private:
   const multibody::Model& model_;
   multibody::Solver& solver_;
+  ReplicatedWork replicated_;
   std::vector<std::uint32_t> bodyOfPart_;
-  std::vector<std::size_t> bodies_; ///< index of each in the model
+  std::vector<std::size_t> bodies_; ///< index in the model
   std::vector<Inverse> inverses_;
-  std::vector<base::Mat3d> inverseInertia_;           ///< body axes [1/(kg m2)]
-  std::vector<multibody::Twist> freeTwists_, change_; ///< one a body of the model: without the grains, and by them
-  std::vector<multibody::Wrench> impulses_;           ///< the same
+  std::vector<base::Mat3d> inverseInertia_; ///< body axes [1/(kg m2)]
+  std::vector<multibody::Twist> freeTwists_,
+      change_;                              ///< by body of the model: without grain contacts, and their effect
+  std::vector<multibody::Wrench> impulses_; ///< by body of the model
 };
 
 } // namespace grouser::coupling

@@ -79,7 +79,7 @@ public:
   void restore(const MechanismState& saved);
 
 private:
-  std::vector<ForceMeans*> means() override { return {&rowMeans_}; }
+  std::array<ForceMeans*, 3> means() override { return {&rowMeans_, nullptr, nullptr}; }
   double timeStep() const override { return timeStep_; }
   void checkTravel() const;
   void watchDrift();
@@ -103,8 +103,7 @@ private:
   std::unique_ptr<StepController> controller_; ///< null: fixed steps
   std::vector<double> startTurn_;              ///< of each body in the first step [rad]
   AppliedLoads applied_;                       ///< from outside, where bodies touch something
-  ReplicatedWork replicated_;
-  double mostTravel_ = 0; ///< largest travel of a surface point in a step [m]
+  double mostTravel_ = 0;                      ///< largest travel of a surface point in a step [m]
 };
 
 } // namespace grouser::coupling

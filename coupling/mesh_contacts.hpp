@@ -28,7 +28,7 @@ public:
   /// One step: contacts with the meshes where they are, one motion a mesh.
   void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                        bool slotsChanged);
-  /// The same for complementarity contacts, which the grains' step computes: collect() follows it.
+  /// Returns the meshes for the complementarity solver. Call collect() after the grains' step.
   terrain::ImpulseParts parts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                               bool slotsChanged, contact::BodyResponse& response);
   /// Downloads the loads and sums them over the ranks, which all call it.
@@ -38,7 +38,7 @@ public:
                                    bool slotsChanged);
   /// For the grains' step, after computeContacts().
   const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
-  /// On each mesh about its centre, of all ranks, after computeContacts() or collect().
+  /// Loads on each mesh about its centre, summed over the ranks; valid after computeContacts() or collect().
   const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
 
   contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }

@@ -51,10 +51,10 @@ public:
   /// Queues the contacts on the device, without waiting, and computes those of the host. `observer`: called after each
   /// kind of contacts.
   void compute(StepObserver* observer);
-  /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them. Those of a ground that
-  /// solves for them follow by solve().
+  /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them. solve() adds those of
+  /// complementarity contacts.
   void collect(multibody::Loads& loads);
-  /// Solves for the contacts with such a ground and puts their loads on the bodies. `bodies` has all other loads.
+  /// Solves complementarity contacts with the ground and adds their loads to `loads`, which contains all other loads.
   void solve(contact::BodyResponse& bodies, multibody::Loads& loads);
   bool solves() const { return traits_.solves; }
   /// Contact moments of the grains at the poses last set, for which the lists hold, without change of state.

@@ -85,7 +85,7 @@ void Simulation::step(StepObserver* observer) {
   if (touching_) base::synchronize(exec_), touching_->collectLoads();
   addFluidLoads();
   done(Stage::partLoads);
-  // Contacts that are solved for follow from all other loads on the bodies.
+  // The complementarity solver needs all other loads on the bodies.
   const bool solved = touching_ && touching_->contacts().solves();
   if (solved) touching_->actuate(), touching_->solveContacts();
   if (surfaces_) surfaces_->computeContacts(*laid_.grains, steps_, listsEnded);

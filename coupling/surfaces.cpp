@@ -75,9 +75,11 @@ void Surfaces::computeContacts(const terrain::Grains& grains, std::int64_t step,
   terrain::ImpulseSolver* const solver = grains.system().impulses.get();
   if (!solver) return meshes_->computeContacts(grains, meshMotions(step), slotsChanged);
   std::vector<terrain::SurfacePose> poses;
-  for (std::size_t i = shapes_; i < surfaces_.size(); ++i) poses.push_back(placement(i, step));
+  std::vector<contact::PartMotion> motions;
+  for (std::size_t i = shapes_; i < surfaces_.size(); ++i)
+    poses.push_back(placement(i, step)), motions.push_back(poses.back().motion);
   movedMeshes_.begin(std::move(poses));
-  solver->meet(meshes_->parts(grains, meshMotions(step), slotsChanged, movedMeshes_));
+  solver->setParts(meshes_->parts(grains, motions, slotsChanged, movedMeshes_));
 }
 
 contact::PartMomentsView Surfaces::measure(const terrain::Grains& grains, std::int64_t step, bool slotsChanged) {

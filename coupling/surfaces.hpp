@@ -14,7 +14,7 @@
 
 namespace grouser::coupling {
 
-/// The meshes of a scene as complementarity contacts see them: prescribed motions, or one free axis.
+/// Response of meshes to impulses of grains: prescribed motion, or one free axis.
 class MovedMeshes : public contact::BodyResponse {
 public:
   void begin(std::vector<terrain::SurfacePose> poses);

@@ -117,7 +117,6 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
                        std::optional<double> lift)
     : timeStep_(setup.timeStep), largestTurn_(setup.vehicle->largestTurn), stop_(setup.vehicle->stop),
       gravity_(setup.gravity), area_(setup.ground.area), surfaceHeight_(surfaceHeight),
-      replicated_(traitsOf(ground).replicated),
       parts_(std::make_unique<VehicleParts>(assembled(*setup.vehicle, surfaceHeight, 0), *setup.vehicle,
                                             traitsOf(ground).comm, kept, traitsOf(ground).smallestGrain,
                                             shapesAlone(setup))),
@@ -127,6 +126,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
       thickestStone_(setup.vehicle->thickestStone), heading_(setup.vehicle->place.heading),
       observer_(std::make_unique<vehicle::Observer>(assembly_, observerOptions())),
       carried_(massOf(assembly_, setup.mechanism)), blows_(carried_ * norm(gravity_)), gear_{assembly_, *parts_} {
+  replicated_ = traitsOf(ground).replicated;
   state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
   contactParts_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
   if (setup.mechanism) addBodies(*setup.mechanism, assembly_.model, traitsOf(ground), kept);

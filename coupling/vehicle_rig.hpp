@@ -88,7 +88,7 @@ private:
     vehicle::Observer observer;
     ForceMeans forces{};
   };
-  std::vector<ForceMeans*> means() override { return {&rowMeans_, &alarmMeans_, watch_ ? &watch_->forces : nullptr}; }
+  std::array<ForceMeans*, 3> means() override { return {&rowMeans_, &alarmMeans_, watch_ ? &watch_->forces : nullptr}; }
   double timeStep() const override { return timeStep_; }
   vehicle::ObserverOptions observerOptions() const;
   vehicle::GroundLoads groundLoads(const ForceMeans& means) const;
@@ -105,7 +105,6 @@ private:
   base::Vec3d gravity_;
   std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
   std::function<double(double, double)> surfaceHeight_;
-  ReplicatedWork replicated_;
   std::unique_ptr<VehicleParts> parts_;
   double lift_; ///< [m]
   vehicle::Assembly assembly_;

@@ -37,12 +37,12 @@ public:
   /// (as a shock would). Returns the kinetic energy taken out [J].
   double projectVelocities(State& state, const Loads& loads);
 
-  /// Prepares impulse responses for a step of kSymplecticEuler: `twists`, one a body, become those at its end under
-  /// `loads`, to first order in the gaps that the step opens in curved joints. Does not change what step() does. Throws
-  /// std::logic_error with kRattle.
+  /// Prepares impulse responses for a step of kSymplecticEuler. Computes the twists at its end under `loads`, one per
+  /// body, to first order in the gaps that the step opens in curved joints. Does not affect step(). Throws
+  /// std::logic_error with kRattle, and base::SimulationError where a twist is not finite or turns a body too far.
   void startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists);
-  /// Change of these twists by further impulses [N s, N m s], one a body, through all joints, drives and implicit
-  /// springs: linear, symmetric, and at most that of bodies without joints.
+  /// Computes the change of these twists by further impulses [N s, N m s], one per body. The response includes joints,
+  /// drives, and implicit springs; it is linear and symmetric, and at most that of free bodies.
   void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change);
 
   /// Largest step for which explicit springs are stable at a state's poses [s]: 2 / omega, omega the highest frequency

@@ -49,9 +49,10 @@ struct GrainConstants {
     const std::int64_t half = (skinUnits - marginUnits) / 2;
     return half * half;
   }
-  /// Gap within which pairs at rest are in the problem of a step [m].
+  /// Complementarity: largest gap of a pair at rest in the problem of a step [m].
   double leastMargin() const { return std::min(kLeastMargin * smallestRadius, model.complementarity->reach); }
-  /// The largest gap of a pair in it [m]: adds what both grains move in a step, fast impacts included.
+  /// Largest gap of any pair [m]: adds the distance that both grains move in a step, at up to kFastImpacts times
+  /// `reach`.
   double margin() const {
     return leastMargin() +
            std::min(2 * GrainModel::kMostWaySolved * smallestRadius, kFastImpacts * model.complementarity->reach);

@@ -11,14 +11,23 @@
 
 namespace grouser::terrain {
 
-/// Bodies with parts among the grains, in the iterations of a step. The host computes their velocities from the
-/// impulses of all rows: integer sums, so that every rank has the same bits.
+/// Sums counts over the ranks, which all call it.
+inline void sumCounts(base::Array<std::uint32_t>& counts, const base::Comm& comm) {
+  if (comm.alone()) return;
+  const std::vector<std::uint32_t> mine = counts.toHost();
+  std::vector<std::int64_t> all(mine.begin(), mine.end());
+  comm.sum(all.data(), all.size());
+  counts.assign(std::vector<std::uint32_t>(all.begin(), all.end()));
+}
+
+/// Velocities of bodies among the grains in the iterations of a step. The host computes them from integer sums of the
+/// impulses, so that all ranks have the same bits.
 template <class Real> class ImpulseBodies {
 public:
   explicit ImpulseBodies(const base::Exec& exec)
       : laws_(exec), bodyOfPart_(exec), inverses_(exec), rows_(exec), pushes_(exec), motion_(exec) {}
 
-  /// Begins a step: velocities without grains, no rows.
+  /// Begins a step with the velocities that the bodies have without grain contacts.
   void begin(contact::BodyResponse& bodies, const contact::GrainPartContacts& contacts, double timeStep) {
     bodies_ = &bodies;
     const std::size_t count = bodies.inverses().size();
@@ -27,7 +36,7 @@ public:
       std::vector<contact::BasicLaw<Real>> laws;
       for (const contact::ContactLaw& law : contacts.laws()) laws.push_back(law.as<Real>());
       laws_.assign(laws), bodyOfPart_.assign(bodies.bodyOfPart());
-      // As fine as the forces of penalty contacts.
+      // Same resolution as forces of penalty contacts.
       const contact::GrainPartModel& model = contacts.model();
       push_ = base::fixedPointFor(model.force.quantum * timeStep * 0x1p40, 40);
       turn_ = base::fixedPointFor(model.torque.quantum * timeStep * 0x1p40, 40);
@@ -48,19 +57,13 @@ public:
     data.bodyPush = push_, data.bodyTurn = turn_;
   }
 
-  /// Counts the rows of all ranks, which all call it.
-  void sumRows(const base::Comm& comm) {
-    if (comm.alone()) return;
-    const std::vector<std::uint32_t> mine = rows_.toHost();
-    std::vector<std::int64_t> all(mine.begin(), mine.end());
-    comm.sum(all.data(), all.size());
-    rows_.assign(std::vector<std::uint32_t>(all.begin(), all.end()));
-  }
+  /// Sums the row counts over the ranks. Collective.
+  void sumRows(const base::Comm& comm) { sumCounts(rows_, comm); }
 
-  /// True where impulses move a body.
+  /// Returns true if any body can move.
   bool anyMovable() const { return anyMovable_; }
   void clearPushes() { pushes_.zero(); }
-  /// Moves the bodies by the impulses of all ranks, which all call it.
+  /// Computes the velocities from the impulses of all ranks. Collective.
   void move(const base::Comm& comm) {
     std::vector<std::int64_t> pushes = pushes_.toHost();
     comm.sum(pushes.data(), pushes.size());
@@ -82,7 +85,7 @@ private:
   }
 
   contact::BodyResponse* bodies_{nullptr};
-  const contact::GrainPartContacts* contacts_{nullptr}; ///< whose laws and quanta these are
+  const contact::GrainPartContacts* contacts_{nullptr}; ///< source of laws and quanta
   bool anyMovable_{false};
   base::Array<contact::BasicLaw<Real>> laws_;
   base::Array<std::uint32_t> bodyOfPart_;

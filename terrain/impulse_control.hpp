@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-/// Decisions between the iterations of a step, on the host or in a kernel: the same bits.
+/// Step size, restart, and stopping rules of the iterations, with the same bits on host and device.
 namespace grouser::terrain {
 
 /// Sums of an iteration over all rows and ranks.
@@ -15,14 +15,15 @@ struct IterationSums {
 
 /// State of the iterations of a step.
 template <class Real> struct ImpulseControl {
-  /// The metric bounds the curvature at tau = 1; more is for bodies whose response exceeds that of their masses.
+  /// Limits of tau. The metric bounds the curvature at tau = 1; larger values cover bodies that respond more than free
+  /// ones.
   static constexpr double kMostTau = 16, kLeastTau = 1e-3, kLongerStep = 0.97;
   static constexpr int kPatience = 100; ///< iterations within which the residual must halve
 
   double residual{}; ///< tolerance [m/s]
-  int most{};        ///< iterations
+  int maxIterations{};
   bool associated{false};
-  bool relaxed{false}; ///< the step began with Coulomb's own law
+  bool relaxed{false}; ///< switched from Coulomb's law to the relaxation
   bool done{false};
   int now = 0, before = 0, tried = 2; ///< buffers of rows
   int iterations = 0, halvedAt = 0, evaluations = 0;
@@ -33,11 +34,11 @@ template <class Real> struct ImpulseControl {
   /// Starts from the sums of the first impulses.
   GROUSER_HD void begin(const IterationSums& sums) {
     last = sums, halved = sums.worst, evaluations = 1;
-    done = !(last.worst > residual) || most == 0;
+    done = !(last.worst > residual);
   }
 
-  /// Accepts a trial, or repeats it with a shorter step where that was too long. Where Coulomb's own law, which has no
-  /// potential, does not converge, the relaxation finishes the step.
+  /// Accepts a trial, or shortens the step if its curvature is too high. Switches to the relaxation if Coulomb's law,
+  /// which has no potential, does not converge.
   GROUSER_HD void take(const IterationSums& sums) {
     ++evaluations;
     if (tau < Real(kMostTau) && sums.curvature > static_cast<double>(tau) * sums.length) {
@@ -50,7 +51,7 @@ template <class Real> struct ImpulseControl {
     theta = next, tau = tau * Real(kLongerStep) > Real(kLeastTau) ? tau * Real(kLongerStep) : Real(kLeastTau);
     before = now, now = tried, tried = 3 - now - before;
     last = sums, ++iterations;
-    done = !(last.worst > residual) || iterations >= most;
+    done = !(last.worst > residual) || iterations >= maxIterations;
     if (last.worst < 0.5 * halved) halved = last.worst, halvedAt = iterations;
     if (iterations - halvedAt <= kPatience || associated || done) return;
     associated = relaxed = true;

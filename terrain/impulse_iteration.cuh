@@ -75,7 +75,7 @@ private:
 /// Residual of a row with a NaN or an infinite gradient [m/s].
 inline constexpr float kNoResidual = 3e38f;
 
-/// Large quanta per unit of a sum.
+/// Scale of a sum [large quanta per unit].
 template <class Real> GROUSER_HD double perUnitOf(const ImpulseData<Real>& s, int sum) {
   return sum == kContacts ? 1.0 : sum == kSquares ? s.perSquare : s.perEnergy;
 }
@@ -97,7 +97,7 @@ template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
     double of[kImpulseSums] = {};
     float worst = 0;
   };
-  /// The same over grains.
+  /// Sums over grains [quanta].
   struct Sums {
     std::int64_t of[kImpulseSums * kSumSizes] = {};
     float worst = 0;
@@ -187,8 +187,8 @@ private:
   }
 
   /// Curvature d N d and squared length of the step d from y to x, and its product with the change since the last
-  /// iteration, in the metric: the extrapolation restarts where they point apart (O'Donoghue and Candes 2015, Found.
-  /// Comput. Math. 15:715, with the step in the place of the gradient, which Coulomb's own law does not follow).
+  /// iteration, in the metric. A negative product restarts the extrapolation (O'Donoghue and Candes 2015, Found.
+  /// Comput. Math. 15:715; the step replaces the gradient, which Coulomb's law does not follow).
   GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                               const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, RowSums& sums) const {
     const auto [y, gy] = Base::ahead(rows, at);
@@ -225,7 +225,7 @@ template <class Real> struct SumBanks {
   }
 };
 
-/// Sums of an iteration. `worst`: as ImpulseData has it.
+/// Converts the totals of an iteration. `worst`: see ImpulseData.
 template <class Real>
 GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::WideSum* totals, std::uint32_t worst) {
   const auto sum = [&](int which) {
@@ -237,7 +237,7 @@ GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::W
           sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(worst))};
 }
 
-/// Decides on the next iteration, where the device does so by itself.
+/// Updates the control on the device.
 template <class Real> struct Decide {
   ImpulseData<Real> s;
   const base::WideSum* totals;

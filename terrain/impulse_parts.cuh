@@ -5,7 +5,7 @@
 
 namespace grouser::terrain {
 
-/// Rows of one listed pair of grain and part. Their springs turn with the part.
+/// Makes the rows of a listed grain-part pair. Springs rotate with the part.
 template <class Real> struct MakePartRows : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 400;
   using Base = ImpulseKernel<Real>;
@@ -21,28 +21,24 @@ template <class Real> struct MakePartRows : ImpulseKernel<Real> {
     const double speed = Base::speedOf(i) + 2 * norm(d.gravityStep) + norm(part.velocityAt(x));
     const contact::PartPatches::Found found =
         patches.find(e, static_cast<double>(Base::marginFor(speed)) * d.unitLength);
-    s.partRows[e] = 0;
-    patches.load[e] = {};
+    // Fixed grains have no rows: a part that reaches one is a fault.
+    const int rows = hasNoRows(d, s, i) ? 0 : found.count;
+    for (int k = rows; k < found.count; ++k)
+      if (found.patch[k].overlap > 0) Base::raise(Fault::through, i);
     if (found.through > 0) Base::raise(Fault::through, i);
+    patches.load[e] = {};
     contact::PatchMemory fresh[contact::kPatches] = {};
     base::Vec3f angle[contact::kPatches] = {};
     double elastic = 0;
-    for (int k = 0; k < found.count; ++k) {
-      // Fixed grains have no rows: a part that reaches one is a fault.
-      if (hasNoRows(d, s, i)) {
-        if (found.patch[k].overlap > 0) Base::raise(Fault::through, i);
-        continue;
-      }
-      elastic += add(e, k, x, size, found, fresh[k], angle[k]);
-    }
+    for (int k = 0; k < rows; ++k) elastic += add(e, k, x, size, found, fresh[k], angle[k]);
     const std::int64_t first = contact::PartPatches::first(e);
     for (int k = 0; k < contact::kPatches; ++k) {
       patches.memory[first + k] = fresh[k];
       if (patches.angle) patches.angle[first + k] = angle[k];
     }
-    if (hasNoRows(d, s, i) || found.count == 0) return;
-    s.partRows[e] = static_cast<std::uint32_t>(found.count);
-    base::atomicAdd32(s.bodyRows + s.bodyOfPart[patches.part(e)], static_cast<std::uint32_t>(found.count));
+    s.partRows[e] = static_cast<std::uint32_t>(rows);
+    if (rows == 0) return;
+    base::atomicAdd32(s.bodyRows + s.bodyOfPart[patches.part(e)], static_cast<std::uint32_t>(rows));
     patches.count(contact::kElasticNow, patches.model.energy.quantise(elastic));
   }
 
@@ -57,19 +53,14 @@ private:
     const std::uint32_t body = s.bodyOfPart[patches.part(e)];
     const Law& law = s.partLaws[patches.law(e, size.material)];
     const base::Vec3d outward = part.rotation * patch.normal.template as<double>();
-    Touch touch{};
-    touch.push = outward.template as<Real>(), touch.gap = -static_cast<Real>(patch.overlap);
-    const Arms arms{size.radius + (touch.gap < 0 ? touch.gap : Real(0)), Real(0)};
+    const Vec push = outward.template as<Real>();
+    const Real gap = -static_cast<Real>(patch.overlap);
+    const Arms arms = Base::armsOf(size, gap);
     const base::Vec3d point = x - outward * static_cast<double>(arms.own);
     const PartRowRecord<Real> on{(point - part.centre).template as<Real>(), body};
     const Vec moves = part.velocityAt(point).template as<Real>();
-    const ImpulseMotion<Real> mine = motionAtStart<Real>(d, static_cast<int>(patches.slot[e]));
-    touch.velocity = relativeVelocity(mine, {}, touch.push, arms.own, arms.other) - moves;
-    touch.spin = mine.spin - part.spin.template as<Real>();
-    touch.freely = dot(d.gravityStep.template as<Real>() - (s.bodyMotion[body].at(on.arm) - moves), touch.push);
-    touch.effectiveMass = size.mass, touch.effectiveRadius = size.radius;
-    touch.rollingInertia = contact::rollingInertia(size.mass, size.radius);
-    touch.dampingShare = 1;
+    Touch touch = Base::touchOf(static_cast<int>(patches.slot[e]), size, push, gap, arms, moves,
+                                part.spin.template as<Real>(), s.bodyMotion[body].at(on.arm) - moves);
     touch.held = found.former[k] >= 0;
     const std::int64_t former = contact::PartPatches::first(e) + (touch.held ? found.former[k] : 0);
     float history[6] = {};

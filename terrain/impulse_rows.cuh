@@ -24,10 +24,9 @@ template <class Real> struct ImpulseRowRecord {
   Real weight;           ///< weight in the metric, the inverse of the step size [1/kg]
   Real mobility;         ///< sum of the inverse masses and the softness [1/kg]: scales residuals to velocities
   std::uint32_t other;   ///< slot, or kFixedPartner
-  std::uint32_t place;   ///< place in the neighbour list, boundary, or patch; and two flags
+  std::uint32_t place;   ///< index in the neighbour list, boundary, or patch, with two flags
 };
-/// Flags of ImpulseRowRecord::place. `kCountsBit`: the sums of an iteration include this side of a pair, that of the
-/// smaller id.
+/// Flags of ImpulseRowRecord::place. `kCountsBit`: this side of the pair, with the smaller id, enters the sums.
 inline constexpr std::uint32_t kImpactBit = 1u << 31, kCountsBit = 1u << 30, kPlaceBits = kCountsBit - 1;
 
 /// Constants of the rolling resistance of a row.
@@ -46,7 +45,7 @@ template <class Real> struct ImpulseRowEnd {
 /// Velocities of a grain in an iteration; element of the halo exchange.
 template <class Real> struct ImpulseMotion { base::Vec3<Real> velocity, spin; };
 
-/// The body of a row with a part.
+/// Body that a row acts on.
 template <class Real> struct PartRowRecord {
   base::Vec3<Real> arm; ///< from its centre of mass to the contact point [m]
   std::uint32_t body;
@@ -72,7 +71,7 @@ template <class Real> struct ImpulseRowsView {
 };
 
 /// Sums of an iteration over all rows, as integers with quanta of two sizes, so that the order of grains does not
-/// matter. A grain adds up its own rows in their order.
+/// matter. Each grain sums its own rows in order.
 enum ImpulseSum : int { kCurvature, kLength, kAgainst, kSquares, kContacts, kImpulseSums };
 inline constexpr int kSumSizes = 2, kSumBanks = 64;
 /// Ratio of the two quanta.
@@ -94,7 +93,7 @@ template <class Real> struct ImpulseData {
   const std::uint32_t* ghost;    ///< [slot] not 0 for ghosts; null: none
   std::int64_t margin;           ///< largest gap of a row [units]
   std::int64_t leastMargin;      ///< gap within which a pair at rest has a row [units]
-  ImpulseControl<Real>* control; ///< of the iterations
+  ImpulseControl<Real>* control; ///< state of the iterations
   int now;                       ///< buffer of the rows before and after the iterations
   // Force-driven surfaces.
   std::uint32_t* surfaceRows;  ///< [surface] number of rows on all ranks
@@ -102,19 +101,19 @@ template <class Real> struct ImpulseData {
   base::FixedPoint push;       ///< their quantum [N s]
   const Real* surfaceChange;   ///< [surface] speed along its axis gained by contacts [m/s]
   // Parts of bodies.
-  contact::PartPatches patches;               ///< no pairs without parts
-  const contact::BasicLaw<Real>* partLaws;    ///< as PartPatches counts them
+  contact::PartPatches patches;               ///< empty without parts
+  const contact::BasicLaw<Real>* partLaws;    ///< by PartPatches::law()
   const std::uint32_t* bodyOfPart;            ///< [part]
   const contact::BodyResponse::Inverse* body; ///< [body]
   std::uint32_t* bodyRows;                    ///< [body] number of rows on all ranks
-  std::int64_t* bodyPushes;                   ///< [body][6] impulses and their moments of this rank's rows; null:
-                                              ///< they move none
-  base::FixedPoint bodyPush, bodyTurn;        ///< their quanta [N s], [N m s]
-  const BodyMotion<Real>* bodyMotion;         ///< [body] with the impulses of this iteration
-  bool rolls;                                 ///< rolling resistance in any row
-  base::WideSum* sums;                        ///< [kSumBanks][kImpulseSums][kSumSizes]
-  double perEnergy, perSquare;                ///< large quanta per unit
-  std::uint32_t* worst;                       ///< largest residual [m/s], bits of a float
+  std::int64_t* bodyPushes;            ///< [body][6] impulses and their moments of this rank's rows; null if no body
+                                       ///< can move
+  base::FixedPoint bodyPush, bodyTurn; ///< their quanta [N s], [N m s]
+  const BodyMotion<Real>* bodyMotion;  ///< [body] with the impulses of this iteration
+  bool rolls;                          ///< any row has rolling resistance
+  base::WideSum* sums;                 ///< [kSumBanks][kImpulseSums][kSumSizes]
+  double perEnergy, perSquare;         ///< large quanta per unit
+  std::uint32_t* worst;                ///< largest residual [m/s], bits of a float
 };
 
 /// Calls each(pair, place) for the rows of a grain with parts.

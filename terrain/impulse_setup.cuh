@@ -44,6 +44,25 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     if (rolls) storeTurned(history + 3, turned, touch.angle);
   }
 
+  /// Contact of a grain with a boundary or part, whose contact point moves with `moves` [m/s], turns with `turns`
+  /// [rad/s], and gains `gains` [m/s] in this step without contacts. Without history.
+  GROUSER_HD Touch touchOf(int i, const GrainSize<Real>& size, const Vec& push, Real gap, const Arms& arms,
+                           const Vec& moves, const Vec& turns, const Vec& gains) const {
+    const ImpulseMotion<Real> mine = motionAtStart<Real>(d, i);
+    Touch touch{};
+    touch.push = push, touch.gap = gap;
+    touch.velocity = relativeVelocity(mine, {}, push, arms.own, arms.other) - moves;
+    touch.spin = mine.spin - turns;
+    touch.freely = dot(d.gravityStep.template as<Real>() - gains, push);
+    touch.effectiveMass = size.mass, touch.effectiveRadius = size.radius;
+    touch.rollingInertia = contact::rollingInertia(size.mass, size.radius);
+    touch.dampingShare = 1;
+    return touch;
+  }
+  GROUSER_HD static Arms armsOf(const GrainSize<Real>& size, Real gap) {
+    return {size.radius + (gap < 0 ? gap : Real(0)), Real(0)};
+  }
+
   /// Extrapolated impulse and gradient.
   struct Ahead {
     contact::Impulse<Real> impulse, gradient;
@@ -236,25 +255,18 @@ private:
   /// Adds a row. `pose`: null where the boundary rests; `share`: factor of dashpots and cohesion [-].
   GROUSER_HD void add(Grain& grain, int boundary, const base::Vec3d& outward, double gap, const SurfacePose* pose,
                       Real share = 1) const {
-    Touch touch{};
-    touch.push = outward.template as<Real>(), touch.gap = static_cast<Real>(gap);
-    const Arms arms{grain.size.radius + (touch.gap < 0 ? touch.gap : Real(0)), Real(0)};
-    Vec moves{}, turns{};
+    const Vec push = outward.template as<Real>();
+    const Arms arms = Base::armsOf(grain.size, static_cast<Real>(gap));
+    Vec moves{}, turns{}, gains{};
     if (pose) {
       const base::Vec3d point = grain.x - outward * static_cast<double>(arms.own);
       moves = pose->motion.velocityAt(point).template as<Real>(), turns = pose->motion.spin.template as<Real>();
     }
-    const ImpulseMotion<Real> mine = motionAtStart<Real>(d, grain.slot);
-    touch.velocity = relativeVelocity(mine, {}, touch.push, arms.own, arms.other) - moves;
-    touch.spin = mine.spin - turns;
-    Vec gains{};
     if (pose && pose->inverseMass > 0) {
       gains = (pose->axis * pose->gains).template as<Real>();
       base::atomicAdd32(s.surfaceRows + (boundary - (d.boundaryCount - d.surfaceCount)), 1);
     }
-    touch.freely = dot(d.gravityStep.template as<Real>() - gains, touch.push);
-    touch.effectiveMass = grain.size.mass, touch.effectiveRadius = grain.size.radius;
-    touch.rollingInertia = contact::rollingInertia(grain.size.mass, grain.size.radius);
+    Touch touch = Base::touchOf(grain.slot, grain.size, push, static_cast<Real>(gap), arms, moves, turns, gains);
     touch.dampingShare = share, touch.pullShare = share;
     touch.held = grain.before >> boundary & 1;
     if (Kernel::hasHistory())
@@ -269,7 +281,7 @@ private:
   }
 };
 
-/// Adds up the rows of each grain, and the cohesion of parts.
+/// Counts the rows of each grain, and adds the cohesion of parts to its free motion.
 template <class Real> struct CountRows : ImpulseKernel<Real> {
   using Base = ImpulseKernel<Real>;
   using Base::d, Base::s;
@@ -336,7 +348,8 @@ private:
     roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other) + turns) + roll.softness;
   }
 
-  /// Bound on the velocity that an impulse gives a body at the end of an arm [1/kg]: the trace of its turning part.
+  /// Upper bound of the velocity per impulse of a body at a contact point [1/kg], from the trace of the rotational
+  /// part.
   GROUSER_HD Real mobilityOf(const contact::BodyResponse::Inverse& body, const Vec& arm) const {
     const base::Vec3d r = arm.template as<double>();
     const base::Vec3d lever[] = {{0, r.z, -r.y}, {-r.z, 0, r.x}, {r.y, -r.x, 0}}; // r x e of the three axes

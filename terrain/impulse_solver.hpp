@@ -16,11 +16,11 @@ namespace grouser::terrain {
 struct GrainKernelData;
 struct GrainSystem;
 
-/// Parts of bodies among the grains, which outlive the step.
+/// Bodies among the grains; they must outlive the step.
 struct ImpulseParts {
   contact::GrainPartContacts* contacts{nullptr};           ///< pairs, history and laws; null: no parts
   const base::Array<contact::PartMotion>* motion{nullptr}; ///< at the start of the step
-  contact::PartLoad* loads{nullptr};                       ///< [part] receives them, on the device
+  contact::PartLoad* loads{nullptr};                       ///< [part] output, on the device
   contact::BodyResponse* bodies{nullptr};
 };
 
@@ -40,7 +40,7 @@ struct ImpulseTotals {
   std::int64_t missed{};  ///< steps that exceeded run.residual
   std::int64_t relaxed{}; ///< see ImpulseReport
   double worst{};         ///< largest residual [m/s]
-  double tau{1};          ///< of the last iteration, with which the next step begins; see ImpulseControl
+  double tau{1};          ///< final value of the last step, initial value of the next; see ImpulseControl
 
   void add(const ImpulseReport& report);
   static constexpr std::size_t kWords = 6;
@@ -48,7 +48,7 @@ struct ImpulseTotals {
   void setWords(const std::int64_t* words);
 };
 
-/// Cost of the iterations of this process; not part of the state.
+/// Cost of the iterations in this process; not part of the state.
 struct ImpulseCost {
   double seconds{};           ///< wall time
   std::int64_t evaluations{}; ///< iterations, repeated ones and first impulses included
@@ -70,8 +70,8 @@ public:
   static std::unique_ptr<ImpulseSolver> make(const base::Exec& exec, const GrainConstants& constants);
   virtual ~ImpulseSolver() = default;
 
-  /// For the coming steps; null members: none.
-  void meet(const ImpulseParts& parts) { parts_ = parts; }
+  /// Sets the bodies of all following steps.
+  void setParts(const ImpulseParts& parts) { parts_ = parts; }
   /// One step: writes the grains' next state, springs, books and flags. All ranks call it; ghosts must be up to date.
   virtual void step(GrainSystem& system, const GrainKernelData& d) = 0;
   const ImpulseReport& report() const { return report_; }

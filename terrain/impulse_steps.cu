@@ -34,7 +34,7 @@ template <class Real> struct RowMemory {
   base::Array<ImpulseRowRecord<Real>> row;
   base::Array<RollingRowRecord<Real>> rolling;
   base::Array<ImpulseRowEnd<Real>> end;
-  base::Array<PartRowRecord<Real>> part; ///< empty where no rows are with parts
+  base::Array<PartRowRecord<Real>> part; ///< empty without parts
   std::array<Vectors, 3> impulse, gradient, turning, turnGradient;
 
   void resize(std::size_t places, bool rolls) {
@@ -127,7 +127,7 @@ private:
     base::forEach(exec_, "rows at parts", data_.patches.pairs, kernel<MakePartRows<Real>>(d));
     forSlots("count rows", d, kernel<CountRows<Real>>(d));
     exchange(system, contact::fieldOf(degree_));
-    countOnSurfaces(system.comm);
+    if (!inverseMass_.empty()) sumCounts(surfaceRows_, system.comm);
     if (parts_.contacts) bodies_.sumRows(system.comm);
     forSlots("weigh rows", d, kernel<WeighRows<Real>>(d));
   }
@@ -147,14 +147,6 @@ private:
     data_.surfaceChange = surfaceChange_.data();
   }
 
-  void countOnSurfaces(const base::Comm& comm) {
-    if (inverseMass_.empty() || comm.alone()) return;
-    const std::vector<std::uint32_t> mine = surfaceRows_.toHost();
-    std::vector<std::int64_t> all(mine.begin(), mine.end());
-    comm.sum(all.data(), all.size());
-    surfaceRows_.assign(std::vector<std::uint32_t>(all.begin(), all.end()));
-  }
-
   void moveSurfaces(const base::Comm& comm) {
     if (inverseMass_.empty()) return;
     std::vector<std::int64_t> pushes = surfacePushes_.toHost();
@@ -167,7 +159,7 @@ private:
 
   bool bodiesMove() const { return parts_.contacts && bodies_.anyMovable(); }
 
-  /// Bodies have one velocity, the same on all ranks, which follows from the impulses of all rows.
+  /// Each body has one velocity on all ranks, computed from the impulses of all rows.
   void setUpParts(const GrainSystem& system, const GrainKernelData& d) {
     data_.patches = {}, data_.parts = {};
     if (!parts_.contacts) return;
@@ -176,7 +168,7 @@ private:
     base::setZero(exec_, cleared.to, cleared.bytes);
     data_.patches = contacts.patches({d.position, d.motion, d.id, static_cast<std::size_t>(d.count), system.ghosts()},
                                      *parts_.motion, parts_.loads);
-    // The same on all ranks, whether or not they have pairs.
+    // Must not depend on whether a rank has pairs.
     const bool rolls = std::any_of(contacts.laws().begin(), contacts.laws().end(),
                                    [](const ContactLaw& law) { return law.rollingFriction > 0; });
     onParts_.resize(contacts.pairs() * contact::kPatches, rolls);
@@ -212,7 +204,7 @@ private:
     base::forEach(exec_, "sum rows", SumBanks<Real>::kCount, SumBanks<Real>{data_, totalSums_.data()});
   }
 
-  /// Of all ranks, on the host.
+  /// Returns the sums over all ranks.
   IterationSums summed(const base::Comm& comm) {
     std::vector<base::WideSum> totals = totalSums_.toHost();
     std::uint64_t least = ~std::uint64_t{worst_.toHost().front()};
@@ -223,7 +215,7 @@ private:
 
   void solve(GrainSystem& system, const GrainKernelData& d) {
     ImpulseControl<Real> control;
-    control.residual = options_.residual, control.most = options_.iterations;
+    control.residual = options_.residual, control.maxIterations = options_.iterations;
     control.tau = static_cast<Real>(totals_.tau);
     control.associated = options_.friction == contact::ImpulseFriction::associated;
     control_.assign({control});
@@ -253,8 +245,8 @@ private:
     return control;
   }
 
-  /// Launches several iterations at once, which do nothing after the last one: about as many as the step before took,
-  /// then a few.
+  /// Launches several iterations at once; those after convergence return immediately. The first launch has as many as
+  /// the last step took, later ones have kAhead.
   ImpulseControl<Real> iterateOnDevice(GrainSystem& system, const GrainKernelData& d) {
     const auto decide = [&](bool first) {
       base::forEach(exec_, "decide", 1, Decide<Real>{data_, totalSums_.data(), first});
@@ -285,7 +277,7 @@ private:
       forSlots("advance by impulses", d, body);
   }
 
-  static constexpr int kAhead = 4; ///< iterations
+  static constexpr int kAhead = 4; ///< iterations per launch
 
   base::Exec exec_;
   ComplementarityOptions options_;
@@ -299,7 +291,7 @@ private:
   base::Array<base::WideSum> sums_;
   base::Array<base::WideSum> totalSums_;
   base::Array<std::uint32_t> worst_;
-  base::Array<ImpulseControl<Real>> control_; ///< one
+  base::Array<ImpulseControl<Real>> control_; ///< one element
   std::vector<double> inverseMass_;           ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;
   base::Array<std::int64_t> surfacePushes_;

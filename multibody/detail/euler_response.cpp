@@ -16,7 +16,7 @@ void EulerStep::addSolution(const ConstraintSystem::Part& part, std::vector<Twis
   }
 }
 
-/// The first solve of the step, without the corrections by Newton's method.
+/// Does the first solve of a step, and omits the Newton corrections.
 void EulerStep::startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists) {
   system_.place(state.pose, frames_);
   placed_.clear(); // so that step() places the bodies again
@@ -28,6 +28,10 @@ void EulerStep::startResponse(const State& state, const Loads& loads, double dt,
     moveLinks(dt);
     setGapResidual(part, state, dt, true);
     addSolution(part, twists);
+    for (const int node : part.bodies) {
+      const std::size_t b = at(system_.bodyOf(node));
+      checkTwist(model_.bodies()[b], twists[b], state.time, dt);
+    }
   }
 }
 

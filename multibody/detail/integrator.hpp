@@ -33,7 +33,7 @@ class Stepper {
 public:
   virtual ~Stepper() = default;
   virtual void step(State& state, const Loads& loads, double dt) = 0;
-  /// As Solver has them; throw std::logic_error where a scheme has none.
+  /// See Solver. The default throws std::logic_error.
   virtual void startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists);
   virtual void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change);
 };

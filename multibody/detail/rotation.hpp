@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "base/vec.hpp"
+#include "multibody/spatial.hpp"
 
 #include <cmath>
 
@@ -11,6 +12,7 @@ namespace grouser::multibody::detail {
 using base::Mat3d;
 using base::Quat;
 using base::Vec3d;
+using multibody::rotatedInertia; // beside that of lanes
 
 /// Quaternion of the rotation by the vector `angle` [rad]: (cos h, sin(h)/h angle/2), h = |angle|/2.
 inline Quat rotationBy(const Vec3d& angle) {
@@ -27,18 +29,6 @@ inline Quat rotationBy(const Vec3d& angle) {
   }
   f *= 0.5;
   return {c, f * angle.x, f * angle.y, f * angle.z};
-}
-
-/// R I R^T: the inertia about the centre of mass in world axes.
-inline Mat3d rotatedInertia(const Mat3d& R, const Mat3d& I) {
-  const Mat3d RI = R * I;
-  Mat3d W;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) {
-      W.m[i][j] = RI.m[i][0] * R.m[j][0] + RI.m[i][1] * R.m[j][1] + RI.m[i][2] * R.m[j][2];
-      W.m[j][i] = W.m[i][j];
-    }
-  return W;
 }
 
 /// beta(s) = (1 - h cot h) / (4 h^2), s = h^2: the factor of the second-order term in the inverse of the derivative of

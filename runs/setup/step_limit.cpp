@@ -214,16 +214,19 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
   }
 }
 
-/// With complementarity contacts, only contacts between parts have springs.
-StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const std::vector<GrainContact>& contacts) {
-  StepLimit limit;
-  const bool alone = !scene.terrain && plannedGrains(scene) == 1, springs = !hasComplementarity(scene);
+void considerGrains(StepLimit& limit, const scene::Scene& scene, const std::vector<GrainContact>& contacts) {
+  const bool alone = !scene.terrain && plannedGrains(scene) == 1;
   for (const GrainContact& c : contacts) {
-    if (!springs) break;
     if (!alone || !c.amongGrains) considerEnergy(limit, c);
     considerModes(limit, c);
   }
-  if (springs) considerFreeSurfaces(limit, scene, pairs);
+}
+
+/// With complementarity contacts, only contacts between parts have springs.
+StepLimit stepLimit(const scene::Scene& scene, const ContactPairs& pairs, const std::vector<GrainContact>& contacts) {
+  StepLimit limit;
+  const bool springs = !hasComplementarity(scene);
+  if (springs) considerGrains(limit, scene, contacts), considerFreeSurfaces(limit, scene, pairs);
   if (scene.mechanism.touches()) {
     const coupling::MechanismSetup mechanism = mechanismSetup(scene);
     if (springs) considerBodies(limit, scene, pairs, mechanism);
@@ -316,7 +319,7 @@ void checkGivenStep(const scene::Scene& scene, const StepLimit& limit, double au
   if (scene.fluid) checkFluidStep(scene);
 }
 
-/// Contacts that are solved for set no limit, but the vehicle's own contacts do.
+/// Complementarity contacts do not limit the step; contacts between parts do.
 double implicitTimeStep(const scene::Scene& scene, const ContactPairs& pairs) {
   const StepLimit limit = stepLimit(scene, pairs, {});
   double automatic =

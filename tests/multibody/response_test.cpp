@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Response of a step to impulses on its bodies, against the step itself.
+// Compares impulse responses with full steps.
 #include "mechanisms.hpp"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// A ring of links with dampers, one driven, one on a spring, under gravity; and a free body beside it.
-Mechanism drivenRing() {
+/// A ring of links with damped joints, and a body that a spring ties to one of them.
+Mechanism dampedRing() {
   Mechanism m;
   RingSpec spec;
   spec.links = 10, spec.damping = 0.3;
@@ -44,7 +44,7 @@ double difference(const std::vector<Twist>& a, const std::vector<Twist>& b) {
 
 /// Largest difference between the twists at the end of a step and those that its response predicts.
 double errorOfPrediction(double dt) {
-  Mechanism m = drivenRing();
+  Mechanism m = dampedRing();
   Solver solver(m.model);
   for (int i = 0; i < 20; ++i) solver.step(m.state, m.loads, 1e-4);
   const std::vector<Wrench> p = impulsesOn(m.model, 0.2);
@@ -59,13 +59,13 @@ double errorOfPrediction(double dt) {
 
 TEST(MultibodyResponse, PredictsTheStepToFirstOrder) {
   const double coarse = errorOfPrediction(2e-4), fine = errorOfPrediction(2.5e-5);
-  EXPECT_LT(coarse, 0.1);  // of up to 5 rad/s
+  EXPECT_LT(coarse, 0.1);  // twists reach 5 rad/s
   EXPECT_GT(coarse, 1e-7); // Newton's method corrects it
   EXPECT_LT(fine, coarse / 8);
 }
 
 TEST(MultibodyResponse, IsLinearSymmetricAndBoundedByFreeBodies) {
-  Mechanism m = drivenRing();
+  Mechanism m = dampedRing();
   Solver solver(m.model);
   std::vector<Twist> free, once, twice;
   solver.startResponse(m.state, m.loads, 1e-3, free);
@@ -95,7 +95,7 @@ TEST(MultibodyResponse, IsLinearSymmetricAndBoundedByFreeBodies) {
 }
 
 TEST(MultibodyResponse, DoesNotChangeTheStep) {
-  Mechanism a = drivenRing(), b = drivenRing();
+  Mechanism a = dampedRing(), b = dampedRing();
   Solver plain(a.model), asked(b.model);
   for (int i = 0; i < 50; ++i) {
     std::vector<Twist> twists;
@@ -107,7 +107,7 @@ TEST(MultibodyResponse, DoesNotChangeTheStep) {
 }
 
 TEST(MultibodyResponse, IsNotOfRattle) {
-  Mechanism m = drivenRing();
+  Mechanism m = dampedRing();
   SolverOptions options;
   options.integrator = Integrator::kRattle;
   Solver solver(m.model, options);

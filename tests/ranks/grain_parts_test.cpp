@@ -42,7 +42,7 @@ GrainModel pebbles(Contacts contacts) {
   return m;
 }
 
-/// A plate lighter than the pebbles on it, which begins each step at rest.
+/// A plate lighter than the pebbles. It starts each step at rest.
 class LightPlate : public contact::BodyResponse {
 public:
   const std::vector<std::uint32_t>& bodyOfPart() const override { return body_; }
@@ -78,7 +78,7 @@ struct Ground {
     if (grains.refreshNeighbours()) part->refresh(grains.view(), motion);
     if (solved) {
       loads.zero();
-      grains.system().impulses->meet({part.get(), &motion, loads.data(), &response});
+      grains.system().impulses->setParts({part.get(), &motion, loads.data(), &response});
       return grains.step();
     }
     part->compute(grains.view(), motion, loads.data());

@@ -82,7 +82,7 @@ TEST(OneAnswer, OfSoilThatSticksToTheVehicle) {
   EXPECT_NE(hash(base::cpuExec(1), "0"), one) << "the hash must see what sticks";
 }
 
-/// With complementarity contacts; stopped on the way where `resumes`.
+/// Hash of a run with complementarity contacts. `resumes`: continues from a saved state halfway.
 std::string solvedHash(const base::Exec& exec, const std::string& skin = "0.3", bool resumes = false) {
   const SimulationSetup setup = setup::simulationSetup(setup::loadScene(
       testScene("coupled.toml"), {"run.contact=complementarity", "terrain.layers=2", "terrain.grain_radius=0.06",

@@ -77,7 +77,7 @@ std::string changedKey(const std::string& set) {
   return word.substr(word.starts_with('~'));
 }
 
-/// Overrides that remove the keys `inFile` and set all of `sets` but these and those below `foreign`.
+/// Removes the keys `inFile` from the scene, and from `sets` these and all below `foreign`.
 std::vector<std::string> without(const std::vector<std::string>& sets, const std::vector<std::string>& inFile,
                                  std::vector<std::string> foreign) {
   std::vector<std::string> all;

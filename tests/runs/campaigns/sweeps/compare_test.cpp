@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 namespace grouser::sweeps {
 
@@ -193,6 +194,15 @@ TEST(Compare, EachContactMethodHasItsOwnKeys) {
 }
 
 class CompareRuns : public ProgramTest {};
+
+TEST_F(CompareRuns, PenaltyContactsDropTheKeysOfComplementarityInTheFile) {
+  const fs::path scene = folder_ / "solved.toml";
+  std::ofstream(scene) << "version = 1\n[run]\nduration = 1\ntime_step = 1e-3\ncontact = \"complementarity\"\n"
+                          "residual = 1e-4\n[complementarity]\nstrict = true\n";
+  EXPECT_EQ(contactOverrides(scene, {}, scene::ContactMethod::penalty),
+            (Words{"~run.residual", "~complementarity", "~run.time_step", "run.contact=penalty"}));
+  EXPECT_EQ(contactOverrides(scene, {}, scene::ContactMethod::complementarity), (Words{"run.contact=complementarity"}));
+}
 
 TEST_F(CompareRuns, HaveOneFolderAGroundAndAreNotRepeated) {
   CompareOptions options;
