@@ -33,6 +33,9 @@ template <class F> double ratioFor(double restitution, const F& restitutionAt, d
   return 0.5 * (low + high);
 }
 
+/// Restitution that a dashpot without attraction can have.
+double reachable(double restitution) { return restitution > 0 ? restitution : kLeastDashpotRestitution; }
+
 struct UnitImpact {
   double restitution, deepest;
 };
@@ -85,7 +88,7 @@ double dampingRatioFor(double restitution, bool attraction) {
     return l / std::sqrt(base::kPi * base::kPi + l * l);
   }
   return ratioFor(
-      restitution, [](double zeta) { return restitutionOf(zeta, false); }, 0);
+      reachable(restitution), [](double zeta) { return restitutionOf(zeta, false); }, 0);
 }
 
 double stableStepOfMode(double stiffness, double damping) {
@@ -102,7 +105,7 @@ double hertzRestitutionOf(double beta, bool attraction) {
 double hertzDampingRatioFor(double restitution, bool attraction) {
   if (restitution >= 1) return 0;
   if (attraction) return std::sqrt(5.0 / 6) * dampingRatioFor(restitution, true);
-  return ratioFor(restitution, clampedHertzRestitution, 1e-7);
+  return ratioFor(reachable(restitution), clampedHertzRestitution, 1e-7);
 }
 
 HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double effectiveMass, double speed) {

@@ -8,9 +8,12 @@ namespace grouser::contact {
 /// e = exp(-eta t_c) with the shortened duration t_c (Schwager and Poeschel 2007, Granular Matter 9:465).
 double restitutionOf(double zeta, bool attraction);
 
-/// Damping ratio [-] that gives `restitution`, in (0, 1]. Inverse of `restitutionOf`. With attraction 0 is possible
-/// too: the least damping that gives it, the critical one. Without it no damping does: surfaces always part with some
-/// speed.
+/// Restitution of the dashpot where 0 is wanted without attraction. No dashpot reaches 0 (surfaces part with some
+/// speed), but impulse contacts do, whose dashpot acts on lasting contacts alone.
+inline constexpr double kLeastDashpotRestitution = 0.01;
+
+/// Damping ratio [-] that gives `restitution`, in (0, 1]. Inverse of `restitutionOf`. For 0: critical damping with
+/// attraction, else that of `kLeastDashpotRestitution`.
 double dampingRatioFor(double restitution, bool attraction);
 
 /// Contact duration [s] for omega_0 = sqrt(k / m_eff) [1/s].
@@ -32,7 +35,7 @@ double stableStep(double omega0, double zeta);
 /// Cleary 2013, Powder Technol. 233:30, fit it by a polynomial that is up to 0.008 off near e = 1.)
 double hertzRestitutionOf(double beta, bool attraction);
 
-/// beta that gives `restitution`, in (0, 1]; with attraction 0 too. Inverse of `hertzRestitutionOf`.
+/// beta that gives `restitution`, in (0, 1]; 0 as above. Inverse of `hertzRestitutionOf`.
 double hertzDampingRatioFor(double restitution, bool attraction);
 
 /// An elastic Hertz impact at `speed` [m/s]: deepest overlap [m] and duration [s].

@@ -81,8 +81,7 @@ std::vector<std::int64_t> GrainBookkeeping::save(const base::Comm& comm) const {
 
 void GrainBookkeeping::restore(const std::vector<std::int64_t>& saved, const base::Comm& comm) {
   // Files of programs without complementarity contacts end before their book.
-  if (saved.size() != (kept() ? 2 * std::size_t{kBooks} : 0) &&
-      !(kept() && saved.size() == 2 * std::size_t{kStabilised}))
+  if (saved.size() != words() && !(kept() && saved.size() == 2 * std::size_t{kStabilised}))
     throw base::InputError("the checkpoint keeps other books of the grains; resume with the scene that was run");
   if (!kept()) return;
   std::vector<base::WideSum> banks(books_.size());

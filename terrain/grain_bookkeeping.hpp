@@ -31,6 +31,8 @@ public:
   };
   Totals totals(const base::Comm& comm) const;
 
+  /// Number of words that a checkpoint has of them: two a sum.
+  std::size_t words() const { return kept() ? 2 * std::size_t{kBooks} : 0; }
   /// The sums as two words each, low and high, of all ranks; for checkpoints. Empty where no books are kept.
   std::vector<std::int64_t> save(const base::Comm& comm) const;
   /// Throws InputError where there are books in one and none in the other.

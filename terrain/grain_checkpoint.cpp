@@ -269,7 +269,8 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
   std::vector<std::int64_t> books = own_.books;
-  if (system.impulses && books.size() >= ImpulseTotals::kWords) {
+  // A state of penalty contacts has no totals of the solver.
+  if (system.impulses && books.size() == system.books.words() + ImpulseTotals::kWords) {
     system.impulses->setTotals(books.data() + books.size() - ImpulseTotals::kWords);
     books.resize(books.size() - ImpulseTotals::kWords);
   }

@@ -354,7 +354,7 @@ private:
     const base::Vec3d r = arm.template as<double>();
     const base::Vec3d lever[] = {{0, r.z, -r.y}, {-r.z, 0, r.x}, {r.y, -r.x, 0}}; // r x e of the three axes
     double turning = 0;
-    for (int a = 0; a < 3; ++a) turning += dot(lever[a], body.inertia * lever[a]);
+    for (const base::Vec3d& axis : lever) turning += dot(axis, body.inertia * axis);
     return static_cast<Real>(body.mass + (s.rolls ? 2 : 1) * turning);
   }
 

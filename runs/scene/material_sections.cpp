@@ -95,9 +95,9 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(0.5);
   t.add("restitution", &S::restitution, "-",
-        fmt::format(
-            "rebound over impact speed; {} where damping is not given either; at least 1e-6, or with attraction 0",
-            brief(S::kRestitution)))
+        fmt::format("rebound over impact speed; {} where damping is not given either; at least 1e-6, or 0 with "
+                    "attraction or complementarity",
+                    brief(S::kRestitution)))
       .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s",
@@ -163,7 +163,7 @@ Table<ContactPair> contactTable() {
       "doubled; the smaller of frictions and restitutions; the geometric mean of cohesions (docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
   t.add("restitution", &S::restitution, "-",
-        "rebound over impact speed of the pair; at least 1e-6, or with attraction 0")
+        "rebound over impact speed of the pair; at least 1e-6, or 0 with attraction or complementarity")
       .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s", "gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);

@@ -4,6 +4,7 @@
 #include "base/rounded.hpp"
 #include "base/table.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/step_limit.hpp"
 
@@ -37,8 +38,8 @@ void checkPair(const scene::Scene& scene, const std::string& nameA, const std::s
   if ((given ? *pair->restitution : least.restitution.value_or(1)) >= kLeastRestitution) return;
   const std::string message =
       fmt::format("[-] is not possible without attraction: surfaces whose dashpot may not pull part with some speed, "
-                  "however strong it is; the least is {:g}, which takes steps of {} s or less; raise it, or give {} "
-                  "attraction = true, with which 0 is critical damping",
+                  "however strong it is; the least is {:g}, which takes steps of {} s or less; raise it, give {} "
+                  "attraction = true, with which 0 is critical damping, or set run.contact = \"complementarity\"",
                   kLeastRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
                   &a == &b ? "material." + a.name : fmt::format("material.{} and material.{}", a.name, b.name));
   if (given && scene.document)
@@ -50,6 +51,7 @@ void checkPair(const scene::Scene& scene, const std::string& nameA, const std::s
 } // namespace
 
 void checkRestitutions(const scene::Scene& scene) {
+  if (hasComplementarity(scene)) return;
   const ContactPairs pairs(scene);
   for (const std::string& grain : pairs.kinds.material)
     for (const ContactPartner& partner : pairs.partners) checkPair(scene, grain, partner.materialAgainst(grain));

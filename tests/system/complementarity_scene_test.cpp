@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole scenes with complementarity contacts: what forces move, what turns, and beds.
+#include "base/math.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -110,6 +111,27 @@ TEST(ComplementarityScene, AHingedLeverPressesWithItsMoment) {
   EXPECT_LT(force.z, 9.81 * 2 * 0.1 / 0.077);
   const coupling::Ledger l = s.ledger();
   EXPECT_NEAR(l.residual, 0, 1e-5 * l.turnover);
+}
+
+TEST(ComplementarityScene, AHingedBarThrowsABallByItsMomentOfInertia) {
+  // A bar of 20 g swings about its end, without friction and gravity, and hits a ball of mass m at rest at a distance a
+  // from the hinge: the ball leaves at (1 + e) w a I / (I + m a^2), with the moment of inertia I about the hinge.
+  const double w = 2, e = 0.5, a = 0.15, mass = 0.02, radius = 0.01;
+  coupling::Simulation s = made(
+      "version = 1\n[run]\nduration = 1\ncontact = \"complementarity\"\ngravity = [0, 0, 0]\nresidual = 1e-8\n"
+      "time_step = 1e-4\nprecision = \"double\"\n[material.glass]\ndensity = 2500\nstiffness = 1e5\nrestitution = 0.5\n"
+      "friction = 0\n[[grain]]\nposition = [0.05, 0.0152, 0]\nradius = 0.01\nmaterial = \"glass\"\n"
+      "[[body]]\nname = \"bar\"\nmaterial = \"glass\"\nmass = 0.02\nbox = [0.2, 0.01, 0.06]\nposition = [0, 0, 0]\n"
+      "velocity = [0, 0.2, 0]\nspin = [0, 0, 2]\n[[body.shape]]\nkind = \"box\"\nsize = [0.2, 0.01, 0.06]\n"
+      "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"world\", \"bar\"]\npoint = [-0.1, 0, 0]\n"
+      "axis = [0, 0, 1]\n");
+  for (int k = 0; k < 20; ++k) s.step();
+  const double inertia = mass * ((0.2 * 0.2 + 0.01 * 0.01) / 12 + 0.1 * 0.1);
+  const double ball = 2500 * 4 / 3.0 * base::kPi * radius * radius * radius;
+  const double expected = (1 + e) * w * a * inertia / (inertia + ball * a * a);
+  EXPECT_NEAR(s.ground().grains->snapshot().velocity[0].y, expected, 2e-3 * expected);
+  const coupling::Ledger l = s.ledger();
+  EXPECT_NEAR(l.residual, 0, 1e-6 * l.turnover);
 }
 
 TEST(ComplementarityScene, ALoadedMeshSinksAsABoxDoes) {

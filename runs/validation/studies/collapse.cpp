@@ -26,13 +26,14 @@ constexpr double kLookEvery = 0.02; // of sqrt(h0 / g)
 
 /// The column, before the gate `gate` [m] away from the back wall is gone, and after.
 std::string columnScene(const virtual_tests::SampleGrains& material, double gate, double width, double height,
-                        std::int64_t seed, bool closed) {
+                        std::int64_t seed, const std::string& contact, bool closed) {
   std::string text = fmt::format(
-      "version = 1\n[run]\nduration = 1\nseed = {0}\nperiodic = [false, true]\ndomain_y = [0, {1:.17g}]\n{2}"
+      "version = 1\n[run]\nduration = 1\nseed = {0}\ncontact = \"{7}\"\nperiodic = [false, true]\ndomain_y = [0, "
+      "{1:.17g}]\n{2}"
       "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [{3:.17g}, {1:.17g}, {4:.17g}]\nradius = {5:.17g}\n"
       "spacing = {6}\njitter = 1.0\nmaterial = \"grain\"\n"
       "[[plane]]\nmaterial = \"grain\"\n[[plane]]\nmaterial = \"grain\"\nnormal = [1, 0, 0]\n",
-      seed, width, material.toml("grain"), gate, height, material.radius, kSpacing);
+      seed, width, material.toml("grain"), gate, height, material.radius, kSpacing, contact);
   if (closed)
     text += fmt::format("[[plane]]\nmaterial = \"grain\"\npoint = [{:.17g}, 0, 0]\nnormal = [-1, 0, 0]\n", gate);
   return text;
@@ -78,12 +79,12 @@ double channelRunOut(double aspect) { return aspect < 2.3 ? 1.2 * aspect : 1.9 *
 double channelHeight(double aspect) { return aspect < 1.15 ? aspect : 0.65 * std::pow(aspect, 0.4); }
 
 Collapse collapseColumn(const virtual_tests::SampleGrains& material, double length, double width, double aspect,
-                        std::int64_t seed) {
+                        std::int64_t seed, const std::string& contact) {
   const double d = material.diameter(), gate = length * d, deep = width * d;
   const double spread = kSpacing / 2;
   const double fill = aspect * gate * kSolid / (base::kPi / 6) * spread * spread * spread;
   virtual_tests::Sample column =
-      virtual_tests::buildSample(columnScene(material, gate, deep, fill, seed, true), base::cpuExec(1));
+      virtual_tests::buildSample(columnScene(material, gate, deep, fill, seed, "penalty", true), base::cpuExec(1));
   virtual_tests::bringToRest(column, kCalm, 2.0); // a grain that still rolls about on top does not matter
 
   double mean = 0;
@@ -94,7 +95,7 @@ Collapse collapseColumn(const virtual_tests::SampleGrains& material, double leng
   result.aspect = 2 * mean / gate;
 
   virtual_tests::Sample open =
-      virtual_tests::buildSample(columnScene(material, gate, deep, fill, seed, false), base::cpuExec(1));
+      virtual_tests::buildSample(columnScene(material, gate, deep, fill, seed, contact, false), base::cpuExec(1));
   open.grains().restore(withoutGate(column.grains().state()));
   const double g = norm(open.grains().model().gravity), unit = std::sqrt(2 * mean / g);
   const auto every = std::max<std::int64_t>(1, static_cast<std::int64_t>(kLookEvery * unit / open.timeStep));
@@ -131,8 +132,8 @@ void studyCollapseCommand(const CollapseCommand& command) {
   fmt::print(
       "          spheres of 10 mm, 3e4 N/m, restitution 0.5, friction 0.5, rolling friction 0.1; column of {} d "
       "between a wall and a gate,\n          {} d between periodic boundaries; smooth floor of the same friction; {} "
-      "seeds, +- their standard error; one thread\n",
-      length, command.width, seeds);
+      "contacts; {} seeds, +- their standard error; one thread\n",
+      length, command.width, command.contact, seeds);
   support::Progress progress("collapsing");
   std::string csv = "aspect [-],seed,grains,run-out [-],deposit height [-],time [-],rests\n";
   std::string table = fmt::format("\n  {:>13} {:>7} {:>17} {:>8} {:>17} {:>8} {:>17} {:>8}\n", "h0/d0", "grains",
@@ -144,7 +145,7 @@ void studyCollapseCommand(const CollapseCommand& command) {
     std::size_t grains = 0;
     for (int seed = 1; seed <= seeds; ++seed) {
       progress.update(done / weight, fmt::format("aspect {:g}, seed {}", wanted, seed));
-      const Collapse c = collapseColumn(material, length, command.width, wanted, seed);
+      const Collapse c = collapseColumn(material, length, command.width, wanted, seed, command.contact);
       done += wanted * std::sqrt(wanted), grains = c.grains;
       aspect.push_back(c.aspect), runOut.push_back(c.runOut), height.push_back(c.height), time.push_back(c.time);
       csv += fmt::format("{:.5f},{},{},{:.5f},{:.5f},{:.4f},{}\n", c.aspect, seed, c.grains, c.runOut, c.height, c.time,
@@ -163,9 +164,12 @@ void studyCollapseCommand(const CollapseCommand& command) {
              "differently\n",
              table);
   support::writeTextFile(folder / "collapse.csv", csv, "--out");
-  jobs::writeStudyOrigin(
-      folder, "collapse", std::chrono::duration<double>(Clock::now() - begin).count(),
-      {{"length_in_diameters", length}, {"width_in_diameters", command.width}, {"seeds", seeds}, {"threads", 1}});
+  jobs::writeStudyOrigin(folder, "collapse", std::chrono::duration<double>(Clock::now() - begin).count(),
+                         {{"length_in_diameters", length},
+                          {"width_in_diameters", command.width},
+                          {"seeds", seeds},
+                          {"contact", command.contact},
+                          {"threads", 1}});
   output::drawPicture("study_collapse.py", {folder / "collapse.csv"}, folder / "collapse.png");
   fmt::print("tables    {}\n", folder.string());
 }

@@ -4,6 +4,7 @@
 #include "runs/jobs/study_place.hpp"
 #include "runs/virtual_tests/sample.hpp"
 
+#include <string>
 #include <vector>
 
 /// A column of grains whose gate is taken away: how far it runs, against the laws measured in channels (Lube et al.
@@ -20,9 +21,10 @@ struct Collapse {
   bool rests = true; ///< within the time given
 };
 
-/// A column `length` diameters long and about `aspect` times as high, `width` diameters between periodic boundaries.
+/// A column `length` diameters long and about `aspect` times as high, `width` diameters between periodic boundaries. It
+/// runs with `contact`, a word of run.contact.
 Collapse collapseColumn(const virtual_tests::SampleGrains& material, double length, double width, double aspect,
-                        std::int64_t seed);
+                        std::int64_t seed, const std::string& contact = "penalty");
 
 /// What experiments in channels found, for any material: run-out, height of the deposit over d0, time over sqrt(h0 /
 /// g).
@@ -34,6 +36,7 @@ struct CollapseCommand {
   jobs::StudyPlace place;
   double length = 20, width = 5; ///< [d]
   int seeds = 4;
+  std::string contact = "penalty"; ///< word of run.contact
   std::vector<double> aspects = {0.5, 1, 2, 3};
 };
 /// `grouser study collapse`

@@ -25,6 +25,12 @@ void checkCaseNames(const std::vector<std::string>& names, const std::vector<std
                                          base::nearestWord(name, known), fmt::join(known, ", ")));
 }
 
+void addContact(CLI::App& app, std::string& contact, const std::string& help) {
+  app.add_option("--contact", contact, "method for contacts " + help)
+      ->check(CLI::IsMember({"penalty", "complementarity"}))
+      ->capture_default_str();
+}
+
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help) {
   return app.add_option("--seeds", seeds, help)->check(support::wholeNumber(2, 1000))->capture_default_str();
 }

@@ -56,6 +56,8 @@ template <class Case> std::vector<Case> chosenCases(std::vector<Case> all, const
   });
   return all;
 }
+/// --contact: a word of run.contact.
+void addContact(CLI::App& app, std::string& contact, const std::string& help);
 /// --seeds
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help);
 /// Has the study done, with `command`.

@@ -187,6 +187,7 @@ void addCollapse(CLI::App& study, CollapseCommand& c) {
                     ->check(support::between(0.2, 20.0))
                     ->capture_default_str(),
                 c.aspects, {1});
+  addContact(*collapse, c.contact, "of the column without its gate; it settles with penalty contacts");
   quick.instead(addSeeds(*collapse, c.seeds, "columns of each aspect"), c.seeds, 2);
   addPlace(*collapse, c.place, "collapse", "one aspect, two columns of 10 d: in seconds");
   doStudy(*collapse, c, studyCollapseCommand, quick);
@@ -202,6 +203,7 @@ void addShear(CLI::App& study, ShearCommand& c) {
                     ->check(support::between(10.0, 1e5))
                     ->capture_default_str(),
                 c.stresses, {2000});
+  addContact(*shear, c.box.contact, "of grains");
   quick.instead(addSeeds(*shear, c.seeds, "samples of each load"), c.seeds, 2);
   addPlace(*shear, c.place, "shear", "one load, two samples of 10 d: in seconds");
   doStudy(*shear, c, studyShearCommand, quick);

@@ -4,6 +4,7 @@
 #include "runs/jobs/study_place.hpp"
 #include "runs/virtual_tests/sample.hpp"
 
+#include <string>
 #include <vector>
 
 /// A direct shear box: the friction angle of a bed of grains.
@@ -22,6 +23,7 @@ struct ShearBox {
   double travel = 0.12;                      ///< [-] of the length
   double speed = 0.02;                       ///< [m/s]
   double spread = 0.12;                      ///< [-] radii are uniform within this share of the mean, against order
+  std::string contact = "penalty";           ///< word of run.contact
 };
 
 /// Fills the box, presses the lid down with `stress` [Pa], then shears.
@@ -31,6 +33,7 @@ std::vector<ShearRow> shearSample(const virtual_tests::SampleGrains& material, c
 struct ShearCommand {
   jobs::StudyPlace place;
   double friction = 0.5, rollingFriction = 0;
+  ShearBox box;
   int seeds = 3;
   std::vector<double> stresses = {1000, 2000, 4000}; ///< [Pa]
 };

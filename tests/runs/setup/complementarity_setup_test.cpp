@@ -45,6 +45,9 @@ TEST(ComplementarityScene, AVehicleKeepsItsOwnStepBesideStiffGrains) {
   const double chosen = chooseTimeStep(parsed(run() + text));
   EXPECT_LE(chosen, kVehicleTimeStep);
   EXPECT_GT(chosen, 0.5 * kVehicleTimeStep);
+  EXPECT_EQ(
+      chooseTimeStep(loadScene(GROUSER_SOURCE_DIR "/runs/scenes/m113_like.toml", {"run.contact=complementarity"})),
+      kVehicleTimeStep);
   EXPECT_EQ(chooseTimeStep(parsed(run("time_step = 5e-5\n") + text)), 5e-5);
   const double springs = chooseTimeStep(parsed("version = 1\n[run]\nduration = 1\n" + text));
   EXPECT_LT(springs, 0.2 * kVehicleTimeStep);

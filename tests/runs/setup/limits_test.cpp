@@ -164,13 +164,25 @@ TEST(Restitution, BallThatIsCriticallyDampedFollowsTheClosedForm) {
   EXPECT_NEAR(errors[0] / errors[1], 2, 0.5);
 }
 
+TEST(Restitution, ZeroWithComplementarityContactsLeavesNoRebound) {
+  for (const std::string law : {"linear", "hertz"}) {
+    std::vector<std::string> keys{"run.contact=complementarity", "material.soil.restitution=0", "run.time_step=1e-4",
+                                  "run.residual=1e-7"};
+    if (law == "hertz")
+      keys.insert(keys.end(), {"material.soil.law=hertz", "material.soil.young=1e7", "~material.soil.stiffness"});
+    coupling::Simulation ball(simulationSetup(parsed(kBall, keys)), base::cpuExec(1), [](double, double) {});
+    for (int k = 0; k < 10; ++k) ball.step();
+    EXPECT_NEAR(ball.ground().grains->snapshot().velocity[0].z, 0, 1e-6) << law;
+  }
+}
+
 TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
   const auto refusal = [&](const std::vector<std::string>& overrides) {
     return messageOf([&] { simulationSetup(parsed(kBall, overrides)); });
   };
   const std::string message = refusal({"material.soil.restitution=0"});
-  for (const char* part :
-       {"material.soil.restitution", "without attraction", "the least is 1e-06", "attraction = true"})
+  for (const char* part : {"material.soil.restitution", "without attraction", "the least is 1e-06", "attraction = true",
+                           "run.contact = \"complementarity\""})
     EXPECT_NE(message.find(part), std::string::npos) << message;
   // What it advises is accepted as it is printed, and nothing longer.
   const std::string step = numberBehind(message, "takes steps of ");
