@@ -20,8 +20,8 @@ public:
 /// has been exchanged since the last look: work on each body in each step, dissipation, and work of drives. It looks at
 /// fixed step numbers, so its verdict does not depend on rows of output, devices, batches or ranks.
 ///
-/// What sound runs make and lose stands in docs/ledger.md. Steps that are too long make a tenth and more, and let
-/// dampers, whose force then outlives the motion that it acts against, give energy instead of taking it.
+/// What sound runs make and lose stands in docs/steps.md#energy-ledger. Steps that are too long make a tenth and more,
+/// and let dampers, whose force then outlives the motion that it acts against, give energy instead of taking it.
 class EnergyGuard {
 public:
   static constexpr std::int64_t kInterval = 512;  ///< steps between two looks; whole batches of grains alone

@@ -64,8 +64,8 @@ struct ListedContacts {
   std::size_t grainPairs{}; ///< of grain and part
 };
 
-/// A ground that a vehicle drives on. Derive from it to add a ground model (docs/adding_a_ground.md has an example).
-/// Vehicle and step loop access a ground model only through this class. SI units.
+/// A ground that a vehicle drives on. Derive from it to add a ground model (CONTRIBUTING.md#adding-a-ground has an
+/// example). Vehicle and step loop access a ground model only through this class. SI units.
 ///
 /// The functions stand in the order in which a simulation calls them. All ranks call all of them, in one order. A
 /// ground that is not divided among ranks is computed by every rank, to the same bits.

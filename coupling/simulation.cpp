@@ -349,7 +349,7 @@ base::Alarm Simulation::alarmOf(const terrain::GrainFault& fault) {
       fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
                   "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or {}",
                   by.empty() ? by : by + "; ", norm(grain.velocity),
-                  vehicle_ && fault.fault == Fault::through ? "keep soil out of the running gear (vehicle.soil_meets)"
+                  vehicle_ && fault.fault == Fault::through ? "keep soil out of the running gear (vehicle.soil_contact)"
                                                             : "raise run.max_overlap"),
       base::Cause::pressedGrain};
 }

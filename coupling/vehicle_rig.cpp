@@ -128,7 +128,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
       carried_(massOf(assembly_, setup.mechanism)), blows_(carried_ * norm(gravity_)), gear_{assembly_, *parts_} {
   replicated_ = traitsOf(ground).replicated;
   state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
-  contactParts_ = parts_->touching(assembly_, setup.vehicle->soilMeetsShoesAlone);
+  contactParts_ = parts_->touching(assembly_, setup.vehicle->soilTouchesShoesOnly);
   if (setup.mechanism) addBodies(*setup.mechanism, assembly_.model, traitsOf(ground), kept);
   contacts_ =
       std::make_unique<PartContacts>(contactParts_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);

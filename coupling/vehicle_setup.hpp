@@ -46,14 +46,14 @@ struct VehicleSetup {
   bool onTerrain{};   ///< else it hangs at height 0
   bool fixChassis{};  ///< as on a bench
   vehicle::HullGuide guide = vehicle::HullGuide::none;
-  bool single = false;        ///< track, of two
-  double sphereRadius{};      ///< of the parts' sphere sets [m]
-  bool sphereRadiusGiven{};   ///< by the scene; else it may become finer
-  double sphereRefinement{1}; ///< [-] divides all radii and what automatic ones permit
-  bool shapes{};              ///< gear contacts use spec.shapes, which must exist
-  bool soilMeetsShoesAlone{}; ///< and no other part
-  bool hullTouches{};         ///< ground, grains and obstacles
-  double hullSphereRadius{};  ///< of its set then [m]
+  bool single = false;         ///< track, of two
+  double sphereRadius{};       ///< of the parts' sphere sets [m]
+  bool sphereRadiusGiven{};    ///< by the scene; else it may become finer
+  double sphereRefinement{1};  ///< [-] divides all radii and what automatic ones permit
+  bool shapes{};               ///< gear contacts use spec.shapes, which must exist
+  bool soilTouchesShoesOnly{}; ///< and no other part
+  bool hullTouches{};          ///< ground, grains and obstacles
+  double hullSphereRadius{};   ///< of its set then [m]
   bool hullSphereRadiusGiven{};
   vehicle::DriverOptions driver;
   std::optional<vehicle::HitchOptions> hitch;

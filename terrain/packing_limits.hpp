@@ -6,8 +6,8 @@ namespace grouser::terrain {
 /// Porosity above which a bed at rest is no random packing of spheres [-]: it hangs on its floor, has not settled, or
 /// is too thin to be measured. Rough spheres are loosest at 0.44 to 0.45 (Onoda and Liniger 1990, Phys. Rev. Lett. 64,
 /// 2727; Jerkins et al. 2008, Phys. Rev. Lett. 100, 018001). With rolling friction beds of up to 0.5 have been settled
-/// here (docs/soil_tests.md), and fine powders that cohere lie at 0.5 to 0.6 (Yang, Zou and Yu 2000, Phys. Rev. E 62,
-/// 3900). Each limit is 0.03 above.
+/// here (docs/soils.md#virtual-soil-tests), and fine powders that cohere lie at 0.5 to 0.6 (Yang, Zou and Yu 2000,
+/// Phys. Rev. E 62, 3900). Each limit is 0.03 above.
 constexpr double loosestPacking(bool rollingFriction, bool cohesion) {
   return cohesion ? 0.63 : rollingFriction ? 0.53 : 0.48;
 }

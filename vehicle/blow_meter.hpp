@@ -10,7 +10,7 @@ namespace grouser::vehicle {
 
 /// How hard the ground strikes a vehicle: its force upward over the weight, in means over at least kSpan. Where a
 /// vehicle comes down on stopped or rigid arms, it is struck with many times its weight, and which shoe meets the
-/// ground first then decides what follows: the step and chance have a say in it (docs/vehicle_stability.md).
+/// ground first then decides what follows: the step and chance have a say in it (docs/evidence/vehicle_stability.md).
 class BlowMeter {
 public:
   static constexpr double kSpan = 0.01; ///< [s]

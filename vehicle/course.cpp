@@ -13,7 +13,8 @@ Course::Course(CourseOptions options) : options_(std::move(options)) {
   const std::vector<double>&x = options_.x, &y = options_.y;
   if (x.size() != y.size() || x.size() == 1)
     throw base::InputError("driver.course: a path has as many y as x, and two at least");
-  if (!(options_.acceleration > 0) || !(options_.tread > 0) || !(options_.pitchRadius > 0) || !(options_.mostSpeed > 0))
+  if (!(options_.acceleration > 0) || !(options_.tread > 0) || !(options_.pitchRadius > 0) ||
+      !(options_.maxSprocketSpeed > 0))
     throw base::InputError("driver.course: acceleration, tread, pitch radius and most speed must be above 0");
   if (onPath() && (!(options_.lookAhead > 0) || options_.speed < 0))
     throw base::InputError("driver.course: on a path look_ahead must be above 0, and speed not below");
@@ -76,7 +77,7 @@ std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, d
   const double side = 0.5 * o.tread * (turn + o.turnGain * missingTurn + turnSum);
   const double left = (v - side) / o.pitchRadius, right = (v + side) / o.pitchRadius;
   const double most = std::max(std::fabs(left), std::fabs(right));
-  if (most > o.mostSpeed) return {left * (o.mostSpeed / most), right * (o.mostSpeed / most)};
+  if (most > o.maxSprocketSpeed) return {left * (o.maxSprocketSpeed / most), right * (o.maxSprocketSpeed / most)};
   speedSum_ = speedSum, turnSum_ = turnSum;
   return {left, right};
 }

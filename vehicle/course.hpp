@@ -9,16 +9,16 @@ namespace grouser::vehicle {
 
 /// What a closed-loop driver is to hold: the hull's speed, and a circle or a path of points.
 struct CourseOptions {
-  double speed{};           ///< of the hull [m/s]; backwards below 0, on a path above 0
-  double acceleration{};    ///< at which that speed is taken up, and given up at a path's end [m/s2]
-  double curvature{};       ///< of a circle [1/m], to the left positive; without meaning on a path
-  std::vector<double> x, y; ///< corners of a path in the world [m]; none, or two at least
-  double lookAhead{};       ///< along the path [m]
-  double speedGain{};       ///< of the error of speed [-]
-  double speedIntegral{};   ///< of its integral [1/s]
-  double turnGain{};        ///< of the error of the rate of turn [-]
-  double turnIntegral{};    ///< of its integral [1/s]
-  double mostSpeed{};       ///< of a sprocket [rad/s]
+  double speed{};            ///< of the hull [m/s]; backwards below 0, on a path above 0
+  double acceleration{};     ///< at which that speed is taken up, and given up at a path's end [m/s2]
+  double curvature{};        ///< of a circle [1/m], to the left positive; without meaning on a path
+  std::vector<double> x, y;  ///< corners of a path in the world [m]; none, or two at least
+  double lookAhead{};        ///< along the path [m]
+  double speedGain{};        ///< of the error of speed [-]
+  double speedIntegral{};    ///< of its integral [1/s]
+  double turnGain{};         ///< of the error of the rate of turn [-]
+  double turnIntegral{};     ///< of its integral [1/s]
+  double maxSprocketSpeed{}; ///< of a sprocket [rad/s]
   // Of the vehicle:
   double tread{};       ///< distance of the tracks' middles [m]
   double pitchRadius{}; ///< [m]
@@ -41,7 +41,7 @@ struct HullMotion {
 /// circle. On a path it is v* times the curvature of the arc that leads from the hull, along its heading, through the
 /// path's point `lookAhead` further on (pure pursuit; Coulter 1992): 2 left / distance^2 with `left` how far that point
 /// lies to the left. The integrals make up for slip; they stand still while a sprocket is asked for more than
-/// mostSpeed, where both sides are scaled down alike.
+/// maxSprocketSpeed, where both sides are scaled down alike.
 class Course {
 public:
   explicit Course(CourseOptions options);

@@ -21,7 +21,7 @@ import grouser  # noqa: E402
 SCENE = Path(__file__).resolve().parents[2] / "runs/scenes/boulder.toml"
 DROP_HEIGHTS = (0.0625, 0.125, 0.25, 0.5, 1.0)  # [m]
 RADIUS, DENSITY = 0.1, 2600  # boulder [m], [kg/m3]
-REPOSE = 32  # angle of repose of the sand (docs/soil_tests.md) [deg]
+REPOSE = 32  # angle of repose of the sand (docs/soils.md#virtual-soil-tests) [deg]
 GRAVITY = 9.81  # [m/s2]
 
 

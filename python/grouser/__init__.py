@@ -13,7 +13,7 @@ soils and settled beds.
     run["vehicle.left.slip"].value          # [rows]; .time [s], .unit, .help
     run.sinkage()["left"].value             # [rows, shoes] [m]
 
-SI units and radians throughout. docs/python.md is the guide; python/examples/ has worked examples.
+SI units and radians throughout. docs/control.md is the guide; python/examples/ has worked examples.
 """
 from .bed import Bed, kept_beds, open_bed
 from .calibration import Calibration, Outcome, Trial, open_calibration

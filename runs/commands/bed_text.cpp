@@ -22,7 +22,7 @@ constexpr double kDeep = 1.6, kWide = 9.6; // of the pad's width
 constexpr double kGrainsInPad = 20;
 
 /// Mean of the grains that a pad presses [m]: of a bed that is coarser below those at its surface, where they are as
-/// deep as a plate asks for that is to sink as in a bed of them alone (docs/soil_tests.md).
+/// deep as a plate asks for that is to sink as in a bed of them alone (docs/soils.md#virtual-soil-tests).
 double pressedDiameter(const coupling::Simulation& simulation, double padWidth) {
   constexpr double kFine = 0.1; // of the pad's width
   const std::optional<coupling::GrainsSetup>& grains = simulation.setup().ground.grains;

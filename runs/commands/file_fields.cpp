@@ -28,7 +28,7 @@ constexpr const char* kHead =
 
 All that `results.h5`, `frames.h5` and `checkpoint.h5` may hold, from the tables that write them; a file holds what its
 scene has. HDF5; numbers are little-endian. Words in capitals stand for names, shapes in words for how many there are.
-Definitions: [results.md](results.md). To read all of it from Python: [python.md](python.md).
+Definitions: [reports.md](reports.md#definitions). Reading from Python: [control.md](control.md).
 
 ## results.h5
 
@@ -48,7 +48,7 @@ A group for each frame, from `000000` on. `frames.xdmf` says the same to ParaVie
 constexpr const char* kCheckpoint = R"(
 ## checkpoint.h5, and beds that are kept
 
-The state, to go on from ([restart.md](restart.md)); behind 512 bytes with its seal. Lists of several numbers that have
+The state, to go on from ([large_runs.md](large_runs.md#stop-and-resume)); behind 512 bytes with its seal. Lists of several numbers that have
 no names are for the program alone. A bed that is kept (`bed-*.h5`) is the same, with the grains and how they settled.
 
 )";

@@ -235,8 +235,8 @@ std::string switchesText(const scene::Scene& scene) {
   text += onOff(scene.vehicle.has_value(), "vehicle",
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
   if (scene.vehicle) text += obstaclesLine(scene);
-  const bool shoesAlone = scene.vehicle && bed && scene.vehicle->soilMeets == scene::SoilMeets::shoes;
-  text += onOff(shoesAlone, "soil meets shoes alone", shoesAlone ? "vehicle.soil_meets = \"shoes\"" : "");
+  const bool shoesAlone = scene.vehicle && bed && scene.vehicle->soilContact == scene::SoilContact::shoes;
+  text += onOff(shoesAlone, "soil meets shoes alone", shoesAlone ? "vehicle.soil_contact = \"shoes\"" : "");
   if (scene.vehicle) text += stickingLine(scene);
   const bool crush = setup::crushes(scene, kinds);
   text += onOff(crush, "crushing grains", crush ? "against parts" : "no crushing_strength");
@@ -291,7 +291,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   if (const double calm = limit.calm;
       grains && !implicit && (scene.mechanism.empty() || scene.mechanism.touches()) && step > calm)
     text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
-                        "(docs/step_limits.md)\n",
+                        "(docs/steps.md#choice-of-the-time-step)\n",
                         base::roundedDown(calm, 4));
   const setup::TerrainRemarks remarks = setup::terrainRemarks(scene);
   for (const std::string& warning : remarks.warnings) text += fmt::format("\nWARNING: {}\n", warning);

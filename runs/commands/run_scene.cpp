@@ -107,9 +107,9 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
                rig->assembly().mass, rig->assembly().model.bodies().size(),
                rig->parts().shapes() ? "shapes" : "samples", rig->parts().totalSpheres(),
                std::count_if(figures.begin(), figures.end(), isCut), figures.size());
-    if (simulation.ground().grains && simulation.setup().vehicle->soilMeetsShoesAlone)
+    if (simulation.ground().grains && simulation.setup().vehicle->soilTouchesShoesOnly)
       fmt::print(
-          "soil      meets the shoes alone (vehicle.soil_meets): wheels, sprocket, rollers and idler pass through "
+          "soil      meets the shoes alone (vehicle.soil_contact): wheels, sprocket, rollers and idler pass through "
           "it\n");
   }
   for (const std::string& note : bedNotes(simulation)) fmt::print("note      {}\n", note);

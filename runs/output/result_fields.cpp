@@ -101,7 +101,7 @@ std::vector<FileField> resultFields() {
       {"/@scene", "text", "", "", "the resolved scene, TOML"},
       {"/@state_hash", "text", "", "", "of the end, 16 hexadecimal digits; empty without --hash"},
       {"/@branched_from", "text", "", "", "checkpoint, step and state hash that a branch began with"},
-      {"/@soil_meets", "text", "", "", "which parts of a vehicle grains touch: \"all\" or \"shoes\""},
+      {"/@soil_contact", "text", "", "", "which parts of a vehicle grains touch: \"all\" or \"shoes\""},
       {"/@parts", "texts", "", "", "names of the parts that terrain/part_overlap_by counts from 0"},
       {"/@deepest_in_a_part", "text", "", "", "the greatest overlap of a grain with a part, which part, and when"},
       {"series/step", "int64", "[rows]", "-", "number of the step; the same dataset lies beside every value"},

@@ -30,8 +30,8 @@ def main():
         for name in names:
             drawn = PLOTS[name](run)
             if drawn is not None:
-                if run.text("soil_meets") not in ("", "all"):
-                    drawn.text(0.995, 0.995, f"soil contact: track {run.text('soil_meets')} only", fontsize=7, ha="right", va="top")
+                if run.text("soil_contact") not in ("", "all"):
+                    drawn.text(0.995, 0.995, f"soil contact: track {run.text('soil_contact')} only", fontsize=7, ha="right", va="top")
                 drawing.save(drawn, pathlib.Path(folder) / f"{name}.png", dpi=150)
 
 

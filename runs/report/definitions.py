@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the figures of tables and plots are: one table for all pages, shown when a figure's name is pointed at. The words
-are those of docs/results.md."""
+are those of docs/reports.md."""
 import re
 
 #: {figure, without its unit: (what the page calls it, definition)}

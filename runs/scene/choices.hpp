@@ -54,7 +54,7 @@ enum class Tracks {
 };
 
 /// Of [vehicle]: the parts that soil meets.
-enum class SoilMeets {
+enum class SoilContact {
   all,  ///< every part but the hull
   shoes ///< nothing of the inner running gear: no wheel, sprocket, idler or roller
 };
@@ -116,8 +116,8 @@ template <> struct EnumWords<scene::Tracks> {
   using E = scene::Tracks;
   static constexpr EnumWord<E> list[] = {{E::both, "both"}, {E::single, "single"}};
 };
-template <> struct EnumWords<scene::SoilMeets> {
-  using E = scene::SoilMeets;
+template <> struct EnumWords<scene::SoilContact> {
+  using E = scene::SoilContact;
   static constexpr EnumWord<E> list[] = {{E::all, "all"}, {E::shoes, "shoes"}};
 };
 template <> struct EnumWords<scene::Axis> {

@@ -147,7 +147,7 @@ Table<Material> materialTable() {
       .atMost(1e14);
   t.add("crushing_strength", &S::crushingStrength, "Pa",
         "sigma_f of the grains: against parts of a vehicle and meshes their normal force is at most sigma_f d^2 (d: "
-        "diameter), beyond which they crush (docs/crushing.md); without it they do not")
+        "diameter), beyond which they crush (docs/contact_law.md#crushing); without it they do not")
       .above(0)
       .atMost(1e13);
   return t;

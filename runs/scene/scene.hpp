@@ -211,8 +211,8 @@ struct Vehicle {
   double adhesion = 0;  ///< [-] of parts without a material: share of the pull of a wall of the grains' own material
   ChassisMount chassis = ChassisMount::free;
   Tracks tracks = Tracks::both;
-  SoilMeets soilMeets = SoilMeets::all;   ///< which parts grains touch
-  std::vector<vehicle::SpecKey> specKeys; ///< [spec.SECTION]: keys of the vehicle file with other values
+  SoilContact soilContact = SoilContact::all; ///< which parts grains touch
+  std::vector<vehicle::SpecKey> specKeys;     ///< [spec.SECTION]: keys of the vehicle file with other values
   std::optional<vehicle::GearContactModel> gearContactModel; ///< empty: by shapes where the vehicle file has them
   std::optional<double> hullSphereRadius;                    ///< [m]; empty: 0.02, or sphereRadius where that is more
   std::optional<bool> hullTouches; ///< ground, grains and obstacles; empty: see setup::hullTouches()
@@ -242,7 +242,7 @@ struct Course {
   std::optional<double> lookAhead;           ///< [m]; empty: as long as the ground run
   double speedGain = 0.5, speedIntegral = 1; ///< [-], [1/s]
   double turnGain = 0.5, turnIntegral = 2;   ///< [-], [1/s]
-  double mostSpeed = 100;                    ///< [rad/s] of a sprocket
+  double maxSprocketSpeed = 100;             ///< [rad/s] of a sprocket
   bool operator==(const Course&) const = default;
 };
 

@@ -64,10 +64,10 @@ Table<Vehicle> vehicleTable() {
         "both, or a single one in the middle of the hull, as on a test rig: that wants chassis = \"guided\", \"level\" "
         "or "
         "\"fixed\". The hull weighs what the vehicle file says; results are under left");
-  t.add("soil_meets", &S::soilMeets, "",
-        "parts that grains touch: all (the hull if hull_touches), or the shoes alone, so that no grain is pinched by "
-        "sprocket, wheels, "
-        "rollers or idler, which pass through those that lie on the track; named in all results");
+  t.add("soil_contact", &S::soilContact, "",
+        "parts of the vehicle that touch grains: all (the hull if hull_touches) or the shoes only, so that no grain is "
+        "pinched between running gear and track; named in all results")
+      .formerly("soil_meets");
   t.add("gear_contact_model", &S::gearContactModel, "",
         "contact geometry of shoes with wheels, sprocket, rigid ground and obstacles: \"shapes\", the dimensions in "
         "[shapes] of the vehicle file; \"samples\", points on the meshes; \"auto\": shapes if the file has them")
@@ -178,7 +178,10 @@ Table<Course> courseTable() {
   t.add("speed_integral", &S::speedIntegral, "1/s", "of its integral").atLeast(0).atMost(1e3);
   t.add("turn_gain", &S::turnGain, "-", "of the error of the rate of turn").atLeast(0).atMost(100);
   t.add("turn_integral", &S::turnIntegral, "1/s", "of its integral").atLeast(0).atMost(1e3);
-  t.add("most_speed", &S::mostSpeed, "rad/s", "that a sprocket is asked for").above(0).atMost(100);
+  t.add("max_sprocket_speed", &S::maxSprocketSpeed, "rad/s", "limit of the sprocket speed in closed loop")
+      .above(0)
+      .atMost(100)
+      .formerly("most_speed");
   return t;
 }
 

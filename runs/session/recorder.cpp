@@ -142,7 +142,8 @@ void Recorder::begin(const RunRequest& options, const storage::Checkpoint* forme
                              former ? std::optional(writer_.folder()) : std::nullopt);
   if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
-    if (simulation_.ground().grains) writer_.fact("soil_meets", setup.vehicle->soilMeetsShoesAlone ? "shoes" : "all");
+    if (simulation_.ground().grains)
+      writer_.fact("soil_contact", setup.vehicle->soilTouchesShoesOnly ? "shoes" : "all");
     writer_.constant(output::kPitchRadius, rig->assembly().spec.pitchRadius());
     writer_.constant(output::kVehicleMass, rig->assembly().mass);
     if (const auto surface = undisturbedSurface(simulation_.ground())) writer_.surface(*surface);

@@ -28,7 +28,7 @@ coupling::SimulationSetup simulationSetup(const scene::Scene& scene, int ranks, 
   if (scene.vehicle) {
     setup.vehicle = vehicleSetup(scene);
     setup.vehicle->largestTurn = largestTurn(scene.run);
-    if (setup.ground.grains && !setup.vehicle->soilMeetsShoesAlone)
+    if (setup.ground.grains && !setup.vehicle->soilTouchesShoesOnly)
       setup.vehicle->thickestStone = 2 * setup.ground.grains->model.radius;
   }
   if (!scene.mechanism.empty()) setup.mechanism = mechanismSetup(scene);

@@ -26,7 +26,7 @@ inline constexpr double kRayleighShare = 0.2;
 ///   own limit; a free surface on the springs of all grains that may lie on it; a shoe of the vehicle on its whole pad;
 /// - calm: the bound of contact::stableStepOfMode for each mode of grains that are all in contact and do not slide:
 ///   shift, turn, rolling, among twelve others or between two bodies that do not give way.
-/// `grouser study stability` measures how close they are (docs/studies.md).
+/// `grouser study stability` measures how close they are (docs/steps.md#validation-studies).
 StepLimit stepLimit(const scene::Scene& scene);
 
 /// Duration [s] of the shortest contact that a grain of the scene can have: pi / sqrt(k / m_eff), undamped, of two

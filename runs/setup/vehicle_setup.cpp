@@ -23,7 +23,7 @@ vehicle::CourseOptions courseOptions(const scene::Course& c, const vehicle::Vehi
   o.x = c.x, o.y = c.y;
   o.lookAhead = c.lookAhead.value_or(spec.roadWheel.spacing * (spec.roadWheel.count - 1));
   o.speedGain = c.speedGain, o.speedIntegral = c.speedIntegral;
-  o.turnGain = c.turnGain, o.turnIntegral = c.turnIntegral, o.mostSpeed = c.mostSpeed;
+  o.turnGain = c.turnGain, o.turnIntegral = c.turnIntegral, o.maxSprocketSpeed = c.maxSprocketSpeed;
   o.tread = 2 * spec.trackOffset, o.pitchRadius = spec.pitchRadius();
   return o;
 }
@@ -99,7 +99,7 @@ coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.sphereRadius = v.sphereRadius.value_or(scene::Vehicle::kSphereRadius);
   setup.sphereRadiusGiven = v.sphereRadius.has_value();
   setup.sphereRefinement = v.sphereRefinement;
-  setup.soilMeetsShoesAlone = v.soilMeets == scene::SoilMeets::shoes;
+  setup.soilTouchesShoesOnly = v.soilContact == scene::SoilContact::shoes;
   setup.hullTouches = hullTouches(scene);
   setup.hullSphereRadius = v.hullSphereRadius.value_or(std::max(kHullSphereRadius, setup.sphereRadius));
   setup.hullSphereRadiusGiven = v.hullSphereRadius.has_value();

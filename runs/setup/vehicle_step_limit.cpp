@@ -69,7 +69,7 @@ bool hasRigidGround(const scene::Scene& scene) {
 /// A shoe between rigid ground and the wheel that it bears. The highest mode of both springs together is no higher than
 /// that of the ground's, its whole pad against shift and turn, and that of the wheel's on the shoe's end added up
 /// (Weyl). The wheel lies as deep as its share of the weight presses it, F = 4/3 modulus width sqrt(2 R) depth^(3/2).
-/// Where `grouser study stability --scene vehicle` finds vehicles unsound is docs/vehicle_stability.md.
+/// Where `grouser study stability --scene vehicle` finds vehicles unsound is docs/evidence/vehicle_stability.md.
 void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
   if (!hasRigidGround(scene)) return;
   const vehicle::ContactSpec& c = s.contact;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A kind of ground that the library does not have, behind the interface that its own kinds have: what
-// docs/adding_a_ground.md promises to who adds one.
+// CONTRIBUTING.md#adding-a-ground promises to who adds one.
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/simulation.hpp"

@@ -43,7 +43,7 @@ def commits(house):
             continue
         text = house.text[path]
         for match in re.finditer(r'\b(?=\d*[a-f])(?=[a-f]*\d)[0-9a-f]{7,8}\b|\bcommits?\s+\d{7,8}\b', text):
-            yield f'{path}:{line_at(text, match.start())}: names a commit, {match[0]}; move it to docs/evidence/commits.md'
+            yield f'{path}:{line_at(text, match.start())}: names a commit, {match[0]}; move the figure to a record in docs/evidence'
 
 
 def links(house):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from checkout import GENERATED, OTHERS, SCRIPTS, SUFFIXES, TOPS, line_at, room_of
 from cpp_outline import outline
+from evidence import evidence
 from include_graph import chains_from, circles_of
 from references import commits, links, long_tests, mutants, prose
 
@@ -299,4 +300,4 @@ def licence(house):
 
 
 RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, commits,
-         links, long_tests, mutants]
+         links, long_tests, mutants, evidence]

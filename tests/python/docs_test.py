@@ -126,7 +126,7 @@ class Sources(unittest.TestCase):
 
     def test_theory_has_every_choice_of_laws_and_integrators(self):
         choices = (ROOT / "runs/scene/choices.hpp").read_text(encoding="utf-8")
-        theory = (ROOT / "docs/theory.md").read_text(encoding="utf-8")
+        theory = (ROOT / "docs/glossary.md#laws-and-integrators").read_text(encoding="utf-8")
         spans = set(re.findall(r"`([^`]+)`", theory))
         for enum, fewest in (("contact::LawKind", 5), ("multibody::Integrator", 2), ("multibody::JointType", 7),
                              ("multibody::DriveKind", 3), ("vehicle::SprocketDrive", 3), ("vehicle::HitchKind", 4)):
@@ -134,7 +134,7 @@ class Sources(unittest.TestCase):
             words = re.findall(r'"(\w+)"', body)
             self.assertGreaterEqual(len(words), fewest, enum)
             for word in words:
-                self.assertIn(word, spans, f"docs/theory.md does not say what {enum} {word} is")
+                self.assertIn(word, spans, f"docs/glossary.md#laws-and-integrators does not say what {enum} {word} is")
 
 
     def test_libraries_that_are_included_are_named(self):
@@ -192,7 +192,7 @@ class Sources(unittest.TestCase):
         source = (ROOT / "runs/output/output.cpp").read_text(encoding="utf-8")
         files = re.findall(r'"([^"]+)"', source.split("kFiles[] = {")[1].split("}")[0])
         self.assertGreater(len(files), 10)
-        table = (ROOT / "docs/results.md").read_text(encoding="utf-8").split("**A run that fails**")[0]
+        table = (ROOT / "docs/reports.md").read_text(encoding="utf-8").split("**A run that fails**")[0]
         for name in files:
             self.assertIn(f"`{name}`", table)
 
@@ -331,7 +331,7 @@ class Installed(FolderTest):
             self.assertEqual(documents.fitted(text, "docs/x.md", "/opt", *layout), fitted)
         subprocess.run([ROOT / "cmake/documents.py", "/opt", *layout], check=True,
                        env={**os.environ, "DESTDIR": str(self.folder)})
-        self.assertTrue((self.folder / "srv/doc/grouser/docs/python.md").is_file())
+        self.assertTrue((self.folder / "srv/doc/grouser/docs/control.md").is_file())
         self.assertEqual([file.name for file in self.folder.iterdir()], ["srv"])
 
     def test_sources_may_lie_in_a_folder_with_a_blank(self):
@@ -375,7 +375,7 @@ class FirstProgram(unittest.TestCase):
     """The page of the C++ library shows the program that is installed, built and run as its example."""
 
     def test_is_the_installed_example(self):
-        page = (ROOT / "docs/api.md").read_text()
+        page = (ROOT / "docs/control.md#c-library").read_text()
         example = (ROOT / "tests/install/example/example.cpp").read_text().split("\n", 1)[1].strip()
         self.assertIn(f"```cpp\n{example}\n```", page)
         cmake = (ROOT / "tests/install/example/CMakeLists.txt").read_text()
@@ -383,7 +383,7 @@ class FirstProgram(unittest.TestCase):
             self.assertIn(line, cmake)
 
     def test_names_every_public_header(self):
-        page = (ROOT / "docs/api.md").read_text()
+        page = (ROOT / "docs/control.md#c-library").read_text()
         for header in (ROOT / "api/include/grouser").glob("*.hpp"):
             self.assertIn(f"<grouser/{header.name}>", page)
 

@@ -36,7 +36,7 @@ class BouncingGrain(FolderTest):
 
 
 class PlateStress(unittest.TestCase):
-    """The runs take minutes: docs/results.md has their figure."""
+    """The runs take minutes: docs/reports.md has their figure."""
 
     def test_compares_with_the_tabulated_influence_of_a_square(self):
         self.assertAlmostEqual(float(plate_stress.below_corner(1.0, 1.0, 1.0)), 0.1752, 4)  # Newmark's table
@@ -52,7 +52,7 @@ class PlateStress(unittest.TestCase):
 
 
 class BoulderDrops(unittest.TestCase):
-    """The runs take minutes: docs/ready_mechanisms.md has their figure."""
+    """The runs take minutes: docs/mechanisms.md#example-scenes has their figure."""
 
     def test_finds_the_exponent_of_depths_that_follow_the_experiments(self):
         heights = numpy.array(boulder_drops.DROP_HEIGHTS)
@@ -73,7 +73,7 @@ class BoulderDrops(unittest.TestCase):
 
 
 class TowedBlock(unittest.TestCase):
-    """The runs take minutes: docs/ready_mechanisms.md has their figure."""
+    """The runs take minutes: docs/mechanisms.md#example-scenes has their figure."""
 
     def test_puts_the_nose_ahead_of_the_sole(self):
         self.assertEqual(len(towed_block.shapes_of(90)), 1)

@@ -17,7 +17,7 @@ constexpr double kStiffness = 1e5, kYield = 1e-3, kCap = kStiffness * kYield; //
 constexpr double kSpeed = 0.05;                                               // of the plate [m/s]
 
 // Dashpots under the load of others book gamma dt / 2 = 2.2 % of the 0.1 J that the springs take up otherwise than the
-// steps lose it (docs/ledger.md); of the plate's 0.7 J. The order is a test of its own.
+// steps lose it (docs/steps.md#energy-ledger); of the plate's 0.7 J. The order is a test of its own.
 constexpr double kDashpots = 6e-3;
 
 class CrushingScene : public grouser::test::FolderTest {

@@ -109,7 +109,7 @@ TEST(LedgerOfGrains, BoxOfGrainsClosesAtEveryStep) {
     EXPECT_LT(norm(l.momentumResidual), 1e-8 * 250 * ballMass() / 8 * kGravity * 0.25) << "of the weight's impulse";
     EXPECT_LT(norm(l.angularResidual), 1e-8 * 250 * ballMass() / 8 * kGravity * 0.25 * 0.1) << "at 0.1 m";
     errors.push_back(l.integrationError / l.dissipated.total());
-    // The table of docs/ledger.md.
+    // The table of docs/steps.md#energy-ledger.
     std::printf("step %.1e s: dissipated %.4e J (damping %.1f %%, friction %.1f %%), integration error %.2e J, %.2f %% "
                 "of it, left over %.0e of the turnover\n",
                 step, l.dissipated.total(), 100 * l.dissipated.damping / l.dissipated.total(),

@@ -79,7 +79,7 @@ constexpr std::int64_t kRows[] = {11, 16, 77, 512, 1'000'000}; // steps
 
 class SoundScenes : public ::testing::TestWithParam<Sound> {
 protected:
-  /// What docs/ledger.md says of all of them.
+  /// What docs/steps.md#energy-ledger says of all of them.
   static void TearDownTestSuite() {
     std::cout << fmt::format("sound scenes: of what was exchanged between two looks the steps have made up to {:.1f} % "
                              "({}), {:.1f} % that was not dissipated at once ({}), lost up to {:.1f} % ({})\n",

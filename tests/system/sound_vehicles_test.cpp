@@ -28,7 +28,7 @@ std::ostream& operator<<(std::ostream& out, const Drive& d) { return out << d.na
 
 class SoundVehicles : public ::testing::TestWithParam<Drive> {
 protected:
-  /// What docs/ledger.md says of them.
+  /// What docs/steps.md#energy-ledger says of them.
   static void TearDownTestSuite() {
     std::cout << fmt::format("sound vehicles: of what was dissipated the steps have made up to {:.1f} % between two "
                              "looks, beyond what never alarms, and up to {:.1f} % since the start\n",

@@ -22,7 +22,7 @@ CourseOptions plain() {
   CourseOptions o;
   o.speed = 2, o.acceleration = 100, o.lookAhead = 1.5;
   o.speedGain = 0.5, o.speedIntegral = 1, o.turnGain = 0.5, o.turnIntegral = 2;
-  o.mostSpeed = 100, o.tread = 1.9, o.pitchRadius = 0.25;
+  o.maxSprocketSpeed = 100, o.tread = 1.9, o.pitchRadius = 0.25;
   return o;
 }
 
@@ -158,7 +158,7 @@ TEST(Course, PathThatCrossesItselfIsFollowedInItsOrder) {
 
 TEST(Course, AtItsMostBothSidesAreScaledAndNothingAddsUp) {
   CourseOptions o = plain();
-  o.mostSpeed = 6, o.curvature = 0.2;
+  o.maxSprocketSpeed = 6, o.curvature = 0.2;
   Course course(o);
   const auto [left, right] = course.sprocketSpeeds({0, 0, 1, 0, 2, 0.4}, 10, 1e-3);
   EXPECT_NEAR(right, 6, 1e-14);

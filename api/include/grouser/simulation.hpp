@@ -61,7 +61,7 @@ public:
   /// Lays and settles the bed, sets the vehicle down. Throws InputError, SimulationError, DeviceError.
   explicit Simulation(const Scene& scene, const Options& options = {});
   /// Continues from a checkpoint of the same scene. If `options.folder` is another folder, or empty, this is a branch,
-  /// which may change the drive and the hitch (docs/restart.md).
+  /// which may change the drive and the hitch (docs/large_runs.md#stop-and-resume).
   static Simulation resumed(const Scene& scene, const std::filesystem::path& checkpoint, const Options& options = {});
   ~Simulation(); ///< without finish(), the manifest says that the run was stopped
   Simulation(Simulation&&) noexcept;

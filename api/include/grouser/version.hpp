@@ -2,7 +2,7 @@
 #pragma once
 
 /// Version of the interface and of the program: a change that breaks callers raises MINOR while MAJOR is 0.
-/// docs/api_changes.md lists these changes.
+/// docs/control.md#interface-changes lists these changes.
 #define GROUSER_VERSION_MAJOR 0
 #define GROUSER_VERSION_MINOR 1
 #define GROUSER_VERSION_PATCH 0

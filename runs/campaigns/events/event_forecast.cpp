@@ -89,8 +89,8 @@ std::string timesText(const std::vector<EventTime>& times) {
     sum.runs += t.runs, sum.here += t.here, sum.h200 += t.h200;
   }
   text += fmt::format("{:<18}{:>6}{:>12}{:>14}{:>14}\n", "all", sum.runs, "", timeText(sum.here), timeText(sum.h200));
-  text += "here: one run after the other on all cores of this machine. H200: by figures of docs/paper.md and "
-          "docs/speed.md\nfor a step; without grains, where the host does the work, as here.\n";
+  text += "here: one run after the other on all cores of this machine. H200: by figures of docs/evidence/paper.md and "
+          "docs/evidence/speed.md\nfor a step; without grains, where the host does the work, as here.\n";
   return text;
 }
 

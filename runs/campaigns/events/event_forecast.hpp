@@ -23,9 +23,9 @@ struct EventTime {
 /// Probes the first level of each event for about a second, as `grouser plan` does, and scales it to the others by
 /// steps and grains. A run is taken to last until its course is driven at the commanded speed.
 ///
-/// For an H200: 161 us a step of vehicle and soil up to 285,000 grains (docs/paper.md), 0.43 us more for each thousand
-/// beyond that (docs/speed.md, Hertz contacts, many radii), a second of steps for the bed to settle; without
-/// grains, where the host does all the work, as here.
+/// For an H200: 161 us a step of vehicle and soil up to 285,000 grains (docs/evidence/paper.md), 0.43 us more for each
+/// thousand beyond that (docs/evidence/speed.md, Hertz contacts, many radii), a second of steps for the bed to settle;
+/// without grains, where the host does all the work, as here.
 std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::path& folder);
 
 /// Table with the sum, in hours; `jobs` runs at the same time share the cores.

@@ -132,7 +132,8 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
   if (plan.course.deformable()) return sets;
   sets.push_back(fmt::format("terrain.grain_radius={:.4g}", plan.grainRadius));
   sets.push_back(fmt::format("terrain.depth={:.4g}", plan.course.depth));
-  if (plan.course.shape.padWidth < kFewOnPad * 2 * plan.grainRadius) sets.emplace_back("vehicle.soil_meets=\"shoes\"");
+  if (plan.course.shape.padWidth < kFewOnPad * 2 * plan.grainRadius)
+    sets.emplace_back("vehicle.soil_contact=\"shoes\"");
   return sets;
 }
 
@@ -226,7 +227,7 @@ std::string EventPlan::groundText() const {
 }
 
 bool EventPlan::shoesAlone() const {
-  return course.granular() && sweep.runs.front().scene.vehicle->soilMeets == scene::SoilMeets::shoes;
+  return course.granular() && sweep.runs.front().scene.vehicle->soilContact == scene::SoilContact::shoes;
 }
 
 EventPlan planEvents(const EventOptions& options) {

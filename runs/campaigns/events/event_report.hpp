@@ -80,7 +80,7 @@ std::string referenceText(const EventLimit& limit);
 
 /// Said of such runs, at the head and in the tables.
 inline constexpr const char* kShoesAlone =
-    "soil meets the shoes alone, not the running gear: coarse stones would jam it (vehicle.soil_meets)";
+    "soil meets the shoes alone, not the running gear: coarse stones would jam it (vehicle.soil_contact)";
 
 /// Both tables to read.
 std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);

@@ -114,7 +114,7 @@ nlohmann::ordered_json headJson(const EventsCommand& command, const EventPlan& p
           {"speed_m_s", plan.course.speed},
           {"grain_radius_m", plan.grainRadius},
           {"bed_depth_m", plan.course.depth},
-          {"soil_meets_shoes_alone", plan.shoesAlone()}};
+          {"soil_touches_shoes_only", plan.shoesAlone()}};
 }
 
 std::vector<sweeps::SweepOutcome> doRuns(const EventsCommand& command, const std::string& what,

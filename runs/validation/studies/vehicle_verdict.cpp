@@ -24,7 +24,7 @@ const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
       {"tension", "N", &MapFigures::tension, 0.05, 50},
       {"dissipated energy", "J", &MapFigures::dissipated, 0.1, 10}};
   // Grains at another step settle into another bed: two to four standard deviations of the difference of two beds from
-  // other seeds, as the map `seeds` measures them (docs/vehicle_stability.md).
+  // other seeds, as the map `seeds` measures them (docs/evidence/vehicle_stability.md).
   static const std::vector<ComparedFigure> onGrains = {
       {"speed", "m/s", &MapFigures::speed, 0.2, 0.05, &MapFigures::speedMagnitude},
       {"sinkage", "m", &MapFigures::sinkage, 0.2, 0.01},

@@ -96,14 +96,14 @@ TEST_F(SqueezedGrains, SoilThatMeetsTheShoesAloneIsSaidEverywhere) {
   const std::string words = "run '" GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml' --steps 20 --hash --force"
                             " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03" +
                             std::string(kQuiet) + " --out ";
-  const Outcome shoes = OnRanks::run(1, words + "shoes --set vehicle.soil_meets=shoes"),
+  const Outcome shoes = OnRanks::run(1, words + "shoes --set vehicle.soil_contact=shoes"),
                 all = OnRanks::run(1, words + "all");
   ASSERT_EQ(shoes.code, 0) << shoes.errors;
   EXPECT_NE(lines(shoes, "soil").find("meets the shoes alone"), std::string::npos) << shoes.out;
   EXPECT_EQ(lines(all, "soil"), "");
-  EXPECT_NE(contents(folder_ / "shoes/manifest.json").find("\"soil_meets\": \"shoes\""), std::string::npos);
-  EXPECT_NE(contents(folder_ / "all/manifest.json").find("\"soil_meets\": \"all\""), std::string::npos);
-  EXPECT_EQ(support::Hdf5File::open(folder_ / "shoes" / "results.h5").text("/", "soil_meets"), "shoes");
+  EXPECT_NE(contents(folder_ / "shoes/manifest.json").find("\"soil_contact\": \"shoes\""), std::string::npos);
+  EXPECT_NE(contents(folder_ / "all/manifest.json").find("\"soil_contact\": \"all\""), std::string::npos);
+  EXPECT_EQ(support::Hdf5File::open(folder_ / "shoes" / "results.h5").text("/", "soil_contact"), "shoes");
 }
 
 } // namespace

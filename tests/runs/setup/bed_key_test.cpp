@@ -348,7 +348,7 @@ std::vector<Change> ofVehicle() {
   };
   add("vehicle", "",
       {"spec=vehicles/robot.toml", "position=[1,0]", "heading=20", "clearance=0.01", "sphere_radius=0.03",
-       "sphere_refinement=2", "material=steel", "chassis=guided", "soil_meets=shoes", "hull_sphere_radius=0.05",
+       "sphere_refinement=2", "material=steel", "chassis=guided", "soil_contact=shoes", "hull_sphere_radius=0.05",
        "hull_touches=false", "gear_contact_model=samples"});
   all.push_back(
       {"vehicle.adhesion", false, {"vehicle.material=\"\"", "vehicle.adhesion=0.3"}, {"vehicle.material=\"\""}});

@@ -75,14 +75,14 @@ TEST(BedValues, AGradedBedRestsByItsOwnGrains) {
 }
 
 /// Of 50 mm +- 25 %: what a road wheel may roll over.
-TEST(BedValues, StonesGetBetweenWheelsAndPlatesWhereSoilMeetsThem) {
+TEST(BedValues, StonesGetBetweenWheelsAndPlatesWhereSoilContactThem) {
   const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n";
   const auto stone = [&](const std::string& more) {
     const scene::Scene scene = bed(vehicle + more, "4.9, 2.5");
     return simulationSetup(scene).vehicle->thickestStone;
   };
   EXPECT_NEAR(stone(""), 0.0625, 1e-6);
-  EXPECT_EQ(stone("soil_meets = \"shoes\"\n"), 0);
+  EXPECT_EQ(stone("soil_contact = \"shoes\"\n"), 0);
 }
 
 } // namespace

@@ -172,11 +172,12 @@ TEST(EventPlan, ObstaclesReachIntoDeformableSoil) {
 TEST(EventPlan, GrainsTooCoarseForTheRunningGearMeetTheShoesAlone) {
   EventOptions options;
   options.soil = "lete_sand", options.quick = true, options.only = {"pivot_turn"};
-  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::shoes) << "four on a pad";
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::shoes) << "four on a pad";
   options.grainRadius = 0.0135;
-  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "ten on a pad";
-  options.grainRadius.reset(), options.fixed = {"vehicle.soil_meets=all"};
-  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilMeets, scene::SoilMeets::all) << "as the user says";
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::all) << "ten on a pad";
+  options.grainRadius.reset(), options.fixed = {"vehicle.soil_contact=all"};
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::all)
+      << "as the user says";
   EXPECT_FALSE(planEvents(options).shoesAlone());
   options.fixed.clear();
   EXPECT_TRUE(planEvents(options).shoesAlone());

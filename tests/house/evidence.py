@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The index of docs/evidence: title, date and first verdict of each record.
+
+    tests/house/evidence.py > docs/evidence/README.md
+"""
+import re
+import sys
+from pathlib import Path
+
+FOLDER, INDEX = 'docs/evidence/', 'docs/evidence/README.md'
+HEAD = """# Records of measurements
+
+One record for each claim: what was measured, command, machine, commit, table, verdict. Written by
+`tests/house/evidence.py > docs/evidence/README.md` from the records' headers.
+
+| record | last date | first verdict |
+|---|---|---|
+"""
+
+
+def index(texts):
+    """`texts`: {path from the root: text} of the records. Returns the index."""
+    rows = []
+    for path, text in sorted(texts.items(), key=lambda item: item[1].lower()):
+        verdict = ' '.join(verdicts(text)[:1]).split()
+        line = re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', ' '.join(verdict))
+        rows.append(f'| [{title(text)}]({path[len(FOLDER):]}) | {max(dates(text), default="")} | {line} |\n')
+    return HEAD + ''.join(rows)
+
+
+def title(text):
+    return text.split('\n', 1)[0].lstrip('# ')
+
+
+def dates(text):
+    return re.findall(r'\b20\d\d-\d\d-\d\d\b', text)
+
+
+def verdicts(text):
+    return re.findall(r'^Verdict: (.*?)(?:\n\n|\n?\Z)', text, re.M | re.S)
+
+
+def evidence(house):
+    """Records under docs/evidence/ have a date and a verdict, and the index lists them all."""
+    records = {path: house.text[path] for path in house.documents if path.startswith(FOLDER) and path != INDEX}
+    for path, text in records.items():
+        if not dates(text):
+            yield f'{path}:1: has no date (YYYY-MM-DD)'
+        if not verdicts(text):
+            yield f'{path}:1: has no paragraph that begins with "Verdict: "'
+    if records and house.text.get(INDEX) != index(records):
+        yield f'{INDEX}:1: is not the index of the records; run tests/house/evidence.py > {INDEX}'
+
+
+if __name__ == '__main__':
+    root = Path(__file__).resolve().parent.parent.parent
+    sys.stdout.write(index({str(path.relative_to(root)): path.read_text()
+                            for path in (root / FOLDER).glob('*.md') if path.name != 'README.md'}))
